@@ -1,0 +1,56 @@
+// The import arrows of the house (docs/architecture.md): whatever is not drawn there is forbidden here.
+const room = (path) => `^${path}(/|$)`;
+
+/** A room of a package may import itself, the rooms named, and nothing else of the project. */
+const onlyTo = (name, from, allowed) => ({
+  name,
+  severity: "error",
+  from: { path: room(from) },
+  to: { path: "^(georef|layer|converter|demo|tests)/", pathNot: [from, ...allowed].map(room) },
+});
+
+const layer = (name, allowed) =>
+  onlyTo(`layer-${name}`, `layer/src/${name}`, [...allowed.map((other) => `layer/src/${other}`), "georef"]);
+
+/** @type {import("dependency-cruiser").IConfiguration} */
+module.exports = {
+  forbidden: [
+    { name: "no-circle", severity: "error", from: {}, to: { circular: true } },
+    onlyTo("georef-stands-alone", "georef", []),
+    onlyTo("layer-knows-georef-only", "layer", ["georef"]),
+    onlyTo("demo-knows-libraries", "demo", ["layer", "georef"]),
+    onlyTo("cli-knows-view-independent-rooms", "converter/cli", [
+      "georef",
+      "layer/(src|dist)/sources",
+      "layer/(src|dist)/octree",
+      "layer/(src|dist)/tools",
+      "layer/(src|dist)/export",
+      "layer/(src|dist)/errors",
+    ]),
+    layer("errors", []),
+    layer("sources", ["errors"]),
+    layer("octree", ["sources", "errors"]),
+    layer("workers", ["sources", "errors"]),
+    layer("cloud", ["octree", "workers", "sources", "errors"]),
+    layer("cesium", ["cloud", "octree", "workers", "sources", "errors"]),
+    {
+      name: "only-cesium-rooms-know-cesium",
+      severity: "error",
+      from: { path: "^(georef|layer|converter)/(src|cli)/", pathNot: room("layer/src/(cesium|link)") },
+      to: { path: "(^|node_modules/)(@cesium|cesium)/" },
+    },
+    {
+      name: "georef-has-no-io",
+      severity: "error",
+      from: { path: room("georef/src"), pathNot: "\\.test\\.ts$" },
+      to: { dependencyTypes: ["core"] },
+    },
+  ],
+  options: {
+    doNotFollow: { path: "node_modules" },
+    exclude: { path: ["/dist/.*\\.map$", "\\.test\\.ts$", "/target/"] },
+    tsPreCompilationDeps: true,
+    tsConfig: { fileName: "tsconfig.base.json" },
+    enhancedResolveOptions: { exportsFields: ["exports"], conditionNames: ["types", "import", "default"] },
+  },
+};

@@ -1,0 +1,116 @@
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+import { available, command, SetupError } from "./command.mjs";
+import { digest, isDone, markDone } from "./stamp.mjs";
+import { ensurePrograms } from "./system.mjs";
+
+/** @typedef {{ name: string, run: (root: string) => Promise<string> }} Step a step says in a word or two what it did */
+
+const npm = (root, args, advice) => command("npm", args, { cwd: root, advice });
+
+/** @type {Step} */
+const node = {
+  name: "Node.js",
+  async run() {
+    const [major, minor] = process.versions.node.split(".").map(Number);
+    if (major < 20 || (major === 20 && minor < 19)) {
+      throw new SetupError(`Node.js ${process.versions.node} is too old. Install Node.js 20.19 or newer.`);
+    }
+    return process.versions.node;
+  },
+};
+
+/** @type {Step} */
+const packages = {
+  name: "npm packages",
+  async run(root) {
+    const stamp = join(root, "node_modules/.groma-lock");
+    const lock = digest(root, ["package-lock.json"]);
+    if (isDone(stamp, lock)) return "up to date";
+    await npm(
+      root,
+      ["ci", "--no-fund", "--no-audit", "--loglevel=error"],
+      "Check the connection to the npm registry.",
+    );
+    markDone(stamp, lock);
+    return "installed";
+  },
+};
+
+/** @type {Step} */
+const core = {
+  name: "converter core (Rust)",
+  async run(root) {
+    if (!(await available("cargo"))) {
+      throw new SetupError("cargo was not found. Install a Rust toolchain (rustup).");
+    }
+    const args = ["build", "--release", "--locked", "--quiet", "--manifest-path", "converter/Cargo.toml"];
+    await command("cargo", args, {
+      cwd: root,
+      advice: "Check the Rust toolchain and the connection to crates.io.",
+    });
+    return "built";
+  },
+};
+
+/** @type {Step} */
+const typescript = {
+  name: "libraries and page",
+  async run(root) {
+    const stamp = join(root, "demo/dist/.groma-built");
+    const sources = digest(root, [
+      "georef",
+      "layer",
+      "converter/cli",
+      "demo",
+      "package-lock.json",
+      "tsconfig.base.json",
+    ]);
+    const libraries = ["georef/dist/index.js", "layer/dist/index.js", "converter/dist/main.js"];
+    if (isDone(stamp, sources) && libraries.every((file) => existsSync(join(root, file))))
+      return "up to date";
+    await npm(root, ["run", "build"], "Look at the compiler's message above.");
+    markDone(stamp, sources);
+    return "built";
+  },
+};
+
+/** @type {Step} */
+const browser = {
+  name: "Chromium",
+  run: (root) => ensurePrograms([{ program: "chromium", args: ["--version"], package: "chromium" }], root),
+};
+
+/** @type {Step} */
+const referees = {
+  name: "Python referees",
+  async run(root) {
+    await ensurePrograms(
+      [{ program: "python3", args: ["-c", "import venv, ensurepip"], package: "python3-venv" }],
+      root,
+    );
+    const stamp = join(root, "tests/.venv/.groma-requirements");
+    const requirements = digest(root, ["tests/requirements.txt"]);
+    if (isDone(stamp, requirements)) return "up to date";
+    const advice = "Check Python 3 and the connection to PyPI.";
+    await command("python3", ["-m", "venv", "--clear", "tests/.venv"], { cwd: root, advice });
+    const pip = [
+      "-m",
+      "pip",
+      "install",
+      "--quiet",
+      "--disable-pip-version-check",
+      "-r",
+      "tests/requirements.txt",
+    ];
+    await command(join(root, "tests/.venv/bin/python"), pip, { cwd: root, advice });
+    markDone(stamp, requirements);
+    return "installed";
+  },
+};
+
+/** What `npm start` needs: the libraries, the converter and the page. */
+export const forStart = [node, packages, core, typescript];
+
+/** What `npm test` needs besides: a browser and readers of LAS and COPC that nobody here wrote. */
+export const forTest = [...forStart, browser, referees];

@@ -1,0 +1,169 @@
+import { basename } from "node:path";
+import { type Bounds, type Domain, type GridWindow, GromaError, PlacementError } from "@groma/georef";
+import { boundsOfPlaces, spread } from "./area.js";
+import { runPipeline, runToRadians } from "./cct.js";
+import type { Proj } from "./find.js";
+import { cutFrom } from "./grids/cut.js";
+import { type GridImage, type GridKind, unreadable } from "./grids/grid-image.js";
+import { locateGrid } from "./grids/locate.js";
+import { openGrid } from "./grids/open.js";
+import type { Operation } from "./operation.js";
+import { parsePipeline } from "./pipeline.js";
+import type { GridName, Plan } from "./plan.js";
+
+/** An operation that can be followed for a domain. */
+export interface Candidate {
+  readonly operation: Operation;
+  readonly plan: Plan;
+  /** What z is multiplied by before PROJ gets it: the CRS's vertical unit is not always the pipeline's. */
+  readonly zScale: number;
+  /** ECEF of points spread over the domain, NaN where PROJ has no place for them. */
+  readonly places: Float64Array;
+  /** Whether all of them have a place. */
+  readonly covers: boolean;
+}
+
+/** Relative; what PROJ and the CRS write with fewer digits than they mean. */
+const SAME_UNIT = 1e-9;
+
+/**
+ * Reads an operation and tries it on points spread over the domain.
+ *
+ * @param metresPerUnit of the source's z
+ * @throws CrsError CRS_OPERATION_UNSUPPORTED
+ * @throws ProjError PROJ_FAILED when PROJ does not take it
+ * @throws PlacementError PLACE_DOMAIN when it has no place for any point
+ */
+export async function tryOperation(
+  proj: Proj,
+  operation: Operation,
+  domain: Domain,
+  metresPerUnit: number,
+  signal?: AbortSignal,
+): Promise<Candidate> {
+  const plan = parsePipeline(operation.pipeline ?? "");
+  const ratio = metresPerUnit / plan.metresPerUnit;
+  const zScale = Math.abs(ratio - 1) < SAME_UNIT ? 1 : ratio;
+  const points = spread(domain);
+  for (let i = 2; i < points.length; i += 3) points[i] *= zScale;
+  const places = await runPipeline(proj, plan.pipeline, points, signal);
+  if (!places.some(Number.isFinite)) {
+    throw new PlacementError({
+      code: "PLACE_DOMAIN",
+      file: operation.name,
+      cause: "it has no place for any point of the data set",
+      fix: "check that the coordinate reference system is the one the scan was made in",
+    });
+  }
+  return { operation, plan, zScale, places, covers: places.every(Number.isFinite) };
+}
+
+export function gridSteps(plan: Plan) {
+  return plan.steps.filter((step) => step.kind === "horizontalShift" || step.kind === "verticalShift");
+}
+
+/**
+ * Cuts the windows of a candidate's grids, in the order of its steps.
+ *
+ * @throws ProjError PROJ_GRID when a grid is missing, cannot be read, or does not reach the data
+ */
+export async function cutWindows(
+  proj: Proj,
+  { plan, zScale }: Candidate,
+  domain: Domain,
+  signal?: AbortSignal,
+): Promise<GridWindow[]> {
+  const points = spread(domain);
+  for (let i = 2; i < points.length; i += 3) points[i] *= zScale;
+  const windows: GridWindow[] = [];
+  for (const step of gridSteps(plan)) {
+    const places = await runToRadians(proj, plan.pipeline.slice(0, step.before), points, signal);
+    const bounds = boundsOfPlaces(places);
+    const kind = step.kind === "verticalShift" ? "vertical" : "horizontal";
+    windows.push(await windowOf(proj, step.grids, kind, bounds));
+  }
+  return windows;
+}
+
+async function windowOf(
+  proj: Proj,
+  names: readonly GridName[],
+  kind: GridKind,
+  bounds: Bounds | undefined,
+): Promise<GridWindow> {
+  const roots: GridImage[] = [];
+  for (const { name, optional } of names) {
+    const path = await locateGrid(proj, name);
+    if (path) roots.push(...(await openGrid(path, basename(path), kind)));
+    else if (!optional) throw unreadable(name, "it is in none of PROJ's data folders");
+  }
+  const window = bounds && (await cutFrom(roots, bounds));
+  if (!window) throw unreadable(names.map(({ name }) => name).join(", "), "it does not reach the data set");
+  return window;
+}
+
+/** An operation that was left out, and why. */
+export interface PassedOver {
+  readonly operation: string;
+  readonly accuracy: number | null;
+  readonly why: string;
+}
+
+export interface Choice {
+  readonly candidate: Candidate;
+  readonly windows: readonly GridWindow[];
+}
+
+/** What became of a list of operations. */
+export interface Selection {
+  /** Absent when none of them can be used. */
+  readonly choice?: Choice;
+  readonly passedOver: readonly PassedOver[];
+  /** Why the best one that PROJ would have used could not be; only ballparks are left, and none was taken for it. */
+  readonly blocked?: GromaError;
+}
+
+/** Faults of one operation that leave the others as they are; the last means that it is not for this place. */
+const GIVES_WAY = new Set(["CRS_OPERATION_UNSUPPORTED", "PROJ_GRID", "PROJ_FAILED", "PLACE_DOMAIN"]);
+
+/**
+ * Takes the first operation that PROJ would use, can be followed and has a place for all points of the domain;
+ * failing that the first with a place for some, and only then one that passes over a difference of datums. One whose
+ * steps are not supported, or whose grid cannot be read, gives way to the next, which is reported; but never to a
+ * ballpark.
+ */
+export async function choose(
+  proj: Proj,
+  operations: readonly Operation[],
+  domain: Domain,
+  metresPerUnit: number,
+  signal?: AbortSignal,
+): Promise<Selection> {
+  const passedOver: PassedOver[] = [];
+  for (const ballpark of [false, true]) {
+    let partial: Choice | undefined;
+    let blocked: GromaError | undefined;
+    for (const operation of operations) {
+      if (operation.ballpark !== ballpark || operation.missingGrids.length > 0) continue;
+      const { name, accuracy } = operation;
+      if (operation.pipeline === undefined) {
+        passedOver.push({ operation: name, accuracy, why: "PROJ cannot write it as a pipeline" });
+        continue;
+      }
+      try {
+        const candidate = await tryOperation(proj, operation, domain, metresPerUnit, signal);
+        if (!candidate.covers && partial) continue;
+        const windows = await cutWindows(proj, candidate, domain, signal);
+        if (candidate.covers) return { choice: { candidate, windows }, passedOver };
+        partial = { candidate, windows };
+      } catch (error) {
+        if (!(error instanceof GromaError) || !GIVES_WAY.has(error.code)) throw error;
+        passedOver.push({ operation: name, accuracy, why: `${error.file}: ${error.cause}` });
+        if (error.code !== "PLACE_DOMAIN") blocked ??= error;
+      }
+    }
+    if (partial) return { choice: partial, passedOver };
+    if (blocked) return { passedOver, blocked };
+  }
+  return { passedOver };
+}

@@ -1,0 +1,134 @@
+import { describe, expect, it } from "vitest";
+import { parsePipeline } from "./pipeline.js";
+import { pipelineWords, splitPipeline } from "./step-text.js";
+
+const UTM = "+step +inv +proj=utm +zone=33 +ellps=WGS84";
+const CART = "+step +proj=cart +ellps=WGS84";
+const parse = (...steps: string[]) => parsePipeline(["+proj=pipeline", ...steps].join(" "));
+const kinds = (...steps: string[]) => parse(...steps).steps.map(({ kind }) => kind);
+const GRID = { name: "a.tif", optional: false };
+
+describe("words of a pipeline", () => {
+  it("come back as they were", () => {
+    const text = `+proj=pipeline ${UTM} +step +proj=push +v_3 ${CART}`;
+    expect(pipelineWords(splitPipeline(text)).join(" ")).toBe(text);
+  });
+
+  it.each([
+    ["nothing", ""],
+    ["a step of no name", "+proj=pipeline +step +inv"],
+    ["a step outside of a pipeline", "+proj=cart +ellps=WGS84 +step +proj=noop"],
+    ["a pipeline in a pipeline", `+proj=pipeline +step +proj=pipeline ${UTM}`],
+    ["a parameter for all", `+proj=pipeline +ellps=bessel ${UTM} ${CART}`],
+    ["a file of definitions", "+proj=pipeline +step +init=epsg:4326"],
+    ["another name", "+proj=pipeline +step +proj=cart +proj=utm"],
+    ["a quoted value", '+proj=pipeline +step +proj=hgridshift +grids="a b"'],
+    ["a shell's work", "+proj=pipeline +step +proj=cart;rm -rf /"],
+    ["an option", "-o /tmp/x +proj=cart"],
+    ["a control character", "+proj=pipeline +step +proj=cart\u0000"],
+    ["too much", `+proj=pipeline ${UTM} `.repeat(1000)],
+  ])("are refused by name with %s", (_, text) => {
+    expect(() => parsePipeline(text)).toThrow(expect.objectContaining({ code: "CRS_OPERATION_UNSUPPORTED" }));
+  });
+});
+
+describe("a pipeline", () => {
+  it("loses the swap of axes that the authority wants, and no other", () => {
+    const plan = parse("+step +proj=axisswap +order=2,1", UTM, CART);
+    expect(plan.pipeline.map(({ name }) => name)).toEqual(["utm", "cart"]);
+    expect(parse("+step +proj=axisswap +order=-2,-1", UTM, CART).projection).toBe(2);
+    expect(() => parse("+step +proj=axisswap +order=1,3,2", UTM, CART)).toThrow(/order 1,3,2/);
+  });
+
+  it("keeps what it does to the plane before longitude and latitude in what is sampled", () => {
+    const degrees = "+step +proj=unitconvert +xy_in=deg +z_in=us-ft +xy_out=rad +z_out=m";
+    const plan = parse(degrees, "+step +inv +proj=longlat +ellps=clrk80ign +pm=paris", CART);
+    expect(plan.projection).toBe(2);
+    expect(plan.metresPerUnit).toBeCloseTo(1200 / 3937, 15);
+    expect(plan.steps).toMatchObject([
+      { kind: "height", metresPerUnit: 1200 / 3937 },
+      { kind: "geocentric" },
+    ]);
+  });
+
+  it("takes no notice of geographic coordinates in between, and none for another meridian", () => {
+    const longlat = "+step +inv +proj=longlat +a=6378249.145 +rf=293.465";
+    expect(parse(UTM, longlat, CART)).toMatchObject({ projection: 2, steps: [{ kind: "geocentric" }] });
+    const grid = "+step +proj=hgridshift +grids=a.tif";
+    expect(kinds(UTM, grid, longlat, CART)).toEqual(["horizontalShift", "geocentric"]);
+    expect(() => parse(UTM, grid, `${longlat} +pm=paris`, CART)).toThrow(/\+pm/);
+  });
+
+  it("takes units of height wherever they stand", () => {
+    const feet = "+step +proj=unitconvert +z_in=ft +z_out=m";
+    expect(parse(UTM, feet, CART).metresPerUnit).toBe(0.3048);
+    expect(parse(`${UTM} +vunits=ft`, CART).metresPerUnit).toBe(0.3048);
+    const there = "+step +proj=unitconvert +xy_in=rad +z_in=us-ft +xy_out=deg +z_out=m";
+    const back = "+step +proj=unitconvert +xy_in=deg +z_in=m +xy_out=rad +z_out=m";
+    expect(kinds(UTM, there, back, CART)).toEqual(["height", "geocentric"]);
+    expect(() => parse(UTM, there, CART)).toThrow(/not in radians/);
+  });
+
+  it("shifts by grids in either direction, and heights by PROJ's default of minus one", () => {
+    const plan = parse(
+      UTM,
+      "+step +inv +proj=hgridshift +grids=a.tif,@b.gsb",
+      "+step +proj=vgridshift +grids=a.tif",
+      "+step +inv +proj=vgridshift +grids=a.tif",
+      "+step +proj=vgridshift +grids=a.tif +multiplier=1",
+      CART,
+    );
+    expect(plan.steps).toMatchObject([
+      { kind: "horizontalShift", direction: "inverse", grids: [GRID, { name: "b.gsb", optional: true }] },
+      { kind: "verticalShift", multiplier: -1, grids: [GRID], before: 2 },
+      { kind: "verticalShift", multiplier: 1 },
+      { kind: "verticalShift", multiplier: 1 },
+      { kind: "geocentric" },
+    ]);
+    expect(kinds(UTM, "+step +proj=hgridshift +grids=@null", CART)).toEqual(["geocentric"]);
+  });
+
+  it("leaves heights alone between push and pop", () => {
+    const shift =
+      "+step +proj=cart +ellps=bessel +step +proj=helmert +x=1 +step +inv +proj=cart +ellps=GRS80";
+    const plan = parse(UTM, "+step +proj=push +v_3", shift, "+step +proj=pop +v_3", CART);
+    expect(plan.steps[0]).toMatchObject({ kind: "datumShift", keepHeight: true });
+    expect(parse(UTM, shift, CART).steps[0]).toMatchObject({ keepHeight: false });
+    expect(() => parse(UTM, "+step +proj=push +v_1 +v_2", shift, CART)).toThrow(/\+v_1 \+v_2/);
+    expect(() => parse(UTM, "+step +proj=push +v_3", shift, CART)).toThrow(/no ECEF/);
+    expect(() => parse(UTM, "+step +proj=pop +v_3", shift, CART)).toThrow(/v_3/);
+  });
+
+  it("may end with a shift in space", () => {
+    const end = "+step +proj=cart +ellps=GRS80 +step +proj=helmert +x=-0.991 +y=1.9072 +z=0.5129";
+    expect(kinds(UTM, end)).toEqual(["datumShift", "geocentric"]);
+  });
+
+  it.each([
+    ["tinshift", "+step +proj=tinshift +file=x.json"],
+    ["deformation", "+step +proj=deformation +grids=x.tif +dt=1"],
+    ["xyzgridshift", "+step +proj=xyzgridshift +grids=x.tif"],
+    ["gridshift", "+step +proj=gridshift +grids=x.tif"],
+    ["molodensky", "+step +proj=molodensky +ellps=GRS80 +dx=1 +dy=1 +dz=1 +da=1 +df=1"],
+    ["geogoffset", "+step +proj=geogoffset +dlat=1 +dlon=1"],
+    ["a later invention", "+step +proj=later_invention"],
+    ["hgridshift", "+step +proj=hgridshift +grids=x.tif +t_epoch=2010"],
+    ["vgridshift", "+step +proj=vgridshift +grids=x.tif +multiplier=much"],
+    ["unitconvert", "+step +proj=unitconvert +t_in=mjd +t_out=decimalyear"],
+    ["helmert", "+step +proj=cart +ellps=GRS80 +step +proj=helmert +x=1 +dx=0.1 +t_epoch=2010"],
+  ])("with %s is refused by the step's name", (name, step) => {
+    expect(() => parse(UTM, step, CART)).toThrow(
+      expect.objectContaining({
+        code: "CRS_OPERATION_UNSUPPORTED",
+        cause: expect.stringContaining(`"${name.startsWith("a ") ? "later_invention" : name}"`),
+      }),
+    );
+  });
+
+  it.each(["nadgrids=x.gsb", "geoidgrids=x.gtx", "towgs84=1,2,3"])(
+    "with a projection that shifts by +%s is refused",
+    (hidden) => {
+      expect(() => parse(`${UTM} +${hidden}`, CART)).toThrow(/its parameter/);
+    },
+  );
+});

@@ -1,0 +1,48 @@
+import type { LinearMap } from "./helmert.js";
+import type { StepText } from "./step-text.js";
+
+/** What makes an ellipsoid in a PROJ step (`ellps`, `a`, `rf` …). */
+export type EllipsoidText = ReadonlyMap<string, string>;
+
+/** A step as the pipeline has it, before grids are cut and the projection is fitted. */
+export type PlannedStep =
+  | { readonly kind: "height"; readonly metresPerUnit: number }
+  | {
+      readonly kind: "horizontalShift";
+      readonly direction: "forward" | "inverse";
+      readonly grids: readonly GridName[];
+      /** Number of the pipeline's steps that come before, for finding out where points are by then. */
+      readonly before: number;
+    }
+  | {
+      readonly kind: "verticalShift";
+      readonly multiplier: number;
+      readonly grids: readonly GridName[];
+      readonly before: number;
+    }
+  | {
+      readonly kind: "datumShift";
+      readonly from: EllipsoidText;
+      readonly to: EllipsoidText;
+      readonly map: LinearMap;
+      readonly keepHeight: boolean;
+    }
+  | { readonly kind: "geocentric"; readonly ellipsoid: EllipsoidText };
+
+/** One of the grids that a step names; PROJ goes on to the next where an optional one (`@name`) is missing. */
+export interface GridName {
+  readonly name: string;
+  readonly optional: boolean;
+}
+
+/** A PROJ pipeline from a source CRS to EPSG:4978, understood. */
+export interface Plan {
+  /** All steps, x as easting or longitude whatever the authority's order of axes is. */
+  readonly pipeline: readonly StepText[];
+  /** How many of them lead from source coordinates to longitude, latitude in radians. */
+  readonly projection: number;
+  /** What follows. */
+  readonly steps: readonly PlannedStep[];
+  /** Metres per unit of z by the pipeline's own account. */
+  readonly metresPerUnit: number;
+}

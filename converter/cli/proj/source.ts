@@ -1,0 +1,165 @@
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { type Crs, CrsError } from "@groma/georef";
+import type { Proj } from "./find.js";
+import { run } from "./run.js";
+
+/** A CRS in words that PROJ reads. */
+export interface CrsText {
+  /** For people. */
+  readonly name: string;
+  /** EPSG code, PROJ string, WKT or PROJJSON. */
+  readonly text: string;
+}
+
+/** A CRS as PROJ is asked for it. */
+export interface SourceTexts {
+  /** The horizontal part alone (for a CRS of one piece: all of it). */
+  readonly horizontal: CrsText;
+  /** With its heights, where they are from a vertical datum that PROJ can be told. */
+  readonly compound?: CrsText;
+}
+
+const CODE = /^[A-Za-z]{2,10}:\d{1,9}(\+([A-Za-z]{2,10}:)?\d{1,9})?$/;
+
+/**
+ * Calls with an argument that `projinfo` takes for the CRS: a code or PROJ string as it is, anything else as a file of
+ * its own, so that no text can name a file or an option.
+ *
+ * @throws CrsError CRS_UNKNOWN when it is no CRS text
+ */
+export async function withArgument<T>(
+  { name, text }: CrsText,
+  use: (argument: string) => Promise<T>,
+): Promise<T> {
+  const trimmed = text.trim();
+  if (CODE.test(trimmed)) return use(trimmed);
+  if (trimmed.startsWith("+")) return use(/\+type=crs\b/.test(trimmed) ? trimmed : `${trimmed} +type=crs`);
+  if (!/^(\{|[A-Za-z_]+\s*\[)/.test(trimmed)) {
+    throw new CrsError({
+      code: "CRS_UNKNOWN",
+      file: name,
+      cause: `"${trimmed.slice(0, 60)}" is no EPSG code, PROJ string, WKT or PROJJSON`,
+      fix: "name the coordinate reference system with --crs, as an EPSG code or as WKT",
+    });
+  }
+  const folder = await mkdtemp(join(tmpdir(), "groma-crs-"));
+  try {
+    const path = join(folder, "crs.txt");
+    await writeFile(path, trimmed);
+    return await use(`@${path}`);
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+}
+
+/**
+ * How PROJ is to be asked for a CRS whose heights may have been declared apart from it. The code goes before the WKT
+ * that it came with, since PROJ knows more of it; the WKT before the PROJ string, which has lost the datum's name.
+ *
+ * @param own the user's own words, which go before all of these
+ * @throws CrsError CRS_UNKNOWN when PROJ does not know it, CRS_OPERATION_UNSUPPORTED when it is geocentric
+ */
+export async function sourceTexts(
+  proj: Proj,
+  crs: Pick<Crs, "name" | "code" | "wkt" | "proj4" | "height">,
+  own?: string,
+  signal?: AbortSignal,
+): Promise<SourceTexts> {
+  const texts = own === undefined ? textsOf(crs) : [own];
+  const { whole, json } = await firstKnown(proj, crs.name, texts, signal);
+  if (json.coordinate_system?.subtype === "Cartesian" && json.type === "GeodeticCRS") throw inSpace(crs.name);
+  const [horizontal, vertical] = json.type === "CompoundCRS" && json.components ? json.components : [json];
+  const code = idOf(horizontal);
+  const plain = vertical
+    ? { name: horizontal.name ?? crs.name, text: code ? `EPSG:${code}` : JSON.stringify(horizontal) }
+    : whole;
+  if (crs.height.kind !== "geoid") return { horizontal: plain };
+
+  const wanted = crs.height.epsg;
+  if (vertical && (wanted === undefined || wanted === idOf(vertical)))
+    return { horizontal: plain, compound: whole };
+  if (wanted === undefined) return { horizontal: plain };
+  if (code) {
+    return { horizontal: plain, compound: { name: crs.name, text: `EPSG:${code}+${wanted}` } };
+  }
+  const heights = await projJson(proj, { name: crs.height.model, text: `EPSG:${wanted}` }, signal);
+  const compound = { type: "CompoundCRS", name: crs.name, components: [horizontal, heights] };
+  return { horizontal: plain, compound: { name: crs.name, text: JSON.stringify(compound) } };
+}
+
+/** The greatest code that EPSG gives out itself; ESRI's software writes its own, greater ones under EPSG's name. */
+const EPSG_MAX = 32767;
+
+function textsOf({ code, wkt, proj4 }: Pick<Crs, "code" | "wkt" | "proj4">): string[] {
+  const number = Number(/^EPSG:(\d+)$/.exec(code ?? "")?.[1]);
+  const named = number > EPSG_MAX ? `ESRI:${number}` : code;
+  return [named, wkt, proj4].filter((text) => text !== undefined);
+}
+
+/** The first of the texts that PROJ understands. */
+async function firstKnown(
+  proj: Proj,
+  name: string,
+  [text, ...others]: readonly string[],
+  signal?: AbortSignal,
+): Promise<{ whole: CrsText; json: ProjJson }> {
+  const whole = { name, text };
+  try {
+    return { whole, json: await projJson(proj, whole, signal) };
+  } catch (error) {
+    if (!(error instanceof CrsError) || others.length === 0 || others[0] === "") throw error;
+    return firstKnown(proj, name, others, signal);
+  }
+}
+
+interface ProjJson {
+  readonly type?: string;
+  readonly name?: string;
+  readonly components?: readonly [ProjJson, ProjJson];
+  readonly coordinate_system?: { readonly subtype?: string };
+  readonly id?: { readonly authority?: string; readonly code?: number };
+}
+
+/** Geocentric coordinates need no engine: they are X, Y, Z already. */
+function inSpace(name: string): CrsError {
+  return new CrsError({
+    code: "CRS_OPERATION_UNSUPPORTED",
+    file: name,
+    cause: "its coordinates are geocentric, with no projection to fit",
+    fix: "convert with --engine proj4js, which takes geocentric coordinates as they are",
+  });
+}
+
+/** EPSG code of a CRS. */
+function idOf({ id }: ProjJson): number | undefined {
+  return id?.authority === "EPSG" && Number.isInteger(id.code) ? id.code : undefined;
+}
+
+async function projJson(proj: Proj, source: CrsText, signal?: AbortSignal): Promise<ProjJson> {
+  return withArgument(source, async (argument) => {
+    const args = ["-k", "crs", "-q", "-o", "PROJJSON", "--single-line", argument];
+    const { status, stdout, stderr } = await run(proj.projinfo, args, {
+      environment: proj.environment,
+      signal,
+    });
+    const json = status === 0 ? parsed(stdout) : undefined;
+    if (json) return json;
+    throw new CrsError({
+      code: "CRS_UNKNOWN",
+      file: source.name,
+      cause: `PROJ does not understand this coordinate reference system (${stderr.trim().split("\n")[0].slice(0, 160)})`,
+      fix: "name it with --crs, as an EPSG code or as WKT",
+    });
+  });
+}
+
+function parsed(text: string): ProjJson | undefined {
+  try {
+    const value: unknown = JSON.parse(text);
+    return value !== null && typeof value === "object" ? value : undefined;
+  } catch {
+    return undefined;
+  }
+}

@@ -1,0 +1,209 @@
+import {
+  type Bounds,
+  type Crs,
+  CrsError,
+  type Domain,
+  ecefToGeodetic,
+  type GromaError,
+  PATCHWORK_TOLERANCE,
+  PlacementError,
+  type Transformation,
+} from "@groma/georef";
+import { boundsOfPlaces, degreeBox, spread } from "./area.js";
+import { assemble } from "./assemble.js";
+import { type Choice, choose, type PassedOver } from "./candidate.js";
+import { runToRadians } from "./cct.js";
+import { checkTransformation } from "./check.js";
+import { EGM96_NOTE, egm96Step } from "./egm96.js";
+import type { Proj } from "./find.js";
+import { type DegreeBox, listOperations, type Operation } from "./operation.js";
+import { parsePipeline } from "./pipeline.js";
+import { OTHER_WAY } from "./refuse.js";
+import { type EngineOptions, type EngineResult, type Lacking, UNKNOWN_HEIGHT_NOTE } from "./report.js";
+import { type SourceTexts, sourceTexts } from "./source.js";
+
+export interface ProjTransformationOptions extends EngineOptions {
+  /** The CRS in the user's own words, where they say more than what was read from them: a PROJ string above all. */
+  readonly text?: string | undefined;
+}
+
+/** Better operations are many where one grid is missing; these are enough to say which. */
+const LACKING_MAX = 5;
+/** PROJ's words for heights taken over from another zero level as they are. */
+const BALLPARK_HEIGHT = "ballpark vertical transformation";
+
+/**
+ * The way from source coordinates to ECEF as PROJ goes it in the domain, in a form that needs no PROJ: projection
+ * fitted, grids cut, checked against PROJ itself.
+ *
+ * Heights: of a CRS with heights above the ellipsoid, or of unknown heights, z is taken for the ellipsoidal height;
+ * above a geoid whose grid PROJ lacks, the shift is that of EGM96. `report.notes` says so.
+ *
+ * @param domain source units
+ * @throws CrsError CRS_UNKNOWN, CRS_UNSUPPORTED (no way leads to WGS 84), CRS_OPERATION_UNSUPPORTED (PROJ can, Groma
+ *   cannot)
+ * @throws PlacementError PLACE_DOMAIN, PLACE_POLE, PLACE_ANTIMERIDIAN, PLACE_PATCHWORK, PLACE_CHECK
+ * @throws ProjError PROJ_FAILED, PROJ_OUTPUT, PROJ_GRID
+ */
+export async function projTransformation(
+  proj: Proj,
+  crs: Crs,
+  domain: Domain,
+  options: ProjTransformationOptions = {},
+): Promise<EngineResult> {
+  const { file = crs.name, signal } = options;
+  const source = await sourceTexts(proj, crs, options.text, signal);
+  const box = await boxOf(proj, source, domain, file, signal);
+  const chosen = await chooseFor(proj, crs, source, domain, box, signal);
+  const { choice, operations, passedOver, substitute } = chosen;
+  const { candidate, windows } = choice;
+  const { tolerance = PATCHWORK_TOLERANCE } = options;
+  const { transformation, patchwork } = await assemble(proj, candidate, windows, {
+    ...{ domain, tolerance, file, signal },
+  });
+  const { pipeline } = candidate.plan;
+  const check = await checkTransformation(
+    proj,
+    pipeline,
+    transformation,
+    domain,
+    candidate.zScale,
+    file,
+    signal,
+  );
+
+  const notes = notesFor(crs, choice, substitute);
+  const grids = [...new Set(windows.map(({ grid }) => grid))];
+  return {
+    transformation: substitute ? await withEgm96(transformation, candidate.places) : transformation,
+    report: {
+      engine: { name: "PROJ", version: proj.version },
+      operation: candidate.operation.name,
+      accuracy: substitute ? null : candidate.operation.accuracy,
+      ballpark: candidate.operation.ballpark,
+      grids: substitute ? [...grids, "EGM96"] : grids,
+      lacking: lackingIn(operations, candidate.operation, substitute),
+      passedOver,
+      fitBound: patchwork.bound,
+      ...check,
+      notes,
+    },
+  };
+}
+
+/** Where the data are, by the projection alone, which is the same in all operations. */
+async function boxOf(
+  proj: Proj,
+  source: SourceTexts,
+  domain: Domain,
+  file: string,
+  signal?: AbortSignal,
+): Promise<DegreeBox | undefined> {
+  const operations = await listOperations(proj, source.horizontal, { direct: true, signal });
+  const text = operations.find(({ pipeline }) => pipeline !== undefined)?.pipeline;
+  if (text === undefined) return undefined;
+  const { pipeline, projection } = parsePipeline(text);
+  const places = await runToRadians(proj, pipeline.slice(0, projection), spread(domain), signal);
+  const bounds = boundsOfPlaces(places);
+  if (bounds) return degreeBox(bounds);
+  const { minX, minY, maxX, maxY } = domain;
+  throw new PlacementError({
+    code: "PLACE_DOMAIN",
+    file,
+    cause: `the data set lies where its projection has no place (x ${minX} … ${maxX}, y ${minY} … ${maxY})`,
+    fix: "check that the coordinate reference system is the one the scan was made in, and that no point is a stray",
+  });
+}
+
+interface Chosen {
+  readonly choice: Choice;
+  readonly passedOver: readonly PassedOver[];
+  /** The list that it was chosen from, or the better list that had none. */
+  readonly operations: readonly Operation[];
+  /** Heights go by EGM96, because PROJ would take them over as they are. */
+  readonly substitute: boolean;
+}
+
+async function chooseFor(
+  proj: Proj,
+  crs: Crs,
+  source: SourceTexts,
+  domain: Domain,
+  box: DegreeBox | undefined,
+  signal?: AbortSignal,
+): Promise<Chosen> {
+  const metresPerUnit = crs.verticalUnit.size;
+  const list = (text: SourceTexts["horizontal"]) => listOperations(proj, text, { box, signal });
+  const withHeights = source.compound ? await list(source.compound) : [];
+  const best = await choose(proj, withHeights, domain, metresPerUnit, signal);
+  if (best.choice && !best.choice.candidate.operation.name.includes(BALLPARK_HEIGHT)) {
+    return { ...best, choice: best.choice, operations: withHeights, substitute: false };
+  }
+  const flat = await list(source.horizontal);
+  const { choice, passedOver, blocked } = await choose(proj, flat, domain, metresPerUnit, signal);
+  if (!choice) throw noWay(crs, [...withHeights, ...flat], best.blocked ?? blocked);
+  return {
+    choice,
+    passedOver: [...best.passedOver, ...passedOver],
+    operations: withHeights.length > 0 ? withHeights : flat,
+    substitute: crs.height.kind === "geoid",
+  };
+}
+
+function lackingIn(operations: readonly Operation[], chosen: Operation, substitute: boolean): Lacking[] {
+  const place = operations.findIndex(({ pipeline }) => pipeline === chosen.pipeline);
+  const better = operations.filter(({ ballpark, missingGrids, accuracy }, i) => {
+    if (ballpark || missingGrids.length === 0) return false;
+    if (substitute || place < 0 || i < place || chosen.ballpark) return true;
+    return accuracy !== null && (chosen.accuracy === null || accuracy < chosen.accuracy);
+  });
+  const lacking = better.map(({ name, accuracy, missingGrids }) => ({
+    operation: name,
+    accuracy,
+    grids: missingGrids,
+  }));
+  return lacking.slice(0, LACKING_MAX);
+}
+
+function notesFor(crs: Crs, { candidate }: Choice, substitute: boolean): string[] {
+  const notes: string[] = [];
+  if (crs.height.kind === "unknown") notes.push(UNKNOWN_HEIGHT_NOTE);
+  if (substitute) notes.push(EGM96_NOTE);
+  if (candidate.operation.ballpark) {
+    notes.push(
+      "PROJ knows no shift of this datum for this place: expect errors of up to some hundred metres",
+    );
+  }
+  if (!candidate.covers) notes.push("parts of the data set's bounds lie outside of the operation's grids");
+  return notes;
+}
+
+async function withEgm96(transformation: Transformation, ecef: Float64Array): Promise<Transformation> {
+  const bounds = geodeticBounds(ecef);
+  const last = transformation.steps[transformation.steps.length - 1];
+  return { steps: [...transformation.steps.slice(0, -1), await egm96Step(bounds), last] };
+}
+
+function geodeticBounds(ecef: Float64Array): Bounds {
+  const places = new Float64Array(ecef.length);
+  for (let i = 0; i < ecef.length; i += 3) ecefToGeodetic(ecef[i], ecef[i + 1], ecef[i + 2], places, i);
+  const bounds = boundsOfPlaces(places);
+  if (!bounds) throw new RangeError("no place to cut the geoid for");
+  return bounds;
+}
+
+function noWay(crs: Crs, operations: readonly Operation[], blocked?: GromaError): GromaError {
+  if (blocked && blocked.code !== "CRS_OPERATION_UNSUPPORTED") return blocked;
+  const { name: file } = crs;
+  const code = blocked ? "CRS_OPERATION_UNSUPPORTED" : "CRS_UNSUPPORTED";
+  const grids = [...new Set(operations.flatMap(({ missingGrids }) => missingGrids))].slice(0, LACKING_MAX);
+  if (grids.length > 0) {
+    const cause = blocked ? `${blocked.cause}, and the others lack` : "every operation to WGS 84 lacks";
+    const fix = "get the grids with projsync, or give their folder with --grids";
+    return new CrsError({ code, file, cause: `${cause} a grid (${grids.join(", ")})`, fix });
+  }
+  const cause = blocked
+    ? `${blocked.cause}, and no other operation leads to WGS 84 without leaving a datum shift out`
+    : "PROJ knows no operation from it to WGS 84 for the place of the data";
+  return new CrsError({ code, file, cause, fix: OTHER_WAY });
+}

@@ -1,0 +1,184 @@
+//! What can go wrong, as one enum: a stable code, the file (or option) it is about, what was found and what
+//! the reader can do about it.
+
+use serde::Serialize;
+use std::fmt;
+use std::path::Path;
+
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// The part of an error that differs from case to case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Detail {
+    /// The file or option that the error is about.
+    pub file: String,
+    /// What was found, as a clause without a closing stop.
+    pub cause: String,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The input cannot be opened.
+    NotFound(Detail),
+    /// The input is not a LAS or LAZ file.
+    Magic(Detail),
+    /// The input ends before what its header announces.
+    Truncated(Detail),
+    /// The input contradicts itself, or its compressed data cannot be decoded.
+    Corrupt(Detail),
+    /// The input holds no point.
+    Empty(Detail),
+    /// A version or point data record format that the LAS 1.4 standard does not know.
+    Format(Detail),
+    /// Several inputs that cannot stand in one file without changing a record.
+    Mixed(Detail),
+    /// The output is there already, and overwriting was not asked for.
+    OutputExists(Detail),
+    /// The output cannot be written.
+    OutputWrite(Detail),
+    /// An option has a value that cannot be used. The name becomes part of the code: `OPTION_MEMORY`.
+    Option(&'static str, Detail),
+    /// The process was asked to stop.
+    Interrupted(Detail),
+}
+
+macro_rules! constructors {
+    ($($name:ident => $variant:ident),* $(,)?) => {
+        impl Error {
+            $(pub fn $name(file: &Path, cause: impl fmt::Display) -> Self {
+                Self::$variant(Detail::new(file.display(), cause))
+            })*
+        }
+    };
+}
+
+constructors! {
+    not_found => NotFound,
+    magic => Magic,
+    truncated => Truncated,
+    corrupt => Corrupt,
+    empty => Empty,
+    format => Format,
+    mixed => Mixed,
+    output_exists => OutputExists,
+    output_write => OutputWrite,
+    interrupted => Interrupted,
+}
+
+impl Detail {
+    fn new(file: impl fmt::Display, cause: impl fmt::Display) -> Self {
+        Self { file: file.to_string(), cause: cause.to_string() }
+    }
+}
+
+impl Error {
+    /// An option's fault. `name` in capitals, as in the code: `MEMORY` for `--memory`.
+    pub fn option(name: &'static str, cause: impl fmt::Display) -> Self {
+        Self::Option(name, Detail::new(format!("--{}", name.to_lowercase().replace('_', "-")), cause))
+    }
+
+    /// A read that failed: `Truncated` at an early end, otherwise `NotFound`.
+    pub fn reading(file: &Path, error: &std::io::Error) -> Self {
+        match error.kind() {
+            std::io::ErrorKind::UnexpectedEof => Self::truncated(file, "the file ends early"),
+            _ => Self::not_found(file, format!("the file cannot be read ({error})")),
+        }
+    }
+
+    /// The stable code, never reused for another meaning.
+    pub fn code(&self) -> String {
+        match self {
+            Self::NotFound(_) => "INPUT_NOT_FOUND".into(),
+            Self::Magic(_) => "INPUT_MAGIC".into(),
+            Self::Truncated(_) => "INPUT_TRUNCATED".into(),
+            Self::Corrupt(_) => "INPUT_CORRUPT".into(),
+            Self::Empty(_) => "INPUT_EMPTY".into(),
+            Self::Format(_) => "INPUT_FORMAT".into(),
+            Self::Mixed(_) => "INPUT_MIXED".into(),
+            Self::OutputExists(_) => "OUTPUT_EXISTS".into(),
+            Self::OutputWrite(_) => "OUTPUT_WRITE".into(),
+            Self::Option(name, _) => format!("OPTION_{name}"),
+            Self::Interrupted(_) => "INTERRUPTED".into(),
+        }
+    }
+
+    fn detail(&self) -> &Detail {
+        match self {
+            Self::NotFound(d)
+            | Self::Magic(d)
+            | Self::Truncated(d)
+            | Self::Corrupt(d)
+            | Self::Empty(d)
+            | Self::Format(d)
+            | Self::Mixed(d)
+            | Self::OutputExists(d)
+            | Self::OutputWrite(d)
+            | Self::Option(_, d)
+            | Self::Interrupted(d) => d,
+        }
+    }
+
+    /// What to do about it, as a clause without a closing stop.
+    pub fn fix(&self) -> &'static str {
+        match self {
+            Self::NotFound(_) => "Check the path and the permissions",
+            Self::Magic(_) => "Give a LAS or LAZ file",
+            Self::Truncated(_) => "Get the whole file again: the copy or the download was cut off",
+            Self::Corrupt(_) => {
+                "Get the file again from its source, or repair it with the software that wrote it"
+            }
+            Self::Empty(_) => "Give a file that holds points",
+            Self::Format(_) => "Write the file as LAS 1.0 to 1.4 with a point format from 0 to 10",
+            Self::Mixed(_) => "Convert the files one by one, or bring them to one form first",
+            Self::OutputExists(_) => "Choose another name or pass --overwrite",
+            Self::OutputWrite(_) => "Check that the folder is there, writable and has room",
+            Self::Option("MEMORY", _) => "Give --memory a larger value or convert fewer points at once",
+            Self::Option(..) => "See groma-core convert --help",
+            Self::Interrupted(_) => "Run the command again",
+        }
+    }
+
+    /// The four fields as the command line's JSON lines carry them.
+    pub fn wire(&self) -> Wire {
+        let Detail { file, cause } = self.detail().clone();
+        Wire { event: "error", code: self.code(), file, cause, fix: self.fix() }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Detail { file, cause } = self.detail();
+        write!(f, "{}: {file}: {cause}. {}.", self.code(), self.fix())
+    }
+}
+
+/// An error as a JSON line.
+#[derive(Debug, Serialize)]
+pub struct Wire {
+    event: &'static str,
+    code: String,
+    file: String,
+    cause: String,
+    fix: &'static str,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn message_holds_code_file_cause_and_fix() {
+        let error = Error::empty(Path::new("a.las"), "the header announces 0 points");
+        assert_eq!(
+            error.to_string(),
+            "INPUT_EMPTY: a.las: the header announces 0 points. Give a file that holds points."
+        );
+    }
+
+    #[test]
+    fn an_option_names_itself() {
+        let error = Error::option("TEMP_DIR", "no such folder");
+        assert_eq!(error.code(), "OPTION_TEMP_DIR");
+        assert!(error.to_string().contains("--temp-dir"));
+    }
+}

@@ -1,0 +1,281 @@
+//! LAZ: where the chunks are, and how one is decoded without trusting it.
+
+use super::Block;
+use super::contain::contained;
+use crate::error::{Error, Result};
+use crate::scan::Scan;
+use laz::laszip::{ChunkTable, CompressorType};
+use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};
+use laz::{LasZipDecompressor, LazItemRecordBuilder, LazItemType, LazVlr};
+use std::fs::File;
+use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
+
+/// Points decoded at a time where there is no chunk table.
+const STREAM_POINTS: usize = 65_536;
+/// Bytes of the position of the chunk table, with which the point data begins.
+const TABLE_POSITION: u64 = 8;
+/// Bytes before the entries of the chunk table: version and number of chunks.
+const TABLE_HEADER: u64 = 8;
+
+/// The compression parameters, checked against the header.
+pub fn parameters(scan: &Scan) -> Result<LazVlr> {
+    let path = &scan.path;
+    let record = scan.record(LazVlr::USER_ID, LazVlr::RECORD_ID);
+    let record = record.ok_or_else(|| {
+        Error::corrupt(path, "the points are compressed, but the LASzip record is not there")
+    })?;
+    let vlr = contained(|| LazVlr::from_buffer(&record.data))
+        .map_err(|e| Error::corrupt(path, format!("LASzip record: {e}")))?;
+    let types = |items: &[laz::LazItem]| items.iter().map(|i| (i.item_type(), i.size())).collect::<Vec<_>>();
+    let extra = scan.header.point_data_record_length - crate::record::LENGTHS[usize::from(scan.point_format)];
+    let expected = LazItemRecordBuilder::default_for_point_format_id(scan.point_format, extra);
+    let expected = expected.map_err(|e| Error::corrupt(path, e))?;
+    if types(vlr.items()) != types(&expected) {
+        return Err(Error::corrupt(
+            path,
+            "the LASzip record does not fit the point format and record length",
+        ));
+    }
+    Ok(vlr)
+}
+
+/// The chunks by the chunk table, or `None` if the file has none and must be read from start to end.
+pub fn chunks(scan: &Scan, vlr: &LazVlr) -> Result<Option<Vec<Block>>> {
+    let path = &scan.path;
+    if !has_chunks(scan) {
+        return Ok(None);
+    }
+    let start = u64::from(scan.header.offset_to_point_data);
+    let mut file = File::open(path).map(BufReader::new).map_err(|e| Error::reading(path, &e))?;
+    let table_at = table_position(&mut file, start, scan.file_size).map_err(|e| Error::reading(path, &e))?;
+    let Some(table_at) = table_at else {
+        if vlr.uses_variable_size_chunks() {
+            return Err(Error::corrupt(
+                path,
+                "chunks of various sizes need a chunk table, and there is none",
+            ));
+        }
+        return Ok(None);
+    };
+    if table_at.saturating_add(TABLE_HEADER) > scan.file_size {
+        let cause = format!("the chunk table should stand at byte {table_at} of {}", scan.file_size);
+        return Err(Error::truncated(path, cause));
+    }
+    let first = start + TABLE_POSITION;
+    let table = read_table(&mut file, scan, vlr, table_at, first)?;
+    let mut blocks = Vec::with_capacity(table.len());
+    let (mut at, mut found) = (first, 0u64);
+    for entry in &table {
+        let points = if vlr.uses_variable_size_chunks() {
+            entry.point_count
+        } else {
+            u64::from(vlr.chunk_size()).min(scan.points.saturating_sub(found))
+        };
+        let end = at.checked_add(entry.byte_count).filter(|end| *end <= table_at);
+        let (Some(end), Some(sum)) = (end, found.checked_add(points)) else {
+            return Err(Error::corrupt(path, "the chunk table describes more data than the file has"));
+        };
+        if points > 0 {
+            blocks.push(Block { at, bytes: entry.byte_count, points });
+        } else if entry.byte_count > 0 {
+            return Err(Error::corrupt(path, "the file has more chunks than its announced points fill"));
+        }
+        (at, found) = (end, sum);
+    }
+    match found.cmp(&scan.points) {
+        std::cmp::Ordering::Equal => Ok(Some(blocks)),
+        std::cmp::Ordering::Less => Err(Error::truncated(
+            path,
+            format!("{} points are announced, the chunks hold {found}", scan.points),
+        )),
+        std::cmp::Ordering::Greater => Err(Error::corrupt(
+            path,
+            format!("{} points are announced, the chunks hold {found}", scan.points),
+        )),
+    }
+}
+
+/// The oldest LAZ files are one stream without chunks, compressor 1.
+fn has_chunks(scan: &Scan) -> bool {
+    let record = scan.record(LazVlr::USER_ID, LazVlr::RECORD_ID);
+    let compressor = record.and_then(|r| r.data.first_chunk::<2>()).map(|b| u16::from_le_bytes(*b));
+    compressor != Some(CompressorType::PointWise as u16)
+}
+
+/// Where the chunk table stands: said before the points, or, by a writer that could not go back, in the last
+/// eight bytes of the file.
+fn table_position(file: &mut BufReader<File>, start: u64, file_size: u64) -> std::io::Result<Option<u64>> {
+    let mut read_at = |at: u64| -> std::io::Result<Option<u64>> {
+        let mut bytes = [0; 8];
+        file.seek(SeekFrom::Start(at))?;
+        file.read_exact(&mut bytes)?;
+        Ok(u64::try_from(i64::from_le_bytes(bytes)).ok().filter(|position| *position > start))
+    };
+    if let Some(position) = read_at(start)? {
+        return Ok(Some(position));
+    }
+    let last = read_at(file_size - TABLE_POSITION)?;
+    Ok(last.filter(|position| *position < file_size))
+}
+
+fn read_table(
+    file: &mut BufReader<File>,
+    scan: &Scan,
+    vlr: &LazVlr,
+    table_at: u64,
+    first: u64,
+) -> Result<Vec<laz::laszip::ChunkTableEntry>> {
+    let path = &scan.path;
+    let mut head = [0; TABLE_HEADER as usize];
+    file.seek(SeekFrom::Start(table_at)).map_err(|e| Error::reading(path, &e))?;
+    file.read_exact(&mut head).map_err(|e| Error::reading(path, &e))?;
+    let announced = u64::from(u32::from_le_bytes([head[4], head[5], head[6], head[7]]));
+    // A chunk begins with an uncompressed record, so no more chunks than records' lengths can be there; one
+    // more for an empty last chunk.
+    let room = table_at.saturating_sub(first) / u64::from(scan.header.point_data_record_length);
+    if announced > room + 1 {
+        return Err(Error::corrupt(path, format!("{announced} chunks are announced, {room} have room")));
+    }
+    file.seek(SeekFrom::Start(table_at)).map_err(|e| Error::reading(path, &e))?;
+    let table = contained(|| Ok(ChunkTable::read(file, vlr.uses_variable_size_chunks())?));
+    table.map(|t| t.as_ref().to_vec()).map_err(|e| Error::corrupt(path, format!("chunk table: {e}")))
+}
+
+/// Decodes one whole chunk into `out`, a whole number of records. The error is a cause in words.
+pub fn decode_chunk(chunk: &[u8], vlr: &LazVlr, out: &mut [u8]) -> std::result::Result<(), String> {
+    let layered = vlr.items().first().is_some_and(|item| item.version() >= 3);
+    if layered {
+        check_layers(chunk, vlr)?;
+    }
+    contained(|| {
+        let source = Cursor::new(chunk);
+        if layered {
+            let mut decoder = LayeredPointRecordDecompressor::new(source);
+            decoder.set_fields_from(vlr.items())?;
+            decoder.decompress_many(out)?;
+        } else {
+            let mut decoder = SequentialPointRecordDecompressor::new(source);
+            decoder.set_fields_from(vlr.items())?;
+            decoder.decompress_many(out)?;
+        }
+        Ok(())
+    })
+    .map_err(|cause| format!("a chunk of {} bytes cannot be decoded ({cause})", chunk.len()))
+}
+
+/// The decoder allocates each layer by its announced size, so the sizes must lie in the chunk.
+///
+/// A layered chunk (LASzip 3): one plain record, the number of points (u32), the size of each layer (u32),
+/// then the layers.
+fn check_layers(chunk: &[u8], vlr: &LazVlr) -> std::result::Result<(), String> {
+    let layers: usize = vlr.items().iter().map(|item| layers_of(item.item_type())).sum();
+    let record: usize = vlr.items().iter().map(|item| usize::from(item.size())).sum();
+    let sizes_at = record + 4;
+    let body = sizes_at + layers * 4;
+    let Some(sizes) = chunk.get(sizes_at..body) else {
+        return Err(format!("a chunk of {} bytes is shorter than its own description", chunk.len()));
+    };
+    let total: u64 = sizes.as_chunks::<4>().0.iter().map(|b| u64::from(u32::from_le_bytes(*b))).sum();
+    if total > (chunk.len() - body) as u64 {
+        return Err(format!(
+            "the layers of a chunk of {} bytes are announced with {total} bytes",
+            chunk.len()
+        ));
+    }
+    Ok(())
+}
+
+fn layers_of(item: LazItemType) -> usize {
+    match item {
+        LazItemType::Point14 => 9,
+        LazItemType::RGBNIR14 => 2,
+        LazItemType::Byte14(count) => count.into(),
+        _ => 1,
+    }
+}
+
+/// Decodes a file without chunk table, some ten thousand points at a time; `each` gets the decoded records and
+/// their part of `out`.
+pub fn stream(
+    scan: &Scan,
+    vlr: &LazVlr,
+    out: &mut [u8],
+    target_length: usize,
+    mut each: impl FnMut(&[u8], &mut [u8]) -> Result<()>,
+) -> Result<()> {
+    let path = &scan.path;
+    let mut file = File::open(path).map(BufReader::new).map_err(|e| Error::reading(path, &e))?;
+    file.seek(SeekFrom::Start(scan.header.offset_to_point_data.into()))
+        .map_err(|e| Error::reading(path, &e))?;
+    let decoder = contained(|| LasZipDecompressor::new(Forward(file), vlr.clone()));
+    let mut decoder = decoder.map_err(|cause| Error::corrupt(path, cause))?;
+    let source_length = usize::from(scan.header.point_data_record_length);
+    let mut raw = vec![0; STREAM_POINTS * source_length];
+    for part in out.chunks_mut(STREAM_POINTS * target_length) {
+        let raw = &mut raw[..part.len() / target_length * source_length];
+        let mut early = false;
+        let decoded = contained(|| {
+            decoder.decompress_many(raw).map_err(|e| {
+                early = e.kind() == std::io::ErrorKind::UnexpectedEof;
+                e.into()
+            })
+        });
+        match decoded {
+            Err(_) if early => return Err(Error::truncated(path, "the compressed points end early")),
+            Err(cause) => return Err(Error::corrupt(path, cause)),
+            Ok(()) => each(raw, part)?,
+        }
+    }
+    Ok(())
+}
+
+/// A source that is read from here on and nowhere else: given a seekable one, the decoder looks for the chunk
+/// table that is not there, and loses its place.
+struct Forward(BufReader<File>);
+
+impl Read for Forward {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        self.0.read(buffer)
+    }
+}
+
+impl Seek for Forward {
+    fn seek(&mut self, _: SeekFrom) -> std::io::Result<u64> {
+        Err(std::io::ErrorKind::NotSeekable.into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use laz::LazVlrBuilder;
+
+    fn chunk(points: &[u8], format: u8) -> (Vec<u8>, LazVlr) {
+        let vlr =
+            LazVlrBuilder::default().with_point_format(format, 0).unwrap().with_variable_chunk_size().build();
+        let bytes = crate::copc::chunk::compress(points, &vlr).unwrap();
+        (bytes, vlr)
+    }
+
+    #[test]
+    fn garbage_is_an_error_and_never_a_panic() {
+        let points: Vec<u8> = (0..30 * 36u32).map(|i| (i * i % 251) as u8).collect();
+        let (good, vlr) = chunk(&points, 7);
+        let mut out = vec![0; points.len()];
+        decode_chunk(&good, &vlr, &mut out).unwrap();
+        assert_eq!(out, points);
+        for at in (0..good.len()).step_by(11) {
+            let mut bad = good.clone();
+            bad[at] ^= 0x55;
+            let _ = decode_chunk(&bad, &vlr, &mut out);
+            assert!(decode_chunk(&good[..at], &vlr, &mut out).is_err() || at + 8 > good.len(), "cut at {at}");
+        }
+    }
+
+    #[test]
+    fn lying_layer_sizes_are_refused_before_allocation() {
+        let (mut bytes, vlr) = chunk(&[0; 360], 7);
+        bytes[40..44].copy_from_slice(&u32::MAX.to_le_bytes());
+        assert!(decode_chunk(&bytes, &vlr, &mut [0; 360]).unwrap_err().contains("announced"));
+    }
+}

@@ -1,0 +1,16 @@
+//! The core of the `groma` command: LAS and LAZ in, one COPC 1.0 file out, every input record in exactly one
+//! node, coordinates and attributes bit for bit.
+//!
+//! The way of the data is a chain of stages whose order the types enforce, see [`pipeline::Pipeline`].
+
+pub mod copc;
+pub mod error;
+pub mod input;
+pub mod memory;
+pub mod octree;
+pub mod output;
+pub mod pipeline;
+pub mod progress;
+pub mod record;
+pub mod scan;
+pub mod statistics;

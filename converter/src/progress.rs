@@ -1,0 +1,96 @@
+//! Where a run tells how far it is.
+
+use serde::Serialize;
+use std::io::Write;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// The stages that a user sees, in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stage {
+    Read,
+    Build,
+    Write,
+}
+
+/// Receives what a run has to tell. Called from several threads.
+pub trait Progress: Sync {
+    /// `done` of `total` points of a stage are done.
+    fn advance(&self, stage: Stage, done: u64, total: u64);
+    /// Something in the input was not as the standard wants it, and this is what was made of it.
+    fn warn(&self, text: &str);
+}
+
+/// Tells nobody.
+pub struct Silent;
+
+impl Progress for Silent {
+    fn advance(&self, _: Stage, _: u64, _: u64) {}
+    fn warn(&self, _: &str) {}
+}
+
+#[derive(Serialize)]
+#[serde(tag = "event", rename_all = "lowercase")]
+enum Line<'a> {
+    Progress { stage: Stage, done: u64, total: u64 },
+    Warning { text: &'a str },
+}
+
+/// One JSON object per line on standard output.
+pub struct JsonLines;
+
+impl JsonLines {
+    /// Prints one event. A closed pipe is not an error of the run, so a failed write is dropped.
+    pub fn print(event: &impl Serialize) {
+        let line = serde_json::to_string(event).unwrap_or_default();
+        let mut out = std::io::stdout().lock();
+        let _ = writeln!(out, "{line}").and_then(|()| out.flush());
+    }
+}
+
+impl Progress for JsonLines {
+    fn advance(&self, stage: Stage, done: u64, total: u64) {
+        Self::print(&Line::Progress { stage, done, total });
+    }
+
+    fn warn(&self, text: &str) {
+        Self::print(&Line::Warning { text });
+    }
+}
+
+const INTERVAL: Duration = Duration::from_millis(100);
+
+/// Counts the points of one stage and passes the count on, at most ten times a second and once at the end.
+pub struct Meter<'a> {
+    sink: &'a dyn Progress,
+    stage: Stage,
+    total: u64,
+    done: AtomicU64,
+    last: Mutex<Instant>,
+}
+
+impl<'a> Meter<'a> {
+    pub fn start(sink: &'a dyn Progress, stage: Stage, total: u64) -> Self {
+        sink.advance(stage, 0, total);
+        Self { sink, stage, total, done: AtomicU64::new(0), last: Mutex::new(Instant::now()) }
+    }
+
+    pub fn add(&self, points: u64) {
+        let done = self.done.fetch_add(points, Ordering::Relaxed) + points;
+        if done == self.total {
+            return;
+        }
+        if let Ok(mut last) = self.last.try_lock()
+            && last.elapsed() >= INTERVAL
+        {
+            *last = Instant::now();
+            self.sink.advance(self.stage, done, self.total);
+        }
+    }
+
+    pub fn finish(self) {
+        self.sink.advance(self.stage, self.total, self.total);
+    }
+}

@@ -1,0 +1,204 @@
+//! The header and the variable length records of one LAS or LAZ file: tolerant of what is known to be wrong
+//! in the wild, and never believing a number that the file's size contradicts.
+
+pub mod describe;
+pub mod extra_bytes;
+pub mod variable_record;
+
+use crate::error::{Error, Result};
+use las::raw::Header;
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use variable_record::VariableRecord;
+
+/// Bytes of a LAS 1.0 to 1.2 header, the shortest there is.
+const SHORTEST_HEADER: u64 = 227;
+
+/// What stands before and after the points of one file.
+#[derive(Debug, Clone)]
+pub struct Scan {
+    pub path: PathBuf,
+    pub file_size: u64,
+    pub header: Header,
+    /// Announced number of points.
+    pub points: u64,
+    /// Point data record format without the compression bits, 0 to 10 if the file is sound.
+    pub point_format: u8,
+    /// Whether the points are LAZ.
+    pub compressed: bool,
+    pub vlrs: Vec<VariableRecord>,
+    /// Extended records, without waveform data and COPC hierarchy.
+    pub evlrs: Vec<VariableRecord>,
+    /// What was found wrong and passed over.
+    pub warnings: Vec<String>,
+}
+
+impl Scan {
+    /// Reads everything but the points.
+    ///
+    /// Errors: `INPUT_NOT_FOUND`, `INPUT_MAGIC`, `INPUT_TRUNCATED` (the header or the offset to the points lies
+    /// beyond the end), `INPUT_FORMAT` (a LAS version after 1.4), `INPUT_CORRUPT`.
+    pub fn read(path: &Path) -> Result<Self> {
+        let file = File::open(path)
+            .map_err(|e| Error::not_found(path, format!("the file cannot be opened ({e})")))?;
+        let meta = file.metadata().map_err(|e| Error::reading(path, &e))?;
+        if !meta.is_file() {
+            return Err(Error::not_found(path, "this is not a file"));
+        }
+        let file_size = meta.len();
+        let mut reader = BufReader::new(file);
+        check_signature(&mut reader, file_size, path)?;
+        let header = Header::read_from(&mut reader).map_err(|e| header_error(path, file_size, &e))?;
+        check_header(&header, file_size, path)?;
+
+        let mut warnings = Vec::new();
+        let points = announced_points(&header, &mut warnings);
+        let vlrs = read_vlrs(&mut reader, &header, path, &mut warnings)?;
+        let evlrs = read_evlrs(&mut reader, &header, file_size, path, &mut warnings)?;
+        let format = header.point_data_record_format;
+        Ok(Self {
+            path: path.to_path_buf(),
+            file_size,
+            points,
+            point_format: format & 0x3f,
+            compressed: format & 0xc0 != 0,
+            header,
+            vlrs,
+            evlrs,
+            warnings,
+        })
+    }
+
+    /// All records, the extended ones last.
+    pub fn records(&self) -> impl Iterator<Item = &VariableRecord> {
+        self.vlrs.iter().chain(&self.evlrs)
+    }
+
+    pub fn record(&self, user_id: &str, record_id: u16) -> Option<&VariableRecord> {
+        self.records().find(|record| record.is(user_id, record_id))
+    }
+
+    pub fn scale(&self) -> [f64; 3] {
+        let h = &self.header;
+        [h.x_scale_factor, h.y_scale_factor, h.z_scale_factor]
+    }
+
+    pub fn offset(&self) -> [f64; 3] {
+        let h = &self.header;
+        [h.x_offset, h.y_offset, h.z_offset]
+    }
+}
+
+fn check_signature(reader: &mut BufReader<File>, file_size: u64, path: &Path) -> Result<()> {
+    let mut signature = Vec::new();
+    reader.by_ref().take(4).read_to_end(&mut signature).map_err(|e| Error::reading(path, &e))?;
+    if signature.is_empty() {
+        return Err(Error::magic(path, "the file has no byte"));
+    }
+    if !b"LASF".starts_with(&signature) {
+        return Err(Error::magic(path, "the file does not begin with `LASF`"));
+    }
+    if file_size < SHORTEST_HEADER {
+        return Err(Error::truncated(path, format!("{file_size} bytes are less than a LAS header")));
+    }
+    reader.rewind().map_err(|e| Error::reading(path, &e))
+}
+
+fn header_error(path: &Path, file_size: u64, error: &las::Error) -> Error {
+    match error {
+        las::Error::Io(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
+            Error::truncated(path, format!("the file ends inside its header, after {file_size} bytes"))
+        }
+        _ => Error::corrupt(path, format!("the header cannot be read ({error})")),
+    }
+}
+
+fn check_header(header: &Header, file_size: u64, path: &Path) -> Result<()> {
+    let version = header.version;
+    if version.major != 1 || version.minor > 4 {
+        return Err(Error::format(path, format!("LAS version {version} is not known")));
+    }
+    if header.header_size < version.header_size() {
+        let cause = format!("a header of {} bytes is too short for LAS {version}", header.header_size);
+        return Err(Error::corrupt(path, cause));
+    }
+    let points_at = u64::from(header.offset_to_point_data);
+    if points_at > file_size {
+        let cause = format!("the points begin at byte {points_at} of {file_size}");
+        return Err(Error::truncated(path, cause));
+    }
+    if points_at < u64::from(header.header_size) {
+        return Err(Error::corrupt(path, "the points begin inside the header"));
+    }
+    Ok(())
+}
+
+/// The number of points that the header announces: the 64-bit field of LAS 1.4 unless it is zero.
+fn announced_points(header: &Header, warnings: &mut Vec<String>) -> u64 {
+    let legacy = u64::from(header.number_of_point_records);
+    let large = header.large_file.map_or(0, |l| l.number_of_point_records);
+    if large != 0 && legacy != 0 && large != legacy {
+        warnings.push(format!(
+            "the header announces {large} points and, in the legacy field, {legacy}; {large} is taken"
+        ));
+    }
+    if large != 0 { large } else { legacy }
+}
+
+/// The records between header and points. A count that does not fit in there is passed over with a warning:
+/// what is there is read, the rest is garbage.
+fn read_vlrs(
+    reader: &mut BufReader<File>,
+    header: &Header,
+    path: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<VariableRecord>> {
+    let room = u64::from(header.offset_to_point_data) - u64::from(header.header_size);
+    reader.seek(SeekFrom::Start(header.header_size.into())).map_err(|e| Error::reading(path, &e))?;
+    let mut area = Vec::new();
+    reader.by_ref().take(room).read_to_end(&mut area).map_err(|e| Error::reading(path, &e))?;
+    let announced = header.number_of_variable_length_records;
+    let mut rest = area.as_slice();
+    let mut records = Vec::new();
+    for _ in 0..announced {
+        let Some((record, after)) = VariableRecord::parse(rest) else {
+            let found = records.len();
+            warnings.push(format!("{announced} variable length records are announced, {found} are there"));
+            break;
+        };
+        records.push(record);
+        rest = after;
+    }
+    Ok(records)
+}
+
+/// The records after the points (LAS 1.4). Waveform data and COPC hierarchy are skipped unread: neither goes
+/// into the output, and both may be large.
+fn read_evlrs(
+    reader: &mut BufReader<File>,
+    header: &Header,
+    file_size: u64,
+    path: &Path,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<VariableRecord>> {
+    let mut records = Vec::new();
+    let Some(evlr) = header.evlr.filter(|e| e.number_of_evlrs > 0) else {
+        return Ok(records);
+    };
+    let mut at = evlr.start_of_first_evlr;
+    for found in 0..evlr.number_of_evlrs {
+        let Some((record, next)) =
+            VariableRecord::read_extended(reader, at, file_size).map_err(|e| Error::reading(path, &e))?
+        else {
+            let announced = evlr.number_of_evlrs;
+            warnings.push(format!(
+                "{announced} extended variable length records are announced, {found} are there"
+            ));
+            break;
+        };
+        records.extend(record);
+        at = next;
+    }
+    Ok(records)
+}

@@ -1,0 +1,175 @@
+//! Attribute statistics of all points, the second of Groma's records.
+
+use crate::record::fields::Field;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// Records summed up at a time. A fixed number, so that float sums do not depend on the number of threads.
+const BLOCK: usize = 65_536;
+
+/// Byte of the return number and of the classification in the formats 6 to 8.
+const RETURN_AT: usize = 14;
+const CLASS_AT: usize = 16;
+
+/// What the JSON of the record says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Statistics {
+    version: u32,
+    points: u64,
+    /// 8 where no colour exceeds 255, 16 where one does, none where there is no colour but black.
+    rgb_bits: Option<u8>,
+    attributes: Vec<Attribute>,
+    /// Points per class.
+    classes: BTreeMap<u8, u64>,
+    /// Points per return number.
+    returns: BTreeMap<u8, u64>,
+}
+
+/// Range and mean of one attribute, in its own unit (source coordinates for x, y and z).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Attribute {
+    pub name: String,
+    pub min: f64,
+    pub max: f64,
+    pub mean: f64,
+}
+
+impl Statistics {
+    /// `fields` of records of `length` bytes; values that are not finite do not count.
+    pub fn of(records: &[u8], length: usize, fields: &[Field]) -> Self {
+        let partial: Vec<_> =
+            records.par_chunks(length * BLOCK).map(|block| Partial::of(block, length, fields)).collect();
+        let mut total = Partial::empty(fields.len());
+        for part in &partial {
+            total.add(part);
+        }
+        let attributes: Vec<_> =
+            fields.iter().zip(&total.sums).filter_map(|(f, sum)| sum.finish(f)).collect();
+        let brightest = attributes.iter().filter(|a| matches!(a.name.as_str(), "red" | "green" | "blue"));
+        let brightest = brightest.map(|a| a.max).reduce(f64::max);
+        let present = |counts: &[u64]| -> BTreeMap<u8, u64> {
+            (0..=u8::MAX).zip(counts).filter(|(_, n)| **n > 0).map(|(value, n)| (value, *n)).collect()
+        };
+        Self {
+            version: 1,
+            points: (records.len() / length) as u64,
+            rgb_bits: brightest.filter(|max| *max > 0.0).map(|max| if max > 255.0 { 16 } else { 8 }),
+            attributes,
+            classes: present(&total.classes),
+            returns: present(&total.returns),
+        }
+    }
+
+    pub fn attribute(&self, name: &str) -> Option<&Attribute> {
+        self.attributes.iter().find(|attribute| attribute.name == name)
+    }
+
+    /// Points of the return numbers 1 to 15, as the header of LAS 1.4 counts them.
+    pub fn points_by_return(&self) -> [u64; 15] {
+        std::array::from_fn(|i| self.returns.get(&(i as u8 + 1)).copied().unwrap_or(0))
+    }
+}
+
+/// Range and sum of the stored numbers of one field.
+#[derive(Debug, Clone, Copy)]
+struct Sum {
+    min: f64,
+    max: f64,
+    total: f64,
+    count: u64,
+}
+
+impl Sum {
+    const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY, total: 0.0, count: 0 };
+
+    fn finish(&self, field: &Field) -> Option<Attribute> {
+        let value = |stored: f64| stored * field.scale + field.offset;
+        let (a, b) = (value(self.min), value(self.max));
+        let mean = value(self.total / self.count as f64);
+        let finite = a.is_finite() && b.is_finite() && mean.is_finite();
+        finite.then(|| Attribute { name: field.name.clone(), min: a.min(b), max: a.max(b), mean })
+    }
+}
+
+struct Partial {
+    sums: Vec<Sum>,
+    classes: [u64; 256],
+    returns: [u64; 16],
+}
+
+impl Partial {
+    fn empty(fields: usize) -> Self {
+        Self { sums: vec![Sum::EMPTY; fields], classes: [0; 256], returns: [0; 16] }
+    }
+
+    fn of(block: &[u8], length: usize, fields: &[Field]) -> Self {
+        let mut partial = Self::empty(fields.len());
+        for (field, sum) in fields.iter().zip(&mut partial.sums) {
+            for value in block.chunks_exact(length).filter_map(|record| field.stored(record)) {
+                if value.is_finite() {
+                    sum.min = sum.min.min(value);
+                    sum.max = sum.max.max(value);
+                    sum.total += value;
+                    sum.count += 1;
+                }
+            }
+        }
+        for record in block.chunks_exact(length) {
+            partial.classes[usize::from(record[CLASS_AT])] += 1;
+            partial.returns[usize::from(record[RETURN_AT] & 15)] += 1;
+        }
+        partial
+    }
+
+    fn add(&mut self, other: &Self) {
+        for (mine, its) in self.sums.iter_mut().zip(&other.sums) {
+            mine.min = mine.min.min(its.min);
+            mine.max = mine.max.max(its.max);
+            mine.total += its.total;
+            mine.count += its.count;
+        }
+        let pairs =
+            self.classes.iter_mut().zip(&other.classes).chain(self.returns.iter_mut().zip(&other.returns));
+        for (mine, its) in pairs {
+            *mine += its;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Target;
+    use crate::record::fields::fields;
+
+    #[test]
+    fn ranges_counts_and_colour_depth() {
+        let mut records = vec![0u8; 36 * 3];
+        for (index, record) in records.chunks_exact_mut(36).enumerate() {
+            record[..4].copy_from_slice(&(index as i32 * 100).to_le_bytes());
+            record[14] = 0x21 + index as u8;
+            record[16] = 2;
+            record[22..30].copy_from_slice(&[1.5, f64::NAN, 2.5][index].to_le_bytes());
+            record[30] = 200;
+        }
+        let all = fields(Target::Rgb, [0.01, 1.0, 1.0], [10.0, 0.0, 0.0], &[], 36);
+        let statistics = Statistics::of(&records, 36, &all);
+        let x = statistics.attribute("x").unwrap();
+        assert_eq!((x.min, x.max, x.mean), (10.0, 12.0, 11.0));
+        let time = statistics.attribute("gpsTime").unwrap();
+        assert_eq!((time.min, time.max, time.mean), (1.5, 2.5, 2.0));
+        assert_eq!(statistics.rgb_bits, Some(8));
+        assert_eq!(statistics.points_by_return()[..4], [1, 1, 1, 0]);
+        let json = serde_json::to_value(&statistics).unwrap();
+        assert_eq!(json["classes"], serde_json::json!({ "2": 3 }));
+        assert_eq!(json["returns"], serde_json::json!({ "1": 1, "2": 1, "3": 1 }));
+    }
+
+    #[test]
+    fn black_is_no_colour() {
+        let all = fields(Target::Rgb, [1.0; 3], [0.0; 3], &[], 36);
+        assert_eq!(Statistics::of(&[0; 72], 36, &all).rgb_bits, None);
+    }
+}

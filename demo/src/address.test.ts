@@ -1,0 +1,92 @@
+import { describe, expect, it } from "vitest";
+import { cloudAddress, PageError, readPageOptions } from "./address.js";
+
+const page = "http://localhost:8080/globe/?x=1";
+
+/** Code of the error that reading throws. */
+function codeOf(read: () => unknown): string {
+  try {
+    read();
+  } catch (thrown) {
+    if (thrown instanceof PageError) return thrown.code;
+    throw thrown;
+  }
+  return "none";
+}
+
+describe("the address of a cloud", () => {
+  it.each([
+    ["/data/site.copc.laz", "http://localhost:8080/data/site.copc.laz"],
+    ["site.copc.laz", "http://localhost:8080/globe/site.copc.laz"],
+    ["../data/a b.copc.laz", "http://localhost:8080/data/a%20b.copc.laz"],
+    ["https://example.org/s.copc.laz?key=1", "https://example.org/s.copc.laz?key=1"],
+    ["//example.org/s.copc.laz", "http://example.org/s.copc.laz"],
+    ["  /data/site.copc.laz ", "http://localhost:8080/data/site.copc.laz"],
+  ])("%s is taken", (text, address) => {
+    expect(cloudAddress(text, page)).toBe(address);
+  });
+
+  it.each([
+    "javascript:alert(1)",
+    " JavaScript:alert(1)",
+    "data:application/octet-stream,LASF",
+    "blob:http://localhost:8080/1",
+    "file:///etc/passwd",
+    "ftp://example.org/s.copc.laz",
+    "C:\\scans\\site.copc.laz",
+    "https://user:secret@example.org/s.copc.laz",
+    "http://",
+    "",
+    "   ",
+  ])("%j is refused", (text) => {
+    expect(codeOf(() => cloudAddress(text, page))).toBe("PAGE_ADDRESS");
+  });
+
+  it("is refused without repeating a password", () => {
+    expect(() => cloudAddress("https://user:secret@example.org/s.laz", page)).toThrow(/^(?!.*secret)/);
+  });
+});
+
+describe("the options of the page", () => {
+  const read = (query: string) => readPageOptions(`http://localhost:8080/?${query}`);
+
+  it("are few by default", () => {
+    expect(read("")).toEqual({ fly: true });
+  });
+
+  it("are read together", () => {
+    expect(
+      read("cloud=/data/s.copc.laz&budget=300000&size=2.5&color=intensity&fly=0&crs=EPSG:2056&other=1"),
+    ).toEqual({
+      cloud: "http://localhost:8080/data/s.copc.laz",
+      budget: 300_000,
+      size: 2.5,
+      color: "intensity",
+      crs: "EPSG:2056",
+      fly: false,
+    });
+  });
+
+  it.each([
+    "budget=0",
+    "budget=1e6",
+    "budget=1.5",
+    "budget=-1",
+    "budget=",
+    "budget=999999999999",
+    "size=0.5",
+    "size=65",
+    "size=NaN",
+    "size=2px",
+    "color=RGB",
+    "color=red",
+    "fly=yes",
+  ])("%s is refused", (query) => {
+    expect(codeOf(() => read(query))).toBe("PAGE_OPTION");
+  });
+
+  it("do not open what is no address of a cloud", () => {
+    expect(codeOf(() => read("cloud=javascript:alert(1)"))).toBe("PAGE_ADDRESS");
+    expect(codeOf(() => read("cloud="))).toBe("PAGE_ADDRESS");
+  });
+});

@@ -1,0 +1,114 @@
+import { GromaError } from "@groma/georef";
+
+/** An address or an option in the page's own address cannot be used. Codes start with `PAGE_`. */
+export class PageError extends GromaError {}
+
+/** Colourings that the page's address may name. */
+export const COLOURS = ["rgb", "elevation", "intensity"] as const;
+
+/** What the page's own address asks for. */
+export interface PageOptions {
+  /** Absolute `http:` or `https:` address of the cloud. */
+  readonly cloud?: string;
+  /** Most points drawn at once. */
+  readonly budget?: number;
+  /** Point size, CSS pixels. */
+  readonly size?: number;
+  readonly color?: (typeof COLOURS)[number];
+  /** Coordinate system of the cloud, in place of what the file says. */
+  readonly crs?: string;
+  /** Height reference of the cloud: `EPSG:5728` or `ellipsoidal`. */
+  readonly vertical?: string;
+  /** Whether the camera flies to the cloud rather than being there at once. */
+  readonly fly: boolean;
+}
+
+const MOST_POINTS = 100_000_000;
+
+/**
+ * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `fly`. Others are
+ * left alone.
+ * @param page the page's whole address
+ * @throws PageError PAGE_ADDRESS, PAGE_OPTION
+ */
+export function readPageOptions(page: string): PageOptions {
+  const query = new URL(page).searchParams;
+  const cloud = query.get("cloud");
+  const budget = number(query, "budget", { least: 1, most: MOST_POINTS, whole: true });
+  const size = number(query, "size", { least: 1, most: 64, whole: false });
+  const color = word(query, "color", COLOURS);
+  const crs = query.get("crs");
+  const vertical = query.get("vertical");
+  return {
+    ...(cloud !== null && { cloud: cloudAddress(cloud, page) }),
+    ...(budget !== undefined && { budget }),
+    ...(size !== undefined && { size }),
+    ...(color !== undefined && { color }),
+    ...(crs && { crs }),
+    ...(vertical && { vertical }),
+    fly: word(query, "fly", ["0", "1"]) !== "0",
+  };
+}
+
+/**
+ * The absolute address of a cloud that was named relative to the page or by `http:` or `https:`.
+ * @throws PageError PAGE_ADDRESS for anything else: a script, a file of the reader's disk, data, a login
+ */
+export function cloudAddress(text: string, page: string): string {
+  const trimmed = text.trim();
+  if (trimmed === "") throw badAddress("the address", "it is empty");
+  let address: URL;
+  try {
+    address = new URL(trimmed, page);
+  } catch {
+    throw badAddress(trimmed, "this is not an address");
+  }
+  const { protocol, username, password } = address;
+  if (protocol !== "http:" && protocol !== "https:") {
+    throw badAddress(trimmed, `the page opens no addresses that begin with ${protocol}`);
+  }
+  if (username || password) throw badAddress(`${address.host}…`, "the address carries a login");
+  return address.href;
+}
+
+function badAddress(file: string, cause: string): PageError {
+  return new PageError({
+    code: "PAGE_ADDRESS",
+    file: file.length > 120 ? `${file.slice(0, 119)}…` : file,
+    cause,
+    fix: "Give a path on this server or an http(s) address; open files of this computer with Choose a file",
+  });
+}
+
+function number(
+  query: URLSearchParams,
+  name: string,
+  { least, most, whole }: { least: number; most: number; whole: boolean },
+): number | undefined {
+  const text = query.get(name);
+  if (text === null) return undefined;
+  const value = (whole ? /^\d+$/ : /^\d+(\.\d+)?$/).test(text) ? Number(text) : Number.NaN;
+  if (value >= least && value <= most) return value;
+  throw badOption(name, text, `a ${whole ? "whole " : ""}number from ${least} to ${most}`);
+}
+
+function word<Word extends string>(
+  query: URLSearchParams,
+  name: string,
+  words: readonly Word[],
+): Word | undefined {
+  const text = query.get(name);
+  if (text === null) return undefined;
+  const found = words.find((each) => each === text);
+  if (found) return found;
+  throw badOption(name, text, `one of ${words.join(", ")}`);
+}
+
+function badOption(name: string, text: string, wanted: string): PageError {
+  return new PageError({
+    code: "PAGE_OPTION",
+    file: `the option ${name} of the page's address`,
+    cause: text === "" ? "it is empty" : `"${text.slice(0, 60)}" is not what it takes`,
+    fix: `Give ${wanted}`,
+  });
+}

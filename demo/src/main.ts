@@ -1,0 +1,165 @@
+import "cesium/Build/Cesium/Widgets/widgets.css";
+import "./style.css";
+import { CrsError } from "@groma/georef";
+import type { PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import type { Viewer } from "cesium";
+import { cloudAddress, PageError, type PageOptions, readPageOptions } from "./address.js";
+import { type Flight, goToCloud } from "./camera.js";
+import { CloudSlot, type OpenOptions } from "./open.js";
+import type { Groma } from "./page-global.js";
+import { Chooser } from "./panel/chooser.js";
+import { Controls } from "./panel/controls.js";
+import { byId } from "./panel/elements.js";
+import { showFacts } from "./panel/facts.js";
+import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
+import { Message } from "./panel/message.js";
+import { Progress } from "./panel/progress.js";
+import { addBaseMap, createViewer } from "./viewer.js";
+
+const message = new Message();
+
+/** The page once its globe stands. */
+function start(viewer: Viewer): void {
+  const groma: Groma = { viewer, layer: undefined };
+  window.groma = groma;
+  let options: PageOptions = { fly: true };
+  const slot = new CloudSlot(viewer.scene.primitives);
+  const progress = new Progress();
+  const controls = new Controls((aspect) => {
+    if (slot.layer) void goToCloud(viewer, slot.layer, { aspect, free: freeArea(), way: way("fly") });
+  });
+  const chooser = new Chooser({
+    file: (file) => void choose(file, file.name),
+    address: (text) => {
+      try {
+        const address = cloudAddress(text, location.href);
+        void choose(address, address);
+      } catch (thrown) {
+        message.show(thrown);
+      }
+    },
+  });
+  connectFold();
+  watchDrawing(viewer);
+  addBaseMap(viewer).catch((thrown: unknown) => message.show(thrown));
+  try {
+    options = readPageOptions(location.href);
+  } catch (thrown) {
+    message.show(thrown);
+    return;
+  }
+  openNamed();
+
+  /** Opens the cloud that the page's address names. */
+  function openNamed(): void {
+    const { cloud, color, crs, vertical } = options;
+    if (!cloud) return;
+    chooser.fill(new URL(location.href).searchParams.get("cloud") ?? "");
+    const style = { ...lasting().style, ...(color && { color }) };
+    void open(cloud, cloud, { ...lasting(), style, crs, vertical });
+  }
+
+  /** Opens the cloud that the reader chose. */
+  async function choose(from: string | File, name: string): Promise<void> {
+    const layer = await open(from, name, { ...lasting(), crsIfMissing: chooser.crs });
+    if (layer) rememberCloud(from, layer.cloud, chooser.crs);
+  }
+
+  /** What holds for every cloud that is opened, not only for the one in the page's address. */
+  function lasting(): OpenOptions {
+    const { budget, size } = options;
+    return {
+      ...(budget !== undefined && { pointBudget: budget }),
+      style: size === undefined ? {} : { pointSize: size },
+    };
+  }
+
+  function way(wanted: Flight["way"]): Flight["way"] {
+    const still = !options.fly || matchMedia("(prefers-reduced-motion: reduce)").matches;
+    return still ? "jump" : wanted;
+  }
+
+  /** @returns the layer, unless it cannot be opened, which is told, or another one was opened meanwhile */
+  async function open(
+    from: string | File,
+    name: string,
+    how: OpenOptions,
+  ): Promise<PointCloudLayer | undefined> {
+    const wanted = slot.layer ? "fly" : "descend";
+    message.clear();
+    progress.opening(name);
+    try {
+      const layer = await slot.open(from, how);
+      if (layer) await show(layer, wanted);
+      return slot.layer === layer ? layer : undefined;
+    } catch (thrown) {
+      if (slot.layer) progress.follow(slot.layer);
+      else progress.rest();
+      const give = { label: "Give it here", run: () => chooser.askForCrs() };
+      message.show(thrown, thrown instanceof CrsError ? give : undefined);
+      return undefined;
+    }
+  }
+
+  async function show(layer: PointCloudLayer, wanted: Flight["way"]): Promise<void> {
+    groma.layer = undefined;
+    showFacts(layer.cloud);
+    controls.attach(layer);
+    progress.follow(layer);
+    tellFailures(layer);
+    chooser.fold();
+    foldIfNarrow();
+    await goToCloud(viewer, layer, { aspect: "oblique", free: freeArea(), way: way(wanted) });
+    if (slot.layer === layer) groma.layer = layer;
+  }
+}
+
+/** Tells the first of the nodes that fail; how many did is told with the progress. */
+function tellFailures(layer: PointCloudLayer): void {
+  let told = false;
+  layer.nodeFailed.addEventListener((_node, thrown) => {
+    if (told) return;
+    told = true;
+    const again = () => {
+      told = false;
+      layer.retryFailed();
+    };
+    message.show(thrown, { label: "Try again", run: again });
+  });
+}
+
+/** Keeps the page's address in step with what it shows, so that it can be reloaded and passed on. */
+function rememberCloud(from: string | File, { basis }: PointCloud, crs: string | undefined): void {
+  const page = new URL(location.href);
+  for (const name of ["cloud", "crs", "vertical"]) page.searchParams.delete(name);
+  if (typeof from === "string") {
+    const { origin, pathname, search } = new URL(from);
+    page.searchParams.set("cloud", origin === location.origin ? pathname + search : from);
+    if (basis === "given" && crs) page.searchParams.set("crs", crs);
+  }
+  history.replaceState(null, "", page);
+}
+
+/** Tells when the globe can no longer be drawn. */
+function watchDrawing({ scene, canvas }: Viewer): void {
+  const stopped = (cause: string) =>
+    message.show(
+      new PageError({
+        code: "PAGE_DRAWING",
+        file: "the globe",
+        cause: `drawing stopped: ${cause}`,
+        fix: "Reload the page; if it happens again, draw fewer points with ?budget=300000",
+      }),
+    );
+  scene.renderError.addEventListener((_scene: unknown, thrown: unknown) =>
+    stopped(thrown instanceof Error ? thrown.message : String(thrown)),
+  );
+  canvas.addEventListener("webglcontextlost", () => stopped("the browser took the graphics card away"));
+}
+
+try {
+  start(createViewer(byId("globe", HTMLDivElement)));
+} catch (thrown) {
+  for (const id of ["body", "fold"]) byId(id, HTMLElement).hidden = true;
+  message.show(thrown);
+}

@@ -1,0 +1,15 @@
+import type { PointCloudLayer } from "@groma/layer/cesium";
+import type { Viewer } from "cesium";
+
+/** What the page offers to the browser's console and to tests. */
+export interface Groma {
+  readonly viewer: Viewer;
+  /** The cloud, from when the camera stands before it. */
+  layer: PointCloudLayer | undefined;
+}
+
+declare global {
+  interface Window {
+    groma?: Groma;
+  }
+}

@@ -1,0 +1,38 @@
+import type { ScreenRectangle } from "../framing.js";
+import { byId } from "./elements.js";
+
+/** Screens narrower than this (CSS pixels) begin with the panel folded; as in style.css. */
+const NARROW = 640;
+/** Space kept between a cloud and what is beside it, CSS pixels. */
+const MARGIN = 16;
+
+/** Lets the reader fold the panel to its heading. */
+export function connectFold(): void {
+  const button = byId("fold", HTMLButtonElement);
+  button.addEventListener("click", () => setFolded(button.getAttribute("aria-expanded") === "true"));
+}
+
+/** Folds the panel where it would hide the cloud. */
+export function foldIfNarrow(): void {
+  if (innerWidth < NARROW) setFolded(true);
+}
+
+export function setFolded(folded: boolean): void {
+  const button = byId("fold", HTMLButtonElement);
+  byId("body", HTMLDivElement).hidden = folded;
+  button.setAttribute("aria-expanded", String(!folded));
+  button.textContent = folded ? "More" : "Less";
+}
+
+/** The part of the window beside or below the panel; the whole window where that would be too small. */
+export function freeArea(): ScreenRectangle {
+  const panel = byId("panel", HTMLElement).getBoundingClientRect();
+  const beside = panel.right < innerWidth / 2;
+  const below = !beside && panel.bottom < innerHeight / 2;
+  return {
+    left: MARGIN + (beside ? panel.right : 0),
+    top: MARGIN + (below ? panel.bottom : 0),
+    right: innerWidth - MARGIN,
+    bottom: innerHeight - 2 * MARGIN,
+  };
+}

@@ -1,0 +1,57 @@
+import { type Fault, GromaError } from "@groma/georef";
+import { byId, textElement } from "./elements.js";
+
+/** Something the reader can do about a fault besides what its text names. */
+export interface Action {
+  readonly label: string;
+  readonly run: () => void;
+}
+
+/** The place of the panel where faults are told, one at a time; read out by screen readers. */
+export class Message {
+  readonly #place = byId("message", HTMLDivElement);
+
+  /** Tells a fault: where it is, what it is and what to do about it. */
+  show(thrown: unknown, action?: Action): void {
+    const { code, file, cause, fix } = faultOf(thrown);
+    const buttons = document.createElement("p");
+    buttons.className = "row";
+    if (action) buttons.append(this.#button(action));
+    buttons.append(this.#button({ label: "Dismiss", run: () => undefined }));
+    this.#place.replaceChildren(
+      textElement("p", code, "code"),
+      textElement("p", `${file}: ${sentence(cause)}`),
+      textElement("p", sentence(fix.charAt(0).toUpperCase() + fix.slice(1)), "fix"),
+      buttons,
+    );
+  }
+
+  clear(): void {
+    this.#place.replaceChildren();
+  }
+
+  #button({ label, run }: Action): HTMLButtonElement {
+    const button = textElement("button", label);
+    button.type = "button";
+    button.addEventListener("click", () => {
+      this.clear();
+      run();
+    });
+    return button;
+  }
+}
+
+function faultOf(thrown: unknown): Fault {
+  if (thrown instanceof GromaError) return thrown;
+  return {
+    code: "PAGE_FAILED",
+    file: "the page",
+    cause: thrown instanceof Error ? thrown.message : String(thrown),
+    fix: "Reload the page",
+  };
+}
+
+/** A clause with its closing stop. */
+function sentence(clause: string): string {
+  return /[.!?]$/.test(clause) ? clause : `${clause}.`;
+}

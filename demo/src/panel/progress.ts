@@ -1,0 +1,56 @@
+import type { PointCloudLayer, StreamProgress } from "@groma/layer/cesium";
+import { byId } from "./elements.js";
+import { counted, countWords } from "./words.js";
+
+/** How far the loading of the current view is. */
+export class Progress {
+  readonly #place = byId("progress", HTMLDivElement);
+  readonly #stage = byId("stage", HTMLParagraphElement);
+  readonly #bar = byId("bar", HTMLProgressElement);
+  readonly #count = byId("count", HTMLParagraphElement);
+  #unfollow: (() => void) | undefined;
+
+  /** A cloud is being opened; nothing is known of it yet. */
+  opening(name: string): void {
+    this.rest();
+    this.#place.hidden = false;
+    this.#say(`Opening ${name}…`);
+    this.#bar.removeAttribute("value");
+    this.#bar.hidden = false;
+    this.#count.textContent = "";
+  }
+
+  /** Shows what a layer loads, until another call. */
+  follow(layer: PointCloudLayer): void {
+    this.rest();
+    this.#place.hidden = false;
+    const { nodesVisible: wanted, nodesLoaded: ready, nodesFailed: failed } = layer.statistics;
+    this.#tell(layer, { wanted, ready, failed, pending: layer.settled ? 0 : 1 });
+    this.#unfollow = layer.loadProgress.addEventListener((progress) => this.#tell(layer, progress));
+  }
+
+  /** Nothing is being opened and no cloud is there. */
+  rest(): void {
+    this.#unfollow?.();
+    this.#unfollow = undefined;
+    this.#place.hidden = true;
+  }
+
+  #tell(layer: PointCloudLayer, { wanted, ready, failed, pending }: StreamProgress): void {
+    const { pointsDrawn, budgetReached } = layer.statistics;
+    this.#bar.hidden = pending === 0;
+    this.#bar.max = Math.max(wanted, 1);
+    this.#bar.value = ready;
+    if (pending > 0) this.#say("Loading this view…");
+    else if (failed > 0) this.#say(`This view is drawn without ${counted(failed, "node")} that failed.`);
+    else this.#say(wanted > 0 ? "This view is complete." : "No points in this view.");
+    const nodes = `${countWords(ready)} of ${counted(wanted, "node")}`;
+    const limit = budgetReached ? ", all that the budget allows" : "";
+    this.#count.textContent = `${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`;
+  }
+
+  /** Speaks only when there is something new, since screen readers read each change. */
+  #say(text: string): void {
+    if (this.#stage.textContent !== text) this.#stage.textContent = text;
+  }
+}

@@ -1,0 +1,65 @@
+import { buildModuleUrl, ImageryLayer, TileMapServiceImageryProvider, Viewer } from "cesium";
+import { PageError } from "./address.js";
+
+/**
+ * A globe with nothing on it that another host would have to send: no ion, no geocoder, no terrain server.
+ * @throws PageError PAGE_WEBGL where the browser gives no WebGL 2
+ */
+export function createViewer(container: HTMLElement): Viewer {
+  const credits = document.createElement("div");
+  credits.className = "credits";
+  container.after(credits);
+  let viewer: Viewer;
+  try {
+    viewer = new Viewer(container, {
+      animation: false,
+      baseLayer: false,
+      baseLayerPicker: false,
+      fullscreenButton: false,
+      geocoder: false,
+      homeButton: false,
+      infoBox: false,
+      navigationHelpButton: false,
+      sceneModePicker: false,
+      selectionIndicator: false,
+      timeline: false,
+      scene3DOnly: true,
+      // Points are squares of whole pixels: several samples a pixel would cost time and change nothing.
+      msaaSamples: 1,
+      showRenderLoopErrors: false,
+      creditContainer: credits,
+    });
+  } catch (thrown) {
+    throw new PageError({
+      code: "PAGE_WEBGL",
+      file: "the globe",
+      cause: `this browser cannot draw it (${thrown instanceof Error ? thrown.message : String(thrown)})`,
+      fix: "Use a browser with WebGL 2 and hardware acceleration switched on",
+    });
+  }
+  const { scene, canvas } = viewer;
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", "Globe with the point cloud");
+  scene.screenSpaceCameraController.minimumZoomDistance = 0.5;
+  return viewer;
+}
+
+/**
+ * Lays the Natural Earth map that comes with Cesium on the globe.
+ * @throws PageError PAGE_BASE_MAP where the page's server does not have it
+ */
+export async function addBaseMap(viewer: Viewer): Promise<void> {
+  const url = buildModuleUrl("Assets/Textures/NaturalEarthII");
+  try {
+    const provider = await TileMapServiceImageryProvider.fromUrl(url, { credit: "Natural Earth" });
+    const layer = new ImageryLayer(provider, { brightness: 0.5, saturation: 0.5 });
+    viewer.imageryLayers.add(layer);
+  } catch {
+    throw new PageError({
+      code: "PAGE_BASE_MAP",
+      file: url,
+      cause: "the base map cannot be had; the globe stays plain",
+      fix: "Serve the folder cesium beside the page",
+    });
+  }
+}

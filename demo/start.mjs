@@ -1,0 +1,35 @@
+// `npm start [-- scan.laz]`: all set-up, then a scan on the globe; without a scan, the generated sample.
+import { spawn } from "node:child_process";
+import { existsSync } from "node:fs";
+import { mkdir } from "node:fs/promises";
+import { join, resolve } from "node:path";
+import { root, setup } from "../.ci/setup/main.mjs";
+import { forStart } from "../.ci/setup/steps.mjs";
+
+const groma = join(root, "converter/dist/main.js");
+
+/** Runs a Node program with this terminal as its own; ends this process with its exit code if it fails. */
+function node(program, args) {
+  return new Promise((done) => {
+    const child = spawn(process.execPath, [program, ...args], { stdio: "inherit" });
+    for (const signal of ["SIGINT", "SIGTERM"]) process.on(signal, () => child.kill(signal));
+    child.on("close", (code) => (code === 0 ? done() : process.exit(code ?? 1)));
+  });
+}
+
+/** The sample scan, made once. */
+async function sample() {
+  const folder = join(root, ".groma");
+  const scan = join(folder, "sample.las");
+  if (!existsSync(scan)) {
+    await mkdir(folder, { recursive: true });
+    await node(join(root, "demo/sample/dist/generate.js"), [scan]);
+  }
+  return scan;
+}
+
+await setup(forStart);
+const [scan, ...options] = process.argv.slice(2);
+// npm runs scripts in the project's root; a path is meant from where the user stands.
+const from = process.env.INIT_CWD ?? process.cwd();
+await node(groma, ["view", scan ? resolve(from, scan) : await sample(), ...options]);

@@ -1,0 +1,17 @@
+import { defineConfig } from "vite";
+import { cesiumFiles } from "./vite/cesium-files.js";
+
+export default defineConfig({
+  root: import.meta.dirname,
+  // Relative, so that the built page works under any path of any static server.
+  base: "./",
+  plugins: [cesiumFiles()],
+  resolve: { dedupe: ["cesium", "proj4"] },
+  worker: { format: "es" },
+  build: {
+    outDir: "dist",
+    target: "es2022",
+    // Cesium is most of the bundle and comes as one piece.
+    chunkSizeWarningLimit: 6000,
+  },
+});

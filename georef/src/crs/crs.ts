@@ -1,0 +1,78 @@
+/**
+ * What a height is measured from. `geoid` heights are gravity-related ("above sea level"): `model` is the name
+ * of the vertical CRS or of the geoid grid that was named, `epsg` the code of the vertical CRS if known.
+ */
+export type HeightReference =
+  | { readonly kind: "ellipsoidal" }
+  | { readonly kind: "geoid"; readonly model: string; readonly epsg?: number }
+  | { readonly kind: "unknown" };
+
+/** A unit of measure; `size` is in metres (linear) or radians (angular) per unit. */
+export interface Unit {
+  readonly name: string;
+  readonly kind: "linear" | "angular";
+  readonly size: number;
+}
+
+/** The way from the CRS's own datum to WGS 84, as it is written into `Crs.proj4`. */
+export interface DatumOperation {
+  /** Name of the operation with its EPSG code where it has one, in words where nothing is known. */
+  readonly operation: string;
+  /** Accuracy of the operation in metres as its publisher states it; `null` when nobody has stated one. */
+  readonly accuracy: number | null;
+}
+
+/**
+ * A coordinate reference system of a scan, resolved: horizontal and vertical part apart, in a form that has one
+ * meaning. Source coordinates are (x, y, z) as in LAS: x easting or longitude, y northing or latitude, whatever
+ * axis order the authority of the CRS prescribes. For geocentric CRSs they are X, Y, Z.
+ */
+export interface Crs {
+  readonly name: string;
+  /** `EPSG:2056`, or `EPSG:2056+5728` with a vertical part; absent when the source names no code. */
+  readonly code?: string;
+  /**
+   * Horizontal part as a PROJ string that proj4js and PROJ read alike: ellipsoid by numbers, datum shift
+   * explicit (`+towgs84`, position vector rotations in arc-seconds), no grids, no axis order, no vertical part.
+   */
+  readonly proj4: string;
+  /** The text that was read, when it was WKT. */
+  readonly wkt?: string;
+  readonly horizontalUnit: Unit;
+  /** Unit of z; when the source declares none it is the horizontal linear unit (metre for angles). */
+  readonly verticalUnit: Unit & { readonly declared: boolean };
+  readonly height: HeightReference;
+  /** Absent only in records of other writers. */
+  readonly datum?: DatumOperation;
+}
+
+/** Contents of the three GeoTIFF VLRs of a LAS file (`LASF_Projection`, record ids 34735, 34736, 34737). */
+export interface GeoTiffKeys {
+  readonly directory: Uint16Array;
+  readonly doubles: Float64Array;
+  readonly ascii: string;
+}
+
+/** Everything that may say what CRS a file has, the user's word first. */
+export interface CrsSources {
+  /** Name of the file, for error messages. */
+  readonly file: string;
+  /** Given by the user: `EPSG:2056`, `EPSG:2056+5728`, a PROJ string, WKT or PROJJSON. */
+  readonly given?: string | undefined;
+  /** Height reference given by the user: `EPSG:5728` or `ellipsoidal`. */
+  readonly givenVertical?: string | undefined;
+  /** The WKT VLR of the file. */
+  readonly wkt?: string | undefined;
+  readonly geoTiff?: GeoTiffKeys | undefined;
+}
+
+/** One row of an EPSG table: PROJ string or WKT, and the kind (`CRS-PROJCRS`, `CRS-VERTCRS` …). */
+export interface EpsgEntry {
+  readonly name: string;
+  readonly proj4?: string | undefined;
+  readonly wkt?: string | undefined;
+  readonly kind: string;
+}
+
+/** Looks an EPSG code up in a table that the caller brings (this package carries none). */
+export type EpsgLookup = (code: number) => EpsgEntry | undefined;

@@ -1,0 +1,157 @@
+import type { Crs, DatumOperation, EpsgLookup, HeightReference } from "./crs.js";
+import { findDatumShift, translation } from "./datum-table.js";
+import { type Figure, isGeocentricFigure } from "./ellipsoids.js";
+import { projectionOf } from "./methods.js";
+import type { CrsModel, HorizontalModel, VerticalModel } from "./model.js";
+import { NO_DATUM, readProjString, shiftOfProjString } from "./proj-string.js";
+import { unsupported } from "./refusal.js";
+import { METRE, projUnit } from "./units.js";
+import { WEB_MERCATOR } from "./web-mercator.js";
+
+/** A datum shift with what is known about it; no `towgs84` means coordinates are taken as WGS 84. */
+interface Shift {
+  readonly towgs84?: readonly number[] | undefined;
+  readonly datum: DatumOperation;
+}
+
+/**
+ * What `Crs` says of the model, with the horizontal part as one PROJ string that leaves proj4js nothing to
+ * guess: `+a` and `+rf` in place of a name, the shift always explicit, no axis order, no vertical part.
+ * @throws Refusal CRS_UNSUPPORTED
+ */
+export function normalise(model: CrsModel, lookup?: EpsgLookup): Omit<Crs, "wkt"> {
+  const { horizontal, vertical } = model;
+  if (horizontal.projString) {
+    const own = normalise(readProjString(horizontal.projString), lookup);
+    return { ...own, ...identity(model), ...heights(horizontal, vertical) };
+  }
+  const shift = findShift(horizontal, lookup);
+  const proj4 = [
+    projection(horizontal),
+    ...meridian(horizontal),
+    ...shiftText(shift),
+    ...unitText(horizontal),
+    "+no_defs",
+  ];
+  return {
+    ...identity(model),
+    proj4: proj4.join(" "),
+    horizontalUnit: horizontal.unit,
+    ...heights(horizontal, vertical),
+    datum: shift.datum,
+  };
+}
+
+function identity({ name, code, horizontal, vertical }: CrsModel): Pick<Crs, "name" | "code"> {
+  const parts = [horizontal.code, vertical?.code];
+  if (horizontal.code !== undefined && (!vertical || vertical.code !== undefined)) {
+    return { name, code: `EPSG:${parts.filter((part) => part !== undefined).join("+")}` };
+  }
+  return code === undefined ? { name } : { name, code: `EPSG:${code}` };
+}
+
+/** Unit and reference of z: what is declared, else the horizontal linear unit and "unknown". */
+export function heights(
+  horizontal: Pick<HorizontalModel, "unit" | "heightUnit" | "kind">,
+  vertical: VerticalModel | undefined,
+): Pick<Crs, "verticalUnit" | "height"> {
+  const fallback = horizontal.unit.kind === "linear" ? horizontal.unit : METRE;
+  const declared = vertical?.unit ?? horizontal.heightUnit;
+  const verticalUnit = { ...(declared ?? fallback), declared: declared !== undefined };
+  return { verticalUnit, height: heightReference(horizontal, vertical) };
+}
+
+function heightReference(
+  horizontal: Pick<HorizontalModel, "heightUnit" | "kind">,
+  vertical: VerticalModel | undefined,
+): HeightReference {
+  if (!vertical) {
+    const threeDimensional = horizontal.heightUnit !== undefined || horizontal.kind === "geocentric";
+    return { kind: threeDimensional ? "ellipsoidal" : "unknown" };
+  }
+  if (vertical.reference !== "geoid") return { kind: vertical.reference };
+  const geoid = { kind: "geoid", model: vertical.name } as const;
+  return vertical.code === undefined ? geoid : { ...geoid, epsg: vertical.code };
+}
+
+function projection(model: HorizontalModel): string {
+  if (model.kind === "geocentric") {
+    if (!isGeocentricFigure(model.datum.figure)) {
+      throw unsupported(`geocentric coordinates of the datum "${model.datum.name}" are not supported`);
+    }
+    return `+proj=geocent ${figureText(model.datum.figure)}`;
+  }
+  if (model.kind === "geographic") return `+proj=longlat ${figureText(model.datum.figure)}`;
+  const text = projectionOf(model);
+  return text === WEB_MERCATOR
+    ? `${text} +a=6378137 +b=6378137 +nadgrids=@null`
+    : `${text} ${figureText(model.datum.figure)}`;
+}
+
+function figureText({ a, rf }: Figure): string {
+  return rf === 0 ? `+a=${a} +b=${a}` : `+a=${a} +rf=${rf}`;
+}
+
+function meridian(model: HorizontalModel): string[] {
+  return model.meridian === 0 ? [] : [`+pm=${model.meridian}`];
+}
+
+function unitText(model: HorizontalModel): string[] {
+  return model.unit.kind === "linear" ? [projUnit(model.unit)] : [];
+}
+
+function shiftText({ towgs84 }: Shift): string[] {
+  return towgs84 ? [`+towgs84=${towgs84.join(",")}`] : [];
+}
+
+/**
+ * The shift that the text names; else that of the datum by code or name; else that of the EPSG table for the code of
+ * the CRS; else none for datums whose ellipsoid is that of WGS 84. A datum on another ellipsoid without any of these
+ * would be placed some hundred metres off: refused.
+ */
+function findShift(model: HorizontalModel, lookup?: EpsgLookup): Shift {
+  const { datum } = model;
+  const webMercator = model.kind === "projected" && projectionOf(model) === WEB_MERCATOR;
+  if (webMercator) return { datum: { operation: "none: Web Mercator stands on WGS 84", accuracy: 2 } };
+  if (datum.grid !== undefined) throw unsupported(`its datum shift needs the grid ${datum.grid}`);
+  const known = findDatumShift(datum.name, datum.code);
+  if (known && (!datum.towgs84 || sameShift(datum.towgs84, known.towgs84))) {
+    const code = known.operation === 0 ? "" : ` (EPSG:${known.operation})`;
+    const operation = `${known.names[0]} to WGS 84${code}`;
+    return { towgs84: known.towgs84, datum: { operation, accuracy: known.accuracy } };
+  }
+  if (datum.towgs84) {
+    return {
+      towgs84: datum.towgs84,
+      datum: { operation: "the shift that the CRS itself names", accuracy: null },
+    };
+  }
+  for (const code of [model.code, model.baseCode]) {
+    const text = code === undefined ? undefined : lookup?.(code)?.proj4;
+    const towgs84 = translation(text ? shiftOfProjString(text) : undefined);
+    if (towgs84)
+      return { towgs84, datum: { operation: `the shift of EPSG:${code} in the EPSG table`, accuracy: null } };
+  }
+  if (datum.name === NO_DATUM) {
+    const towgs84 = isGeocentricFigure(datum.figure) ? [0, 0, 0] : undefined;
+    return {
+      towgs84,
+      datum: { operation: "taken as WGS 84: the PROJ string names no datum", accuracy: null },
+    };
+  }
+  if (isGeocentricFigure(datum.figure)) {
+    const operation = `"${datum.name}" taken as WGS 84: no transformation known`;
+    return { towgs84: [0, 0, 0], datum: { operation, accuracy: null } };
+  }
+  throw unsupported(
+    `no shift from the datum "${datum.name}" to WGS 84 is known`,
+    "give the coordinate reference system as a PROJ string with +towgs84, or as an EPSG code",
+  );
+}
+
+/** Equal parameters, three or seven of them: absent rotations and scale are zero. */
+function sameShift(a: readonly number[], b: readonly number[]): boolean {
+  return Array.from({ length: 7 }, (_, i) => (a[i] ?? 0) - (b[i] ?? 0)).every(
+    (difference) => Math.abs(difference) < 1e-6,
+  );
+}

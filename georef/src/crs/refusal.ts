@@ -1,0 +1,30 @@
+import { CrsError } from "../errors.js";
+
+/** What to do when a CRS text cannot be used: the same for all of them. */
+const GIVE_ANOTHER = "give the coordinate reference system yourself, for example --crs EPSG:2056";
+
+/** Thrown inside this room where the file is not known; `resolveCrs` adds it. */
+export class Refusal extends Error {
+  readonly code: "CRS_MISSING" | "CRS_UNKNOWN" | "CRS_UNSUPPORTED";
+  readonly fix: string;
+
+  constructor(code: Refusal["code"], cause: string, fix: string = GIVE_ANOTHER) {
+    super(cause);
+    this.code = code;
+    this.fix = fix;
+  }
+
+  toError(file: string): CrsError {
+    return new CrsError({ code: this.code, file, cause: this.message, fix: this.fix });
+  }
+}
+
+/** The text is understood, but what it asks for is not done here. */
+export function unsupported(cause: string, fix?: string): Refusal {
+  return new Refusal("CRS_UNSUPPORTED", cause, fix);
+}
+
+/** The text, or a code in it, is not understood. */
+export function unknown(cause: string, fix?: string): Refusal {
+  return new Refusal("CRS_UNKNOWN", cause, fix);
+}

@@ -1,0 +1,91 @@
+import type { Crs } from "../crs/crs.js";
+import { PlacementError } from "../errors.js";
+import { decodeTransformation } from "../transformation/decode.js";
+import { type CompiledTransformation, compileTransformation } from "../transformation/evaluate.js";
+import type { PointTransform } from "../transformation/link.js";
+import { type ExactTransform, exactTransform } from "./exact.js";
+
+/**
+ * The one map of a data set, source coordinates → ECEF, whatever it was made from: proj4js and a similarity are exactly
+ * linear in z, a transformation with the grids of PROJ is not. {@link fitPlacement} takes either.
+ */
+export type Truth = ExactTransform | CompiledTransformation;
+
+/**
+ * A data set without a coordinate reference system, put on the globe as a rigid body with one scale:
+ * ECEF (metres) = translation + matrix · (x, y, z).
+ */
+export interface Similarity {
+  /** ECEF of the source's origin, metres. */
+  readonly translation: readonly [number, number, number];
+  /** Row-major 3 × 3: a rotation times metres per source unit. */
+  readonly matrix: readonly number[];
+}
+
+/** What is known of where a data set is, the most exact last. */
+export interface TruthSources {
+  readonly crs: Pick<Crs, "proj4" | "horizontalUnit" | "verticalUnit" | "height">;
+  readonly similarity?: Similarity | undefined;
+  /** Payload of the VLR `groma`/3 (docs/transformation.md). */
+  readonly transformation?: Uint8Array | undefined;
+}
+
+/**
+ * Makes the map of a data set from what its file or its user says. Not reentrant: one per worker.
+ *
+ * @param middle middle height of the data set, source units
+ * @param file name for error messages
+ * @throws RecordError RECORD_* when the transformation cannot be read
+ * @throws CrsError CRS_UNSUPPORTED
+ */
+export function truthOf(sources: TruthSources, middle: number, file: string): Truth {
+  if (sources.transformation)
+    return compileTransformation(decodeTransformation(sources.transformation, file), file);
+  if (sources.similarity) return similarityTransform(sources.similarity);
+  return exactTransform(sources.crs, middle);
+}
+
+/** P and n of a similarity: P = translation + matrix · (x, y, 0), n = matrix · (0, 0, 1). */
+export function similarityTransform({ translation, matrix }: Similarity): ExactTransform {
+  return (x, y, out, offset) => {
+    for (let axis = 0; axis < 3; axis++) {
+      out[offset + axis] = translation[axis] + matrix[3 * axis] * x + matrix[3 * axis + 1] * y;
+      out[offset + axis + 3] = matrix[3 * axis + 2];
+    }
+  };
+}
+
+/** The map as a function of points: ECEF, NaN where there is no such place. Not reentrant. */
+export function pointTransform(truth: Truth): PointTransform {
+  if (typeof truth !== "function") return truth.evaluate;
+  const parts = new Float64Array(6);
+  return (x, y, z, out, offset) => {
+    truth(x, y, parts, 0);
+    for (let axis = 0; axis < 3; axis++) out[offset + axis] = parts[axis] + z * parts[axis + 3];
+  };
+}
+
+/**
+ * One point in ECEF.
+ *
+ * @throws PlacementError PLACE_DOMAIN where the map has no such place
+ */
+export function placePoint(
+  truth: Truth,
+  x: number,
+  y: number,
+  z: number,
+  out: Float64Array,
+  file = "points",
+): void {
+  pointTransform(truth)(x, y, z, out, 0);
+  if (Number.isFinite(out[0]) && Number.isFinite(out[1]) && Number.isFinite(out[2])) return;
+  throw new PlacementError({
+    ...{
+      code: "PLACE_DOMAIN",
+      file,
+      cause: `(${x}, ${y}, ${z}) is no place of this data set's georeference`,
+    },
+    fix: "check the coordinates and their order, easting or longitude first",
+  });
+}

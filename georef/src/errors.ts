@@ -1,0 +1,64 @@
+/**
+ * What every error of Groma says: a stable code to program against, the file (or address) it is about,
+ * what went wrong and what the reader can do about it.
+ */
+export interface Fault {
+  /** Stable, upper case with underscores, e.g. `CRS_MISSING`. Never reused for another meaning. */
+  readonly code: string;
+  /** The file, address or option that the fault is about. */
+  readonly file: string;
+  /** What was found, as a clause without a closing stop. */
+  readonly cause: string;
+  /** What to do about it, as a clause without a closing stop. */
+  readonly fix: string;
+}
+
+/** Plain form of an error that can cross a worker or process boundary. */
+export interface FaultWire extends Fault {
+  readonly kind: string;
+}
+
+/**
+ * Base of every error that Groma throws for the world's faults (bad files, servers, coordinates).
+ * Its message reads `CODE: file: cause. fix.`, the form that the command line prints.
+ */
+export class GromaError extends Error implements Fault {
+  readonly code: string;
+  readonly file: string;
+  override readonly cause: string;
+  readonly fix: string;
+
+  constructor(fault: Fault) {
+    super(`${fault.code}: ${fault.file}: ${fault.cause}. ${sentence(fault.fix)}.`);
+    this.name = new.target.name;
+    this.code = fault.code;
+    this.file = fault.file;
+    this.cause = fault.cause;
+    this.fix = fault.fix;
+  }
+
+  /** Plain object for `postMessage`; {@link GromaError.revive} makes an error of the same kind of it. */
+  toWire(): FaultWire {
+    return { kind: this.name, code: this.code, file: this.file, cause: this.cause, fix: this.fix };
+  }
+
+  /** The error that `toWire` was called on, as far as the kinds given know its name. */
+  static revive(wire: FaultWire, kinds: readonly (new (fault: Fault) => GromaError)[] = []): GromaError {
+    const Kind = kinds.find((kind) => kind.name === wire.kind) ?? GromaError;
+    return new Kind(wire);
+  }
+}
+
+/** With a capital letter; a fix that begins with a command keeps its own. */
+function sentence(clause: string): string {
+  return clause.charAt(0).toUpperCase() + clause.slice(1);
+}
+
+/** A coordinate reference system is missing, unknown or cannot be used. Codes start with `CRS_`. */
+export class CrsError extends GromaError {}
+
+/** A point or node cannot be placed on the globe to the tolerance asked for. Codes start with `PLACE_`. */
+export class PlacementError extends GromaError {}
+
+/** A georeference record in a file cannot be read. Codes start with `RECORD_`. */
+export class RecordError extends GromaError {}

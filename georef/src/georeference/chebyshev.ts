@@ -1,0 +1,112 @@
+import { CHEBYSHEV_NODES, chebyshevCoefficients, NODES } from "../approximation/chebyshev.js";
+import { eastNorthUp, type Frame } from "../ellipsoid/frame.js";
+import type { ExactTransform } from "../engines/exact.js";
+import { PlacementError } from "../errors.js";
+import type { Domain } from "./placement.js";
+
+/** Centre and half extents of a domain, source units; extents are never zero. */
+export interface Box {
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  readonly halfX: number;
+  readonly halfY: number;
+  readonly halfZ: number;
+}
+
+/**
+ * Chebyshev expansion of the six functions over a domain, in its node frame:
+ * local(u, v, w) = Σ T_k(u) T_l(v) (P_kl + w n_kl) with u, v, w from −1 to 1 over the box.
+ * `coefficients[(NODES·k + l)·6 + c]`: c = 0…2 east, north, up of P, c = 3…5 of n · halfZ; metres.
+ */
+export interface Expansion {
+  readonly box: Box;
+  readonly frame: Frame;
+  readonly coefficients: Float64Array;
+}
+
+/**
+ * Extents below this share of the coordinate (or below 1e-9 units) are widened to it: differences that small are
+ * rounding, and a domain of one point or one line has no square to fit on.
+ */
+const SMALLEST_EXTENT = 1e-12;
+
+export function boxOf(domain: Domain): Box {
+  const middle = (from: number, to: number) => from + (to - from) / 2;
+  const half = (from: number, to: number) =>
+    Math.max((to - from) / 2, SMALLEST_EXTENT * Math.max(Math.abs(from), Math.abs(to)), 1e-9);
+  return {
+    x: middle(domain.minX, domain.maxX),
+    y: middle(domain.minY, domain.maxY),
+    z: middle(domain.minZ, domain.maxZ),
+    halfX: half(domain.minX, domain.maxX),
+    halfY: half(domain.minY, domain.maxY),
+    halfZ: half(domain.minZ, domain.maxZ),
+  };
+}
+
+/**
+ * Samples the exact transform on the 9 × 9 Chebyshev nodes of the domain and turns the samples into coefficients.
+ *
+ * @throws PlacementError PLACE_DOMAIN when the domain is no box, or the transform is not finite on it
+ */
+export function expand(exact: ExactTransform, domain: Domain, file: string): Expansion {
+  const box = boxOf(domain);
+  if (!isBox(domain)) throw outside(file, "the bounds of the points are not a finite box", domain);
+
+  const sample = new Float64Array(6);
+  const evaluate = (u: number, v: number) => {
+    exact(box.x + box.halfX * u, box.y + box.halfY * v, sample, 0);
+    if (!sample.every(Number.isFinite)) {
+      throw outside(
+        file,
+        "part of the points lies where its coordinate reference system has no place",
+        domain,
+      );
+    }
+  };
+  for (const [u, v] of [
+    [-1, -1],
+    [1, -1],
+    [-1, 1],
+    [1, 1],
+    [0, 0],
+  ] as const)
+    evaluate(u, v);
+  const origin = [0, 1, 2].map((axis) => sample[axis] + box.z * sample[axis + 3]);
+  const frame = eastNorthUp(origin);
+
+  const values = new Float64Array(NODES * NODES * 6);
+  for (let i = 0; i < NODES; i++) {
+    for (let j = 0; j < NODES; j++) {
+      evaluate(CHEBYSHEV_NODES[i], CHEBYSHEV_NODES[j]);
+      for (let axis = 0; axis < 3; axis++) {
+        const east = axis * 3;
+        let p = 0;
+        let n = 0;
+        for (let c = 0; c < 3; c++) {
+          p += frame.rotation[east + c] * (sample[c] + box.z * sample[c + 3] - origin[c]);
+          n += frame.rotation[east + c] * sample[c + 3];
+        }
+        values[(i * NODES + j) * 6 + axis] = p;
+        values[(i * NODES + j) * 6 + axis + 3] = n * box.halfZ;
+      }
+    }
+  }
+  return { box, frame, coefficients: chebyshevCoefficients(values, 6) };
+}
+
+function isBox({ minX, minY, minZ, maxX, maxY, maxZ }: Domain): boolean {
+  const finite = [minX, minY, minZ, maxX, maxY, maxZ].every(Number.isFinite);
+  return finite && minX <= maxX && minY <= maxY && minZ <= maxZ;
+}
+
+function outside(file: string, cause: string, d: Domain): PlacementError {
+  const bounds = `x ${d.minX} … ${d.maxX}, y ${d.minY} … ${d.maxY}, z ${d.minZ} … ${d.maxZ}`;
+  return new PlacementError({
+    code: "PLACE_DOMAIN",
+    file,
+    cause: `${cause} (${bounds})`,
+    fix: "check that the coordinate reference system is the one the scan was made in, and that no point is a stray",
+  });
+}

@@ -1,0 +1,140 @@
+import { AMPLIFICATION } from "../approximation/chebyshev.js";
+import type { ExactTransform } from "../engines/exact.js";
+import { linkOf } from "../transformation/compile.js";
+import type { CompiledTransformation } from "../transformation/evaluate.js";
+import type { Link, PointTransform } from "../transformation/link.js";
+import { holds } from "../transformation/projection.js";
+import { patchworkOf } from "../transformation/rectangle.js";
+import type { Transformation } from "../transformation/step.js";
+import { boxOf } from "./chebyshev.js";
+import type { GridRemainder } from "./grid-remainder.js";
+import { NodeSamples } from "./node-samples.js";
+import type { Domain } from "./placement.js";
+import { type FinishedPart, type GridPart, splitGrid } from "./split-grid.js";
+
+/** A transformation over one node: what can be fitted, what may be added per point, and what neither holds. */
+export interface NodeTransform {
+  /** The smooth part, linear in z. */
+  readonly smooth: ExactTransform;
+  /** Ways to make up for what the smooth part leaves to the grids; empty where the grids cannot be taken apart. */
+  readonly corrections: readonly Correction[];
+  /** The whole, point by point, and how far it can be from the projection with its grids, metres. */
+  readonly truth: PointTransform;
+  readonly truthBound: number;
+}
+
+export interface Correction {
+  /** What is added to the smooth part, in axes of ECEF; small ones may be left out. */
+  readonly remainders: readonly GridRemainder[];
+  /** Metres: the greatest length of all that is added. */
+  readonly reach: number;
+  /** Metres: how far the sum can be from the projection with its grids, before any fit. */
+  readonly bound: number;
+}
+
+/** Metres: the smallest radius of curvature that a surface of constant height has, for terms of second order. */
+const RADIUS = 6.3e6;
+/** √3 · 2⁻²⁴: what storing a correction as three float32 costs before the polynomials are added to it. */
+const ROUNDING = Math.sqrt(3) * 2 ** -24;
+/** Between the deviations at the samples and the greatest one. */
+const BETWEEN_SAMPLES = 1.25;
+
+/**
+ * Takes the grids of a transformation apart over a node: in the smooth part each is replaced by one bilinear function,
+ * and the rest of it becomes a correction per point. Within one cell of all grids nothing is left.
+ *
+ * @param domain box of the points, source units
+ */
+export function nodeTransform(
+  { transformation, evaluate }: CompiledTransformation,
+  domain: Domain,
+): NodeTransform {
+  const box = boxOf(domain);
+  const samples = new NodeSamples(box);
+  const common = { truth: evaluate, truthBound: patchworkOf(transformation).bound };
+  const undivided = (): NodeTransform => {
+    const all = transformation.steps.map((step) => linkOf(step));
+    return { ...common, smooth: linearInHeight(all, box.z, samples.halfHeight), corrections: [] };
+  };
+  const links: Link[] = [];
+  const parts: GridPart[] = [];
+  for (const step of transformation.steps) {
+    if (step.kind === "horizontalShift" || step.kind === "verticalShift") {
+      const part = splitGrid(step, samples, links.length);
+      if (!part) return undivided();
+      parts.push(part);
+      links.push(part.link);
+    } else {
+      links.push(linkOf(step));
+    }
+    samples.apply(links[links.length - 1]);
+    if (!samples.finite()) return undivided();
+  }
+  const before = patchworkBound(transformation, domain) + 0.5 * samples.curvature() * BETWEEN_SAMPLES;
+  return {
+    ...common,
+    smooth: linearInHeight(links, box.z, samples.halfHeight),
+    corrections: correctionsOf(parts, links, before),
+  };
+}
+
+/** All remainders, all but the smallest, and so on down to none. */
+function correctionsOf(parts: readonly GridPart[], links: readonly Link[], before: number): Correction[] {
+  let shift = 0;
+  const finished: FinishedPart[] = [];
+  for (const part of parts) {
+    finished.push(part.finish(links, shift));
+    shift += finished[finished.length - 1].length;
+  }
+  const secondOrder = shift ** 2 / RADIUS;
+  finished.sort((a, b) => b.length - a.length);
+  const sum = (of: readonly FinishedPart[], what: "length" | "error") =>
+    of.reduce((total, part) => total + part[what], 0);
+  return Array.from({ length: finished.length + 1 }, (_, count) => {
+    const [kept, leftOut] = [finished.slice(0, count), finished.slice(count)];
+    const reach = sum(kept, "length");
+    return {
+      remainders: kept.map(({ remainder }) => remainder),
+      reach,
+      bound: before + secondOrder + sum(leftOut, "length") + sum(kept, "error") + count * reach * ROUNDING,
+    };
+  });
+}
+
+/**
+ * P and n from three heights: the chord through the outer ones, moved half way to the middle, which halves what the
+ * curvature along z costs.
+ */
+function linearInHeight(links: readonly Link[], middle: number, half: number): ExactTransform {
+  const [projection, ...others] = links;
+  const [low, centre, high] = [0, 0, 0].map(() => new Float64Array(3));
+  const place = (state: Float64Array, z: number) => {
+    state[2] = z;
+    for (let i = 0; i < others.length; i++) others[i].apply(state);
+  };
+  return (x, y, out, offset) => {
+    centre[0] = x;
+    centre[1] = y;
+    projection.apply(centre);
+    low.set(centre);
+    high.set(centre);
+    place(low, middle - half);
+    place(centre, middle);
+    place(high, middle + half);
+    for (let axis = 0; axis < 3; axis++) {
+      const slope = (high[axis] - low[axis]) / (2 * half);
+      out[offset + axis + 3] = slope;
+      out[offset + axis] = (centre[axis] + (low[axis] + high[axis]) / 2) / 2 - middle * slope;
+    }
+  };
+}
+
+/**
+ * How far the patchwork may be from the projection, seen through a fit: where a node lies on several patches the fit
+ * also meets the steps between them, and amplifies them.
+ */
+function patchworkBound(transformation: Transformation, { minX, minY, maxX, maxY }: Domain): number {
+  const { patches, bound } = patchworkOf(transformation);
+  const alone = patches.some((patch) => holds(patch, minX, minY) && holds(patch, maxX, maxY));
+  return alone ? bound : (1 + AMPLIFICATION) * bound;
+}

@@ -1,0 +1,64 @@
+export { type Covariance, covariance } from "./cartesian/covariance.js";
+export { type Eigen, symmetricEigen } from "./cartesian/eigen.js";
+export { splitFloat32 } from "./cartesian/float32.js";
+export { type FittedPlane, fitPlane } from "./cartesian/plane.js";
+export { quantise } from "./cartesian/quantise.js";
+export { planarArea } from "./cartesian/shoelace.js";
+export { type Slab, slab } from "./cartesian/slab.js";
+export type {
+  Crs,
+  CrsSources,
+  DatumOperation,
+  EpsgEntry,
+  EpsgLookup,
+  GeoTiffKeys,
+  HeightReference,
+  Unit,
+} from "./crs/crs.js";
+export { resolveCrs } from "./crs/resolve.js";
+export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
+export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
+export { eastNorthUp, type Frame } from "./ellipsoid/frame.js";
+export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
+export { ENGINE, type ExactTransform, exactTransform, toEcef } from "./engines/exact.js";
+export {
+  placePoint,
+  pointTransform,
+  type Similarity,
+  similarityTransform,
+  type Truth,
+  type TruthSources,
+  truthOf,
+} from "./engines/truth.js";
+export { CrsError, type Fault, type FaultWire, GromaError, PlacementError, RecordError } from "./errors.js";
+export { type Geodesic, type GeodesicEnd, geodesicBetween, geodesicFrom } from "./geodesic/geodesic.js";
+export { chordArea, type GeodesicPolygon, geodesicPolygon } from "./geodesic/polygon.js";
+export { fitPlacement } from "./georeference/fit.js";
+export { place } from "./georeference/place.js";
+export { placeIntegers } from "./georeference/place-integers.js";
+export type { Domain, Placement, Scheme } from "./georeference/placement.js";
+export { type Bounds, cutWindow, type Grid } from "./grid/window.js";
+export { type AccuracyPart, accuracyParts, type StatedAccuracy, statedAccuracy } from "./record/accuracy.js";
+export type { GeoreferenceRecord } from "./record/georeference-record.js";
+export { decodeRecord, encodeRecord } from "./record/record.js";
+export { decodeTransformation } from "./transformation/decode.js";
+export { encodeTransformation } from "./transformation/encode.js";
+export { type CompiledTransformation, compileTransformation } from "./transformation/evaluate.js";
+export type { PointTransform } from "./transformation/link.js";
+export { fitPatchwork, PATCHWORK_TOLERANCE, type ProjectionSampler } from "./transformation/patchwork.js";
+export { domainOf, type Rectangle } from "./transformation/rectangle.js";
+export type {
+  DatumShiftStep,
+  EllipsoidAxes,
+  GeocentricStep,
+  GridWindow,
+  HeightStep,
+  HorizontalShiftStep,
+  Patch,
+  Patchwork,
+  ProjectionStep,
+  Step,
+  Transformation,
+  VerticalShiftStep,
+} from "./transformation/step.js";
+export { type Undulation, undulationOf } from "./vertical/undulation.js";

@@ -1,0 +1,73 @@
+import { ByteWriter } from "./bytes.js";
+import { DIRECTIONS, KINDS, MAGIC, VERSION } from "./format.js";
+import { writeGridValues } from "./grid-values.js";
+import type { EllipsoidAxes, GridWindow, Patchwork, Step, Transformation } from "./step.js";
+
+/** A transformation as bytes, layout in docs/transformation.md. {@link decodeTransformation} gives it back exactly. */
+export function encodeTransformation({ steps }: Transformation): Uint8Array {
+  const writer = new ByteWriter();
+  writer.raw(MAGIC);
+  writer.u8(VERSION);
+  writer.u8(steps.length);
+  for (const step of steps) {
+    writer.u8(KINDS.indexOf(step.kind));
+    writeStep(writer, step);
+  }
+  return writer.finish();
+}
+
+function writeStep(writer: ByteWriter, step: Step): void {
+  switch (step.kind) {
+    case "projection":
+      writePatchwork(writer, step.patchwork);
+      break;
+    case "height":
+      writer.f64(step.metresPerUnit);
+      break;
+    case "horizontalShift":
+      writer.u8(DIRECTIONS.indexOf(step.direction));
+      writeWindow(writer, step.window);
+      break;
+    case "verticalShift":
+      writer.f64(step.multiplier);
+      writeWindow(writer, step.window);
+      break;
+    case "datumShift":
+      writeEllipsoid(writer, step.from);
+      writeEllipsoid(writer, step.to);
+      writer.f64(...step.translation, ...step.matrix);
+      writer.u8(step.keepHeight ? 1 : 0);
+      break;
+    case "geocentric":
+      writeEllipsoid(writer, step.ellipsoid);
+      break;
+  }
+}
+
+function writeEllipsoid(writer: ByteWriter, { a, f }: EllipsoidAxes): void {
+  writer.f64(a, f);
+}
+
+function writePatchwork(writer: ByteWriter, { bound, patches }: Patchwork): void {
+  writer.f64(bound);
+  writer.u16(patches.length);
+  for (const { minX, minY, maxX, maxY, degree, coefficients } of patches) {
+    writer.f64(minX, minY, maxX, maxY);
+    writer.u8(degree);
+    writer.f64(...coefficients);
+  }
+}
+
+function writeWindow(writer: ByteWriter, window: GridWindow): void {
+  writer.text(window.grid);
+  writer.f64(window.west, window.south, window.stepLongitude, window.stepLatitude);
+  writer.u32(window.columns);
+  writer.u32(window.rows);
+  writer.u8(window.channels);
+  writer.f64(window.unit);
+  // A value that is not finite says nothing that the values do not say themselves.
+  const stated = window.noData !== undefined && Number.isFinite(window.noData);
+  writer.u8(stated ? 1 : 0);
+  if (stated) writer.f64(window.noData);
+  writeGridValues(writer, window.values, window);
+}

@@ -1,0 +1,125 @@
+/**
+ * The way from source coordinates to ECEF as PROJ goes it, one step after the other. What PROJ computes with grids
+ * is applied here with windows of the same grids, bilinearly as PROJ does; what it computes with formulas of the
+ * ellipsoid is computed in closed form; the map projection alone is replaced by certified fits.
+ *
+ * State between the steps: after `projection` longitude, latitude (radians) and z in source units; after `height`
+ * z in metres; after `geocentric` ECEF (EPSG:4978, metres).
+ */
+export type Step =
+  | ProjectionStep
+  | HeightStep
+  | HorizontalShiftStep
+  | VerticalShiftStep
+  | DatumShiftStep
+  | GeocentricStep;
+
+/** (x, y) in source units → longitude, latitude in radians, by a patchwork of certified fits. z is untouched. */
+export interface ProjectionStep {
+  readonly kind: "projection";
+  readonly patchwork: Patchwork;
+}
+
+/** z · metresPerUnit. */
+export interface HeightStep {
+  readonly kind: "height";
+  readonly metresPerUnit: number;
+}
+
+/** PROJ's hgridshift: bilinear shift of longitude and latitude, channel 0 of the window to the east, 1 to the north. */
+export interface HorizontalShiftStep {
+  readonly kind: "horizontalShift";
+  /** `inverse` solves for the point whose shifted place is given, iterating as PROJ does. */
+  readonly direction: "forward" | "inverse";
+  readonly window: GridWindow;
+}
+
+/** PROJ's vgridshift: h += multiplier · N(longitude, latitude), N from channel 0 of the window, metres. */
+export interface VerticalShiftStep {
+  readonly kind: "verticalShift";
+  readonly multiplier: number;
+  readonly window: GridWindow;
+}
+
+/**
+ * geodetic → ECEF of `from` → Helmert → geodetic of `to`. `keepHeight` restores the height that came in (PROJ's
+ * push and pop of v_3, which every horizontal datum shift of a compound CRS has).
+ */
+export interface DatumShiftStep {
+  readonly kind: "datumShift";
+  readonly from: EllipsoidAxes;
+  readonly to: EllipsoidAxes;
+  /** Linear map of PROJ's helmert step: X' = translation + matrix · X; metres, row-major 3 × 3, scale included. */
+  readonly translation: readonly [number, number, number];
+  readonly matrix: readonly number[];
+  readonly keepHeight: boolean;
+}
+
+/** Longitude, latitude, ellipsoidal height → ECEF. The last step. */
+export interface GeocentricStep {
+  readonly kind: "geocentric";
+  readonly ellipsoid: EllipsoidAxes;
+}
+
+export interface EllipsoidAxes {
+  /** Semi-major axis, metres. */
+  readonly a: number;
+  /** Flattening. */
+  readonly f: number;
+}
+
+/**
+ * A rectangular part of a grid with its margin. Node (column, row) stands at
+ * (west + column · stepLongitude, south + row · stepLatitude), rows from the south, columns from the west.
+ */
+export interface GridWindow {
+  /** File name of the grid it was cut from, for people. */
+  readonly grid: string;
+  /** Radians. */
+  readonly west: number;
+  readonly south: number;
+  readonly stepLongitude: number;
+  readonly stepLatitude: number;
+  readonly columns: number;
+  readonly rows: number;
+  readonly channels: number;
+  /**
+   * float32 as the grid file has them, channel by channel and row by row:
+   * `values[(channel · rows + row) · columns + column]`, in units of `unit`.
+   */
+  readonly values: Float32Array;
+  /**
+   * What one unit of `values` is in radians (horizontal) or metres (vertical); kept apart so that values stay exact.
+   * The product is rounded to float32, as PROJ does.
+   */
+  readonly unit: number;
+  /**
+   * Nodes of this value hold no data, as those that are not finite; PROJ leaves them out of the interpolation
+   * (vertical) or refuses the point (horizontal).
+   */
+  readonly noData?: number;
+}
+
+/** A quadtree-like set of rectangles, each with its own polynomial; every point of the domain lies in exactly one. */
+export interface Patchwork {
+  readonly patches: readonly Patch[];
+  /** Metres on the ground: no point of the domain is put farther from where the projection has it. */
+  readonly bound: number;
+}
+
+/** longitude, latitude = reference + Σ c_kl T_k(u) T_l(v), u and v from −1 to 1 over the rectangle (source units). */
+export interface Patch {
+  readonly minX: number;
+  readonly minY: number;
+  readonly maxX: number;
+  readonly maxY: number;
+  /** Highest degree in u and in v. */
+  readonly degree: number;
+  /** Radians: (degree + 1)² coefficients of longitude (row-major, k slow), then as many of latitude. */
+  readonly coefficients: Float64Array;
+}
+
+/** The whole way. */
+export interface Transformation {
+  readonly steps: readonly Step[];
+}

@@ -1,0 +1,22 @@
+/**
+ * Completes layer/dist after tsc: the worker as one file without bare imports, so that any bundler and any
+ * server can load it, and the decoder's WebAssembly beside it.
+ */
+import { copyFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { rolldown } from "rolldown";
+
+const workers = join(import.meta.dirname, "..", "dist", "workers");
+const wasm = createRequire(import.meta.url).resolve("laz-perf/lib/worker/laz-perf.wasm");
+
+copyFileSync(wasm, join(workers, "laz-perf.wasm"));
+
+const bundle = await rolldown({ input: join(workers, "entry.js"), platform: "browser" });
+await bundle.write({
+  file: join(workers, "node.worker.js"),
+  format: "es",
+  sourcemap: true,
+  codeSplitting: false,
+});
+await bundle.close();

@@ -1,0 +1,13 @@
+import type { Engine } from "./engine-types.js";
+
+/** Cesium exports these at run time; its own declarations leave them out. Seen by this package alone. */
+declare module "cesium" {
+  export const Buffer: Engine["Buffer"];
+  export const BufferUsage: Engine["BufferUsage"];
+  export const DrawCommand: Engine["DrawCommand"];
+  export const Pass: Engine["Pass"];
+  export const RenderState: Engine["RenderState"];
+  export const ShaderProgram: Engine["ShaderProgram"];
+  export const ShaderSource: Engine["ShaderSource"];
+  export const VertexArray: Engine["VertexArray"];
+}

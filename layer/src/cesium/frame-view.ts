@@ -1,0 +1,29 @@
+import { OrthographicFrustum, PerspectiveFrustum } from "cesium";
+import type { View } from "../octree/index.js";
+import type { FrameState } from "./cesium-private.js";
+
+/** Cesium's default vertical field of view, radians; for frusta that name none. */
+const DEFAULT_FIELD_OF_VIEW = Math.PI / 3;
+
+/** The camera of a frame in the plain numbers that the octree understands. */
+export function viewOfFrame(frameState: FrameState): View {
+  const { camera, cullingVolume, context, occluder } = frameState;
+  const { positionWC: position, directionWC: direction } = camera;
+  return {
+    position: [position.x, position.y, position.z],
+    direction: [direction.x, direction.y, direction.z],
+    planes: cullingVolume.planes.flatMap((plane) => [plane.x, plane.y, plane.z, plane.w]),
+    height: context.drawingBufferHeight,
+    projection: projectionOf(camera.frustum),
+    horizon: occluder !== undefined,
+  };
+}
+
+function projectionOf(frustum: unknown): View["projection"] {
+  if (frustum instanceof OrthographicFrustum) {
+    const { width = 1, aspectRatio = 1 } = frustum;
+    return { kind: "orthographic", extent: width / aspectRatio };
+  }
+  const fieldOfView = frustum instanceof PerspectiveFrustum ? frustum.fovy : undefined;
+  return { kind: "perspective", fieldOfView: fieldOfView ?? DEFAULT_FIELD_OF_VIEW };
+}

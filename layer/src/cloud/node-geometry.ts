@@ -1,0 +1,101 @@
+import type { Crs, ExactTransform } from "@groma/georef";
+import type { NodeBounds, VoxelKey } from "../octree/index.js";
+import type { CopcInfo, LasHeader } from "../sources/index.js";
+
+/** Radius from which the sag of the ground between samples is reckoned, metres: the least of the WGS84 ellipsoid's. */
+const LEAST_RADIUS_OF_CURVATURE = 6_335_439;
+
+/** COPC writers give spacing as an edge's 128th or so; taken where the file leaves it at 0. */
+const CELLS_PER_EDGE = 128;
+
+/** Cubes of octree nodes: in source coordinates as COPC lays them, and as spheres on the globe. */
+export class NodeGeometry {
+  readonly #info: CopcInfo;
+  readonly #header: LasHeader;
+  readonly #exact: ExactTransform;
+  readonly #unit: number;
+
+  constructor(info: CopcInfo, header: LasHeader, exact: ExactTransform, crs: Pick<Crs, "horizontalUnit">) {
+    this.#info = info;
+    this.#header = header;
+    this.#exact = exact;
+    const { kind, size } = crs.horizontalUnit;
+    this.#unit = kind === "angular" ? size * LEAST_RADIUS_OF_CURVATURE : size;
+  }
+
+  /** Cube of a node in source coordinates: min x, y, z and edge. */
+  cube({ depth, x, y, z }: VoxelKey): [number, number, number, number] {
+    const { center, halfSize } = this.#info;
+    const edge = (2 * halfSize) / 2 ** depth;
+    return [
+      center[0] - halfSize + x * edge,
+      center[1] - halfSize + y * edge,
+      center[2] - halfSize + z * edge,
+      edge,
+    ];
+  }
+
+  /**
+   * Sphere around the part of a node's cube in which the file has points, and the spacing of its points on the
+   * ground; undefined where the coordinate system has no such place.
+   */
+  bounds(key: VoxelKey): NodeBounds | undefined {
+    const box = this.#dataBox(key);
+    const samples = this.#sample(box);
+    if (!samples.every(Number.isFinite)) return undefined;
+    const point = (i: number, j: number, high: number) => {
+      const from = 6 * (3 * j + i) + 3 * high;
+      return [samples[from], samples[from + 1], samples[from + 2]] as const;
+    };
+    const low = point(1, 1, 0);
+    const top = point(1, 1, 1);
+    const [x, y, z] = low.map((value, axis) => (value + top[axis]) / 2) as [number, number, number];
+    let radius = 0;
+    for (let from = 0; from < samples.length; from += 3) {
+      radius = Math.max(radius, Math.hypot(samples[from] - x, samples[from + 1] - y, samples[from + 2] - z));
+    }
+    // Ground between the samples bulges out by the sagitta of its chord.
+    radius += (2 * radius) ** 2 / (8 * LEAST_RADIUS_OF_CURVATURE);
+    const scaleX = distance(point(0, 1, 0), point(2, 1, 0)) / (box[3] - box[0]);
+    const scaleY = distance(point(1, 0, 0), point(1, 2, 0)) / (box[4] - box[1]);
+    const metresPerUnit = Math.max(...[scaleX, scaleY].filter(Number.isFinite), 0) || this.#unit;
+    return { x, y, z, radius, spacing: this.#spacing(key.depth) * metresPerUnit };
+  }
+
+  /** Spacing at a depth, source units. */
+  #spacing(depth: number): number {
+    const { spacing, halfSize } = this.#info;
+    return (spacing || (2 * halfSize) / CELLS_PER_EDGE) / 2 ** depth;
+  }
+
+  /** Part of a node's cube inside the file's bounding box; the cube where they do not meet. */
+  #dataBox(key: VoxelKey): readonly number[] {
+    const { min, max } = this.#header;
+    const [x, y, z, edge] = this.cube(key);
+    const low = [x, y, z].map((from, axis) => Math.max(from, min[axis]));
+    const high = [x, y, z].map((from, axis) => Math.min(from + edge, max[axis]));
+    if (low.some((from, axis) => from > high[axis])) return [x, y, z, x + edge, y + edge, z + edge];
+    return [...low, ...high];
+  }
+
+  /** ECEF of a grid of 3 × 3 over a box in plane, each at its lower and its upper side: 54 numbers. */
+  #sample(box: readonly number[]): Float64Array {
+    const samples = new Float64Array(54);
+    const parts = new Float64Array(6);
+    for (let j = 0; j < 3; j++) {
+      for (let i = 0; i < 3; i++) {
+        this.#exact(box[0] + ((box[3] - box[0]) * i) / 2, box[1] + ((box[4] - box[1]) * j) / 2, parts, 0);
+        for (let axis = 0; axis < 3; axis++) {
+          const to = 6 * (3 * j + i) + axis;
+          samples[to] = parts[axis] + box[2] * parts[axis + 3];
+          samples[to + 3] = parts[axis] + box[5] * parts[axis + 3];
+        }
+      }
+    }
+    return samples;
+  }
+}
+
+function distance(a: readonly number[], b: readonly number[]): number {
+  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}

@@ -1,0 +1,166 @@
+import { describe, expect, it } from "vitest";
+import { NodeStore, type OctreeNode, type View } from "../octree/index.js";
+import type { HierarchyEntry } from "../sources/index.js";
+import type { NodeVertices } from "../workers/index.js";
+import { NodeStream } from "./node-stream.js";
+
+const POINTS = 100;
+const BYTES = POINTS * 20;
+
+const entry = (depth: number, x: number, pointCount = POINTS): HierarchyEntry => ({
+  ...{ depth, x, y: 0, z: 0, pointCount, address: { offset: 1000 + x, length: 32 } },
+});
+
+/** A root with `children` children along x, the last of them behind a further page if asked for. */
+function setUp(options: { children?: number; page?: boolean; requests?: number; cacheBytes?: number } = {}) {
+  const { children = 2, page = false } = options;
+  const store = new NodeStore("a.copc.laz", 1e6, { offset: 500, length: 32 });
+  store.root.become("opening");
+  const entries = Array.from({ length: children }, (_, x) => entry(1, x));
+  if (page) entries[children - 1] = entry(1, children - 1, -1);
+  store.insertPage(store.root, [entry(0, 0), ...entries]);
+  const calls = new Map<
+    string,
+    { resolve: () => void; reject: (error: Error) => void; signal: AbortSignal }
+  >();
+  const wait = (name: string, signal: AbortSignal) =>
+    new Promise<void>((resolve, reject) => {
+      calls.set(name, { resolve, reject, signal });
+      signal.addEventListener("abort", () => reject(signal.reason), { once: true });
+    });
+  const stream = new NodeStream(
+    {
+      store,
+      boundsOf: ({ key }) => ({ x: 100 * key.x, y: 0, z: 0, radius: 10, spacing: 10 / 2 ** key.depth }),
+      loadVertices: async (node, signal) => {
+        await wait(node.name, signal);
+        return { count: POINTS, vertices: new ArrayBuffer(BYTES) } as NodeVertices;
+      },
+      openPage: async (node, signal) => {
+        await wait(`page ${node.name}`, signal);
+        store.insertPage(node, [entry(1, node.key.x)]);
+      },
+    },
+    { requests: options.requests ?? 8, cacheBytes: options.cacheBytes ?? 1e9 },
+  );
+  const answer = async (name: string, error?: Error) => {
+    const call = calls.get(name);
+    if (!call) throw new Error(`${name} was not asked for`);
+    if (error) call.reject(error);
+    else call.resolve();
+    await new Promise((done) => setTimeout(done));
+  };
+  return { stream, store, calls, answer };
+}
+
+/** Sees everything, or only what lies within 20 m of a place on the x axis. */
+function viewAt(x?: number): View {
+  const planes = x === undefined ? [] : [1, 0, 0, 20 - x, -1, 0, 0, 20 + x];
+  return {
+    position: [0, 0, 500],
+    direction: [0, 0, -1],
+    planes,
+    height: 1000,
+    projection: { kind: "perspective", fieldOfView: 1 },
+    horizon: false,
+  };
+}
+
+const traversal = { maximumScreenSpaceError: 0.1, pointBudget: 1e6 };
+const viewer = {};
+
+describe("NodeStream", () => {
+  it("loads what a view wants, the root first, and tells how far it is", async () => {
+    const { stream, calls, answer } = setUp({ requests: 1 });
+    stream.update(viewer, viewAt(), traversal);
+    expect([...calls.keys()]).toEqual(["0-0-0-0"]);
+    expect(stream.progress(viewer)).toEqual({ wanted: 3, ready: 0, failed: 0, pending: 3 });
+    await answer("0-0-0-0");
+    expect(stream.progress(viewer)).toEqual({ wanted: 3, ready: 1, failed: 0, pending: 2 });
+    expect([calls.size, stream.active]).toEqual([2, 1]);
+  });
+
+  it("never asks for more at once than it may", () => {
+    const { stream, calls } = setUp({ requests: 2 });
+    stream.update(viewer, viewAt(), traversal);
+    expect(calls.size).toBe(2);
+  });
+
+  it("stops what a view that moved on no longer wants, and can load it later", async () => {
+    const { stream, store, calls, answer } = setUp();
+    stream.update(viewer, viewAt(), traversal);
+    stream.update(viewer, viewAt(0), traversal);
+    expect(calls.get("1-1-0-0")?.signal.aborted).toBe(true);
+    await answer("0-0-0-0");
+    const node = store.closest({ depth: 1, x: 1, y: 0, z: 0 });
+    expect(node.state).toBe("listed");
+    stream.update(viewer, viewAt(), traversal);
+    await answer("1-1-0-0");
+    expect(node.state).toBe("ready");
+  });
+
+  it("reads a page when a view comes to it, then the nodes behind it", async () => {
+    const { stream, answer } = setUp({ page: true });
+    stream.update(viewer, viewAt(), traversal);
+    expect(stream.progress(viewer)).toMatchObject({ wanted: 2, pending: 3 });
+    await answer("page 1-1-0-0");
+    stream.update(viewer, viewAt(), traversal);
+    for (const name of ["0-0-0-0", "1-0-0-0", "1-1-0-0"]) await answer(name);
+    expect(stream.progress(viewer)).toEqual({ wanted: 3, ready: 3, failed: 0, pending: 0 });
+  });
+
+  it("counts what failed as failed, tells of it once, and tries again only when asked to", async () => {
+    const { stream, calls, answer } = setUp({ page: true });
+    const failures: string[] = [];
+    stream.subscribe({ nodeFailed: (node, error) => failures.push(`${node.name} ${error.message}`) });
+    stream.update(viewer, viewAt(), traversal);
+    await answer("0-0-0-0");
+    await answer("1-0-0-0", new Error("damaged"));
+    await answer("page 1-1-0-0", new Error("gone"));
+    stream.update(viewer, viewAt(), traversal);
+    expect(stream.progress(viewer)).toEqual({ wanted: 2, ready: 1, failed: 2, pending: 0 });
+    expect(failures).toEqual(["1-0-0-0 damaged", "1-1-0-0 gone"]);
+    calls.clear();
+    stream.update(viewer, viewAt(), traversal);
+    expect(calls.size).toBe(0);
+    stream.retryFailed();
+    stream.update(viewer, viewAt(), traversal);
+    expect([...calls.keys()].sort()).toEqual(["1-0-0-0", "page 1-1-0-0"]);
+  });
+
+  it("gives up what was not wanted for longest once the cache is full, never what is wanted", async () => {
+    const { stream, answer } = setUp({ cacheBytes: 2 * BYTES });
+    const evicted: string[] = [];
+    stream.subscribe({ nodeEvicted: (node: OctreeNode) => evicted.push(node.name) });
+    stream.update(viewer, viewAt(), traversal);
+    for (const name of ["0-0-0-0", "1-0-0-0", "1-1-0-0"]) await answer(name);
+    stream.update(viewer, viewAt(), traversal);
+    expect(evicted).toEqual([]);
+    stream.update(viewer, viewAt(0), traversal);
+    expect(evicted).toEqual(["1-1-0-0"]);
+    expect(stream.bytes).toBe(2 * BYTES);
+  });
+
+  it("loads once what two views want, and keeps it while one of them stays", async () => {
+    const { stream, calls, answer } = setUp();
+    const other = {};
+    stream.update(viewer, viewAt(), traversal);
+    const first = calls.get("1-1-0-0");
+    stream.update(other, viewAt(), traversal);
+    stream.detach(viewer);
+    expect(calls.get("1-1-0-0")).toBe(first);
+    expect(first?.signal.aborted).toBe(false);
+    await answer("1-1-0-0");
+    expect(stream.progress(other).ready).toBe(1);
+  });
+
+  it("stops everything and holds nothing when destroyed", async () => {
+    const { stream, calls, answer } = setUp();
+    stream.update(viewer, viewAt(), traversal);
+    await answer("0-0-0-0");
+    stream.destroy();
+    expect([...calls.values()].slice(1).every(({ signal }) => signal.aborted)).toBe(true);
+    await new Promise((done) => setTimeout(done));
+    expect([stream.bytes, stream.active]).toEqual([0, 0]);
+  });
+});

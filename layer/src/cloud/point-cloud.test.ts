@@ -1,0 +1,150 @@
+import { encodeRecord, exactTransform, type GeoreferenceRecord, resolveCrs } from "@groma/georef";
+import { describe, expect, it } from "vitest";
+import { BlobSource } from "../sources/index.js";
+import { type TinyCopc, tinyCopc } from "../sources/tiny-copc.fixture.js";
+import type { DataSetSpec, NodeExecutor, NodeJob, NodeVertices } from "../workers/index.js";
+import { PointCloud, type PointCloudOptions } from "./point-cloud.js";
+
+const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
+const FEET = { name: "foot", kind: "linear", size: 0.3048 } as const;
+const crs = resolveCrs({ file: "a", given: UTM, givenVertical: "ellipsoidal" });
+
+const record: GeoreferenceRecord = {
+  version: 1,
+  crs: { ...crs, name: "recorded", verticalUnit: { ...FEET, declared: true } },
+  engine: { name: "proj4js", version: "2.22.0" },
+  accuracy: [
+    { name: "quantisation", metres: 0.005 },
+    { name: "fit", metres: 0.001 },
+  ],
+};
+
+/** Keeps jobs instead of doing them. */
+class Recorder implements NodeExecutor {
+  readonly specs: DataSetSpec[] = [];
+  readonly jobs: NodeJob[] = [];
+  readonly pending = 0;
+  colourMax = 65535;
+
+  addDataSet(spec: DataSetSpec): number {
+    return this.specs.push(spec);
+  }
+
+  removeDataSet(): void {
+    this.specs.length = 0;
+  }
+
+  async run(job: NodeJob): Promise<NodeVertices> {
+    this.jobs.push(job);
+    const seen = { colourMax: this.colourMax, intensityMin: 3, intensityMax: 700 };
+    return { count: job.pointCount, vertices: new ArrayBuffer(0), seen } as NodeVertices;
+  }
+
+  destroy(): void {}
+}
+
+async function open(file: TinyCopc = {}, options: PointCloudOptions = {}) {
+  const executor = new Recorder();
+  const source = new BlobSource(
+    new Blob([tinyCopc(file).slice()]),
+    "https://a.org/b%20c/tiny%20scan.copc.laz?x=1#y",
+  );
+  const cloud = await PointCloud.fromUrl(source, { executor, ...options });
+  return { cloud, executor };
+}
+
+const withRecord: TinyCopc = { records: [["groma", 1, encodeRecord(record)]] };
+const twoNodes: TinyCopc = {
+  page: [
+    [0, 0, 0, 0, 0, 100, 6],
+    [1, 1, 0, 1, 0, 100, 4],
+  ],
+};
+
+describe("PointCloud", () => {
+  it("goes by Groma's own record", async () => {
+    const { cloud, executor } = await open(withRecord);
+    expect([cloud.basis, cloud.crs.name, cloud.height.kind]).toEqual(["record", "recorded", "ellipsoidal"]);
+    expect(cloud.accuracy.total).toBeCloseTo(0.006, 12);
+    expect(executor.specs[0]).toMatchObject({ crs: { verticalUnit: { size: 0.3048 } }, heights: [0, 50] });
+  });
+
+  it("lets the application overrule it, and says so", async () => {
+    const { cloud } = await open(withRecord, { crs: UTM, tolerance: 0.01 });
+    expect([cloud.basis, cloud.height.kind, cloud.accuracy.total]).toEqual(["given", "unknown", null]);
+    const fit = cloud.accuracy.parts.find((part) => part.name === "fit");
+    const datum = cloud.accuracy.parts.find((part) => part.name === "datum operation");
+    expect([fit?.metres, datum?.note]).toEqual([0.01, expect.stringContaining("given by the user")]);
+  });
+
+  it("tells its name, count and box", async () => {
+    const { cloud } = await open(withRecord);
+    expect([cloud.name, cloud.pointCount, cloud.nodeCount]).toEqual(["tiny scan.copc.laz", 10, 1]);
+    expect(cloud.boundingBox).toEqual({ min: [0, 0, 0], max: [100, 100, 50] });
+  });
+
+  it("has a sphere around all corners of its box", async () => {
+    const { cloud } = await open({}, { crs: UTM, vertical: "ellipsoidal" });
+    const exact = exactTransform(crs);
+    const parts = new Float64Array(6);
+    for (const [x, y, z] of [
+      [0, 0, 0],
+      [100, 0, 50],
+      [100, 100, 0],
+      [50, 50, 50],
+    ]) {
+      exact(x, y, parts, 0);
+      const [px, py, pz] = [0, 1, 2].map((axis) => parts[axis] + z * parts[axis + 3]);
+      const { bounds } = cloud;
+      expect(Math.hypot(px - bounds.x, py - bounds.y, pz - bounds.z)).toBeLessThanOrEqual(bounds.radius);
+      expect(bounds.radius).toBeLessThan(80);
+    }
+    // Not exactly 1: the zone's scale at its western edge.
+    expect(cloud.bounds.spacing).toBeCloseTo(1, 1);
+  });
+
+  it("judges colours and intensities by the node nearest the root, once for all", async () => {
+    const { cloud, executor } = await open({ ...twoNodes, ...withRecord });
+    executor.colourMax = 200;
+    await cloud.loadNode("1-1-0-1");
+    executor.colourMax = 65535;
+    await cloud.loadNode("0-0-0-0");
+    expect(executor.jobs.map(({ node, rgbBits }) => [node, rgbBits])).toEqual([
+      ["0-0-0-0", undefined],
+      ["1-1-0-1", 8],
+      ["0-0-0-0", 8],
+    ]);
+    expect(cloud.intensityRange).toEqual([3, 700]);
+  });
+
+  it("hands the worker a node's cube in source coordinates", async () => {
+    const { cloud, executor } = await open({ ...twoNodes, ...withRecord });
+    await cloud.loadNode("1-1-0-1");
+    expect(executor.jobs.at(-1)).toMatchObject({ pointCount: 4, cube: [50, 0, 50, 50] });
+    expect(executor.jobs.at(-1)?.chunk.byteLength).toBe(100);
+  });
+
+  it("PLACE_DOMAIN where the coordinates are none of the coordinate system", async () => {
+    await expect(open({}, { crs: "+proj=longlat +datum=WGS84" })).rejects.toThrow(
+      expect.objectContaining({ code: "PLACE_DOMAIN" }),
+    );
+  });
+
+  it("RECORD_* for a record that is damaged", async () => {
+    const records: TinyCopc["records"] = [["groma", 1, new TextEncoder().encode('{"version":1}')]];
+    await expect(open({ records })).rejects.toThrow(expect.objectContaining({ name: "RecordError" }));
+  });
+
+  it("FORMAT_HIERARCHY where no node has points", async () => {
+    await expect(open({ ...withRecord, page: [[0, 0, 0, 0, 0, 0, 0]] })).rejects.toThrow(
+      expect.objectContaining({ code: "FORMAT_HIERARCHY" }),
+    );
+  });
+
+  it("leaves an executor that it was given alive", async () => {
+    const { cloud, executor } = await open(withRecord);
+    cloud.destroy();
+    expect(executor.specs).toEqual([]);
+    await expect(executor.run({ pointCount: 1 } as NodeJob)).resolves.toMatchObject({ count: 1 });
+  });
+});

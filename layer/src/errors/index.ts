@@ -1,0 +1,35 @@
+import { CrsError, type FaultWire, GromaError, PlacementError, RecordError } from "@groma/georef";
+
+/** The bytes of a data set cannot be had: server, network or file. Codes start with `SOURCE_`. */
+export class SourceError extends GromaError {}
+
+/** The bytes are there, but they are not what the format's specification says. Codes start with `FORMAT_`. */
+export class FormatError extends GromaError {}
+
+/** A node's points cannot be decoded, or the decoder itself is not to be had. Codes start with `DECODE_`. */
+export class DecodeError extends GromaError {}
+
+/** An application asked for a way of drawing that does not exist or that the data cannot give. Codes start with `STYLE_`. */
+export class StyleError extends GromaError {}
+
+const kinds = [SourceError, FormatError, DecodeError, StyleError, CrsError, PlacementError, RecordError];
+
+/**
+ * Any thrown value as a plain object that survives `postMessage`. What is not Groma's own error becomes
+ * a {@link DecodeError} with the code given, so that a fault never crosses the boundary without a code.
+ */
+export function toWire(thrown: unknown, fallback: { code: string; file: string; fix: string }): FaultWire {
+  if (thrown instanceof GromaError) return thrown.toWire();
+  const cause = thrown instanceof Error ? thrown.message : String(thrown);
+  return new DecodeError({ ...fallback, cause }).toWire();
+}
+
+/** The error that {@link toWire} was given, of the same class and with the same four fields. */
+export function fromWire(wire: FaultWire): GromaError {
+  return GromaError.revive(wire, kinds);
+}
+
+/** True for what an aborted `AbortSignal` throws: a wish of the caller's, never a fault. */
+export function isAbort(thrown: unknown): boolean {
+  return thrown instanceof Error && thrown.name === "AbortError";
+}

@@ -1,0 +1,92 @@
+/** What an item takes up. */
+export interface Cost {
+  readonly points: number;
+  readonly bytes: number;
+}
+
+/** How much may be held. */
+export interface CacheLimits extends Cost {
+  /** Share of the limits down to which a trim goes on. Below 1, so that not every new item evicts one. Default: 0.8. */
+  readonly low?: number;
+}
+
+/** What was used last is kept; what was not used for longest goes first once a limit is passed. */
+export class LruCache<K, V> {
+  limits: CacheLimits;
+  // A Map keeps the order of insertion: the first entry is the one not used for longest.
+  readonly #entries = new Map<K, { value: V; cost: Cost }>();
+  #points = 0;
+  #bytes = 0;
+
+  constructor(limits: CacheLimits) {
+    this.limits = limits;
+  }
+
+  get size(): number {
+    return this.#entries.size;
+  }
+
+  /** Points held. */
+  get points(): number {
+    return this.#points;
+  }
+
+  /** Bytes held. */
+  get bytes(): number {
+    return this.#bytes;
+  }
+
+  /** Value of a key, without counting as a use. */
+  peek(key: K): V | undefined {
+    return this.#entries.get(key)?.value;
+  }
+
+  /** Value of a key, which is thereby the one used last. */
+  use(key: K): V | undefined {
+    const entry = this.#entries.get(key);
+    if (!entry) return undefined;
+    this.#entries.delete(key);
+    this.#entries.set(key, entry);
+    return entry.value;
+  }
+
+  /** Puts in a value, or another one for a key. */
+  set(key: K, value: V, cost: Cost): void {
+    this.delete(key);
+    this.#entries.set(key, { value, cost });
+    this.#points += cost.points;
+    this.#bytes += cost.bytes;
+  }
+
+  delete(key: K): boolean {
+    const entry = this.#entries.get(key);
+    if (!entry) return false;
+    this.#entries.delete(key);
+    this.#points -= entry.cost.points;
+    this.#bytes -= entry.cost.bytes;
+    return true;
+  }
+
+  /**
+   * Where a limit is passed, takes out what was not used for longest and is not in use, until the low mark.
+   * @returns what was taken out
+   */
+  trim(inUse: (key: K) => boolean): [K, V][] {
+    const { points, bytes, low = 0.8 } = this.limits;
+    const removed: [K, V][] = [];
+    if (this.#points <= points && this.#bytes <= bytes) return removed;
+    for (const [key, { value }] of this.#entries) {
+      if (this.#points <= points * low && this.#bytes <= bytes * low) break;
+      if (inUse(key)) continue;
+      this.delete(key);
+      removed.push([key, value]);
+    }
+    return removed;
+  }
+
+  clear(): void {
+    this.#entries.clear();
+    this.#points = 0;
+    this.#bytes = 0;
+  }
+}

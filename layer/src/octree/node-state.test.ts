@@ -1,0 +1,42 @@
+import { describe, expect, it } from "vitest";
+import { isLegal, type NodeState } from "./node-state.js";
+import { OctreeNode } from "./octree-node.js";
+
+const STATES: NodeState[] = ["page", "opening", "empty", "listed", "queued", "loading", "ready", "failed"];
+
+describe("node states", () => {
+  it("goes the whole way from a page to vertices and back", () => {
+    const node = new OctreeNode({ depth: 0, x: 0, y: 0, z: 0 }, "page");
+    const way: NodeState[] = [
+      "opening",
+      "listed",
+      "queued",
+      "loading",
+      "ready",
+      "listed",
+      "queued",
+      "loading",
+      "failed",
+    ];
+    for (const state of way) node.become(state);
+    expect(node.state).toBe("failed");
+  });
+
+  it("refuses what the table does not have, and stays as it was", () => {
+    const node = new OctreeNode({ depth: 1, x: 0, y: 1, z: 0 }, "listed");
+    expect(() => node.become("ready")).toThrow("node 1-0-1-0 cannot go from listed to ready");
+    expect(node.state).toBe("listed");
+  });
+
+  it("never counts a failed node as ready", () => {
+    expect(isLegal("failed", "ready")).toBe(false);
+  });
+
+  it("has no way out of empty, so an empty node is never requested", () => {
+    expect(STATES.filter((state) => isLegal("empty", state))).toEqual([]);
+  });
+
+  it("has no state that goes to itself", () => {
+    for (const state of STATES) expect(isLegal(state, state)).toBe(false);
+  });
+});

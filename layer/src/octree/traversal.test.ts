@@ -1,0 +1,141 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { type NodeBounds, OctreeNode } from "./octree-node.js";
+import { selectNodes } from "./traversal.js";
+import type { View } from "./view.js";
+import type { VoxelKey } from "./voxel-key.js";
+
+/** Metres of the root's edge; the octree's corner is at the origin of ECEF, where nothing has a horizon. */
+const EDGE = 1000;
+
+function tree(depth: number, points = 100, key: VoxelKey = { depth: 0, x: 0, y: 0, z: 0 }): OctreeNode {
+  const node = new OctreeNode(key, "listed");
+  node.pointCount = points;
+  if (key.depth === depth) return node;
+  for (let n = 0; n < 8; n++) {
+    const child = {
+      depth: key.depth + 1,
+      x: 2 * key.x + (n & 1),
+      y: 2 * key.y + ((n >> 1) & 1),
+      z: 2 * key.z + (n >> 2),
+    };
+    node.adopt(tree(depth, points, child));
+  }
+  return node;
+}
+
+function boundsOf({ key }: OctreeNode): NodeBounds {
+  const edge = EDGE / 2 ** key.depth;
+  const middle = (index: number) => (index + 0.5) * edge;
+  return {
+    ...{ x: middle(key.x), y: middle(key.y), z: middle(key.z) },
+    ...{ radius: (edge * Math.sqrt(3)) / 2, spacing: edge / 100 },
+  };
+}
+
+function viewFrom(x: number, planes: number[] = []): View {
+  return {
+    position: [x, EDGE / 2, EDGE / 2],
+    direction: [1, 0, 0],
+    planes,
+    height: 1000,
+    projection: { kind: "perspective", fieldOfView: Math.PI / 2 },
+    horizon: false,
+  };
+}
+
+const options = { maximumScreenSpaceError: 2, pointBudget: 1e9 };
+const parent = ({ key }: OctreeNode) => `${key.depth - 1}-${key.x >> 1}-${key.y >> 1}-${key.z >> 1}`;
+
+describe("selectNodes", () => {
+  it("takes the root alone from far away, and everything from within", () => {
+    expect(selectNodes(tree(3), viewFrom(-1e6), options, boundsOf).nodes.map((n) => n.name)).toEqual([
+      "0-0-0-0",
+    ]);
+    const near = selectNodes(
+      tree(2),
+      viewFrom(EDGE / 2),
+      { ...options, maximumScreenSpaceError: 0.1 },
+      boundsOf,
+    );
+    expect(near.nodes).toHaveLength(1 + 8 + 64);
+  });
+
+  it("refines as the camera comes nearer or the error is held smaller", () => {
+    const count = (x: number, maximumScreenSpaceError: number) =>
+      selectNodes(tree(3), viewFrom(x), { ...options, maximumScreenSpaceError }, boundsOf).nodes.length;
+    expect(count(-500, 2)).toBeGreaterThan(count(-3000, 2));
+    expect(count(-3000, 1)).toBeGreaterThan(count(-3000, 4));
+  });
+
+  it("never passes the budget, and names each node after its parent", () => {
+    const root = tree(3);
+    fc.assert(
+      fc.property(
+        fc.integer({ min: 0, max: 60_000 }),
+        fc.integer({ min: -2000, max: 1000 }),
+        (pointBudget, x) => {
+          const { nodes, points } = selectNodes(root, viewFrom(x), { ...options, pointBudget }, boundsOf);
+          expect(points).toBeLessThanOrEqual(pointBudget);
+          expect(points).toBe(nodes.reduce((sum, node) => sum + node.pointCount, 0));
+          const seen = new Set<string>();
+          const orphans = nodes.filter((node) => {
+            seen.add(node.name);
+            return node.key.depth > 0 && !seen.has(parent(node));
+          });
+          expect(orphans).toEqual([]);
+        },
+      ),
+    );
+  });
+
+  it("says whether the budget ended it", () => {
+    expect(selectNodes(tree(2), viewFrom(-500), { ...options, pointBudget: 500 }, boundsOf).limited).toBe(
+      true,
+    );
+    expect(selectNodes(tree(2), viewFrom(-500), options, boundsOf).limited).toBe(false);
+  });
+
+  it("spends the budget where points are largest on the screen: near the camera", () => {
+    const { nodes } = selectNodes(tree(3), viewFrom(-200), { ...options, pointBudget: 3000 }, boundsOf);
+    const deepest = nodes.filter((node) => node.key.depth === 3);
+    expect(deepest.length).toBeGreaterThan(0);
+    expect(Math.max(...deepest.map((node) => node.key.x))).toBeLessThan(4);
+  });
+
+  it("leaves out what lies outside the frustum, with all below it", () => {
+    // Inside is x ≤ 100.
+    const { nodes } = selectNodes(tree(2), viewFrom(-200, [-1, 0, 0, 100]), options, boundsOf);
+    expect(nodes.map((node) => node.name)).toContain("2-0-0-0");
+    expect(nodes.some((node) => node.key.depth === 2 && node.key.x >= 2)).toBe(false);
+  });
+
+  it("asks for pages instead of nodes where the hierarchy is not read yet", () => {
+    const root = tree(1);
+    root.adopt(new OctreeNode({ depth: 1, x: 0, y: 0, z: 0 }, "page"));
+    const { nodes, pages } = selectNodes(root, viewFrom(-300), options, boundsOf);
+    expect(pages.map((node) => node.name)).toEqual(["1-0-0-0"]);
+    expect(nodes).toHaveLength(8);
+  });
+
+  it("goes through nodes without points of their own", () => {
+    const root = new OctreeNode({ depth: 0, x: 0, y: 0, z: 0 }, "empty");
+    root.adopt(tree(1, 100, { depth: 1, x: 1, y: 1, z: 1 }));
+    expect(selectNodes(root, viewFrom(-300), options, boundsOf).nodes.map((n) => n.name)).toEqual([
+      "1-1-1-1",
+    ]);
+  });
+
+  it("asks for each node's bounds once", () => {
+    const root = tree(2);
+    let asked = 0;
+    const counting = (node: OctreeNode) => {
+      asked++;
+      return boundsOf(node);
+    };
+    selectNodes(root, viewFrom(-300), options, counting);
+    const first = asked;
+    selectNodes(root, viewFrom(-300), options, counting);
+    expect(asked).toBe(first);
+  });
+});

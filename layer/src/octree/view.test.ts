@@ -1,0 +1,108 @@
+import { geodeticToEcef } from "@groma/georef";
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import type { NodeBounds } from "./octree-node.js";
+import { behindHorizon, distanceTo, outsideFrustum, projectedSize, type View } from "./view.js";
+
+const RADIAN = Math.PI / 180;
+
+function ecef(longitude: number, latitude: number, height: number): Float64Array {
+  const out = new Float64Array(3);
+  geodeticToEcef(longitude * RADIAN, latitude * RADIAN, height, out);
+  return out;
+}
+
+function bounds(longitude: number, latitude: number, height: number, radius: number): NodeBounds {
+  const [x, y, z] = ecef(longitude, latitude, height);
+  return { x, y, z, radius, spacing: 1 };
+}
+
+function viewFrom(position: ArrayLike<number>, planes: number[] = [], horizon = true): View {
+  return {
+    position,
+    direction: [1, 0, 0],
+    planes,
+    height: 1000,
+    projection: { kind: "perspective", fieldOfView: Math.PI / 2 },
+    horizon,
+  };
+}
+
+describe("behindHorizon", () => {
+  const low = viewFrom(ecef(8, 47, 1000));
+
+  it("hides the other side of the earth", () => {
+    expect(behindHorizon(low, bounds(-172, -47, 0, 1000))).toBe(true);
+    expect(behindHorizon(low, bounds(20, 47, 0, 1000))).toBe(true);
+  });
+
+  it("shows what is near, what towers over the horizon and what is too large to hide", () => {
+    expect(behindHorizon(low, bounds(8.5, 47, 0, 100))).toBe(false);
+    expect(behindHorizon(low, bounds(20, 47, 0, 100_000))).toBe(false);
+    expect(behindHorizon(low, bounds(20, 47, 200_000, 1000))).toBe(false);
+  });
+
+  it("shows the floor of the deepest sea from the surface", () => {
+    expect(behindHorizon(viewFrom(ecef(142, 11, 100)), bounds(142.2, 11.4, -11_000, 100))).toBe(false);
+  });
+
+  it("hides nothing from deep below the ellipsoid, nor where the globe hides nothing", () => {
+    expect(behindHorizon(viewFrom(ecef(8, 47, -13_000)), bounds(-172, -47, 0, 1000))).toBe(false);
+    expect(behindHorizon(viewFrom(low.position, [], false), bounds(-172, -47, 0, 1000))).toBe(false);
+  });
+
+  it("hides no point in sight: the line to it stays above the ground", () => {
+    const place = fc.record({
+      longitude: fc.double({ min: -180, max: 180, noNaN: true }),
+      latitude: fc.double({ min: -90, max: 90, noNaN: true }),
+    });
+    const height = fc.double({ min: 1, max: 2e7, noNaN: true });
+    fc.assert(
+      fc.property(place, height, place, (from, up, to) => {
+        const camera = ecef(from.longitude, from.latitude, up);
+        const target = bounds(to.longitude, to.latitude, 0, 1);
+        if (!behindHorizon(viewFrom(camera), target)) return;
+        // Somewhere on the line of sight, scaled to the unit sphere, the ground must be above it.
+        const a = [camera[0] / 6378137, camera[1] / 6378137, camera[2] / 6356752.3];
+        const b = [target.x / 6378137, target.y / 6378137, target.z / 6356752.3];
+        const d = b.map((value, axis) => value - a[axis]);
+        const t = -(a[0] * d[0] + a[1] * d[1] + a[2] * d[2]) / (d[0] ** 2 + d[1] ** 2 + d[2] ** 2);
+        const nearest = Math.hypot(...a.map((value, axis) => value + Math.min(1, t) * d[axis]));
+        expect(nearest).toBeLessThan(1);
+      }),
+      { numRuns: 2000 },
+    );
+  });
+});
+
+describe("outsideFrustum", () => {
+  // Inside is x ≥ 100.
+  const view = viewFrom([0, 0, 0], [1, 0, 0, -100]);
+
+  it.each([
+    [105, false],
+    [95, false],
+    [89, true],
+  ])("a sphere of 10 m at x = %d is outside: %s", (x, outside) => {
+    expect(outsideFrustum(view, { x, y: 0, z: 0, radius: 10, spacing: 1 })).toBe(outside);
+  });
+});
+
+describe("projectedSize", () => {
+  const at = (x: number): NodeBounds => ({ x, y: 0, z: 0, radius: 10, spacing: 1 });
+
+  it("is the picture's height for the length that fills it at the sphere's near side", () => {
+    expect(distanceTo(viewFrom([0, 0, 0]), at(110))).toBe(100);
+    // Field of view 90°: at 100 m the picture is 200 m high.
+    expect(projectedSize(viewFrom([0, 0, 0]), at(110), 200)).toBeCloseTo(1000, 9);
+  });
+
+  it("is infinite inside", () => {
+    expect(projectedSize(viewFrom([0, 0, 0]), at(5), 1)).toBe(Number.POSITIVE_INFINITY);
+  });
+
+  it("does not depend on distance in an orthographic view", () => {
+    const view: View = { ...viewFrom([0, 0, 0]), projection: { kind: "orthographic", extent: 500 } };
+    expect(projectedSize(view, at(10_000), 5)).toBe(10);
+  });
+});

@@ -1,0 +1,87 @@
+import type { NodeBounds } from "./octree-node.js";
+
+/** A camera over the globe in plain numbers: float64, ECEF (EPSG:4978), metres. */
+export interface View {
+  /** Camera position, 3 numbers. */
+  readonly position: ArrayLike<number>;
+  /** Direction of view, unit vector, 3 numbers. */
+  readonly direction: ArrayLike<number>;
+  /** Planes of the frustum, 4 numbers each: n·p + d ≥ 0 inside, n of unit length. */
+  readonly planes: ArrayLike<number>;
+  /** Height of the picture in pixels. */
+  readonly height: number;
+  /** How lengths come to pixels. */
+  readonly projection:
+    | { readonly kind: "perspective" /** Vertical field of view, radians. */; readonly fieldOfView: number }
+    | {
+        readonly kind: "orthographic" /** Height of the picture on the ground, metres. */;
+        readonly extent: number;
+      };
+  /** Whether the globe hides what lies behind its horizon. */
+  readonly horizon: boolean;
+}
+
+/** Semi-axes of WGS84, metres (EPSG:7030). */
+const SEMI_MAJOR = 6_378_137;
+const SEMI_MINOR = 6_356_752.314245179;
+
+/**
+ * Metres by which the occluding ellipsoid is smaller than WGS84. Cesium shows what lies under its globe unless
+ * asked to test against terrain, so a survey of the sea floor (deepest: about −11,000 m) must not be culled by
+ * the water above it.
+ */
+const OCCLUDER_DEPTH = 12_000;
+
+/** Distance from the camera to a node's sphere, metres; 0 inside. */
+export function distanceTo(view: View, bounds: NodeBounds): number {
+  const { position } = view;
+  const toCentre = Math.hypot(bounds.x - position[0], bounds.y - position[1], bounds.z - position[2]);
+  return Math.max(0, toCentre - bounds.radius);
+}
+
+/** True where a node's sphere lies wholly on the outer side of a plane of the frustum. */
+export function outsideFrustum(view: View, bounds: NodeBounds): boolean {
+  const { planes } = view;
+  for (let at = 0; at + 3 < planes.length; at += 4) {
+    const distance =
+      planes[at] * bounds.x + planes[at + 1] * bounds.y + planes[at + 2] * bounds.z + planes[at + 3];
+    if (distance < -bounds.radius) return true;
+  }
+  return false;
+}
+
+/**
+ * True where the ellipsoid hides a node's sphere wholly. In coordinates divided by the semi-axes the
+ * ellipsoid is the unit sphere; hidden is what lies behind the plane of the horizon and inside the cone of
+ * tangents from the camera (P. Cozzi, K. Ring, "Horizon Culling", 2013). The sphere is taken as one with the
+ * radius divided by the smaller semi-axis, which contains its image: the test never hides too much.
+ */
+export function behindHorizon(view: View, bounds: NodeBounds): boolean {
+  if (!view.horizon) return false;
+  const a = SEMI_MAJOR - OCCLUDER_DEPTH;
+  const b = SEMI_MINOR - OCCLUDER_DEPTH;
+  const vx = view.position[0] / a;
+  const vy = view.position[1] / a;
+  const vz = view.position[2] / b;
+  const height = Math.hypot(vx, vy, vz);
+  if (height <= 1) return false;
+  const radius = bounds.radius / b;
+  const wx = bounds.x / a - vx;
+  const wy = bounds.y / a - vy;
+  const wz = bounds.z / b - vz;
+  // Along the axis from the camera to the centre of the earth, and away from it.
+  const along = -(wx * vx + wy * vy + wz * vz) / height;
+  const toHorizonPlane = height - 1 / height;
+  if (along - toHorizonPlane < radius) return false;
+  const away = Math.sqrt(Math.max(0, wx * wx + wy * wy + wz * wz - along * along));
+  const sine = 1 / height;
+  return along * sine - away * Math.sqrt(1 - sine * sine) >= radius;
+}
+
+/** Length of a length on the ground at a node's near side in pixels; Infinity where the camera is inside. */
+export function projectedSize(view: View, bounds: NodeBounds, metres: number): number {
+  if (view.projection.kind === "orthographic") return (metres * view.height) / view.projection.extent;
+  const distance = distanceTo(view, bounds);
+  if (distance === 0) return Number.POSITIVE_INFINITY;
+  return (metres * view.height) / (2 * distance * Math.tan(view.projection.fieldOfView / 2));
+}

@@ -1,0 +1,82 @@
+import { GromaError } from "@groma/georef";
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { BlobSource } from "./blob-source.js";
+import { openCopc, readHierarchyPage } from "./copc-file.js";
+import { type TinyCopc, tinyCopc } from "./tiny-copc.fixture.js";
+
+const source = (bytes: Uint8Array) => new BlobSource(new Blob([bytes.slice()]), "tiny.copc.laz");
+const open = (options?: TinyCopc) => openCopc(source(tinyCopc(options)));
+
+const statistics = new TextEncoder().encode(
+  JSON.stringify({
+    version: 1,
+    points: 10,
+    rgbBits: 8,
+    attributes: [{ name: "intensity", min: 1, max: 9, mean: 4 }],
+    classes: { 2: 10 },
+    returns: { 1: 10 },
+  }),
+);
+
+describe("openCopc", () => {
+  it("reads header, octree, WKT and statistics", async () => {
+    const copc = await open({ wkt: 'PROJCS["x"]', records: [["groma", 2, statistics]] });
+    expect(copc.header).toMatchObject({ pointFormat: 7, recordLength: 36, pointCount: 10 });
+    expect(copc.header.max).toEqual([100, 100, 50]);
+    expect(copc.info).toMatchObject({ center: [50, 50, 50], halfSize: 50, spacing: 1 });
+    expect(copc.wkt).toBe('PROJCS["x"]');
+    expect(copc.statistics?.rgbBits).toBe(8);
+    const [root] = await readHierarchyPage(copc, copc.info.rootPage);
+    expect(root.pointCount).toBe(10);
+  });
+
+  it("keeps GeoTIFF keys as they are recorded", async () => {
+    const directory = new Uint8Array(Uint16Array.of(1, 1, 0, 1, 3072, 0, 1, 2056).buffer);
+    const { geoTiff } = await open({ records: [["LASF_Projection", 34735, directory]] });
+    expect([...(geoTiff?.directory ?? [])]).toEqual([1, 1, 0, 1, 3072, 0, 1, 2056]);
+    expect(geoTiff?.doubles).toHaveLength(0);
+  });
+
+  it.each<[string, string, TinyCopc]>([
+    ["FORMAT_MAGIC", "another format", { magic: "PK\x03\x04" }],
+    ["SOURCE_HTML", "a web page", { magic: "<!doctype html>" }],
+    ["FORMAT_NOT_COPC", "LAS 1.2", { minor: 2 }],
+    ["FORMAT_NOT_COPC", "an uncompressed format", { formatByte: 7 }],
+    ["FORMAT_NOT_COPC", "an old format", { formatByte: 0x83 }],
+    ["FORMAT_EMPTY", "no points", { points: 0 }],
+    ["FORMAT_HEADER", "records that are too short", { recordLength: 30 }],
+    ["FORMAT_HEADER", "a scale of zero", { scale: 0 }],
+    ["FORMAT_HEADER", "a scale that is no number", { scale: Number.NaN }],
+    ["FORMAT_TRUNCATED", "a root page beyond the end", { pageOffset: 100_000 }],
+    ["FORMAT_STATISTICS", "statistics that are no JSON", { records: [["groma", 2, Uint8Array.of(123, 34)]] }],
+  ])("%s for %s", async (code, _, options) => {
+    await expect(open(options)).rejects.toThrow(expect.objectContaining({ code }));
+  });
+
+  it("FORMAT_TRUNCATED or FORMAT_MAGIC wherever the file is cut", async () => {
+    const whole = tinyCopc();
+    for (const length of [0, 3, 4, 200, 374, 480, 600, whole.length - 1]) {
+      const error = await openCopc(source(whole.subarray(0, length))).catch((thrown: unknown) => thrown);
+      expect(error, `cut at ${length}`).toBeInstanceOf(GromaError);
+    }
+  });
+
+  it("throws nothing but its own errors whatever bytes are changed", async () => {
+    const whole = tinyCopc({ wkt: 'PROJCS["x"]', records: [["groma", 2, statistics]] });
+    const change = fc.tuple(fc.nat(whole.length - 1), fc.nat(255));
+    await fc.assert(
+      fc.asyncProperty(fc.array(change, { minLength: 1, maxLength: 8 }), async (changes) => {
+        const bytes = whole.slice();
+        for (const [at, value] of changes) bytes[at] = value;
+        try {
+          const copc = await openCopc(source(bytes));
+          await readHierarchyPage(copc, copc.info.rootPage);
+        } catch (error) {
+          expect(error).toBeInstanceOf(GromaError);
+        }
+      }),
+      { numRuns: 300 },
+    );
+  });
+});

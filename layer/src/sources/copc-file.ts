@@ -1,0 +1,126 @@
+import type { GeoTiffKeys } from "@groma/georef";
+import { SourceError } from "../errors/index.js";
+import type { ByteSource, ReadOptions } from "./byte-source.js";
+import { COPC_INFO_END, type CopcInfo, type PageAddress, parseCopcInfo } from "./copc-info.js";
+import {
+  checkPageAddress,
+  type HierarchyEntry,
+  type HierarchyLimits,
+  parseHierarchyPage,
+} from "./hierarchy.js";
+import { looksLikeHtml } from "./http-answer.js";
+import { badHeader, type LasHeader, parseLasHeader, truncated } from "./las-header.js";
+import { type CloudStatistics, decodeStatistics } from "./statistics-record.js";
+import { findVlr, readVlr, type VlrEntry, walkEvlrs, walkVlrs } from "./vlrs.js";
+
+/** Everything a COPC file says about itself before any point is read. */
+export interface CopcFile {
+  readonly source: ByteSource;
+  readonly header: LasHeader;
+  readonly info: CopcInfo;
+  /** Coordinate system as OGC WKT (VLR or extended VLR LASF_Projection 2112). */
+  readonly wkt?: string;
+  /** Coordinate system as GeoTIFF keys (LASF_Projection 34735 to 34737). */
+  readonly geoTiff?: GeoTiffKeys;
+  /** Raw bytes of Groma's georeference record (VLR `groma` 1). */
+  readonly georeference?: Uint8Array;
+  /** Groma's statistics record (VLR `groma` 2). */
+  readonly statistics?: CloudStatistics;
+  readonly limits: HierarchyLimits;
+}
+
+const PROJECTION = "LASF_Projection";
+
+/** Bytes before the points that are read at most: a few records of 64 KiB are usual, a header that says more is damaged. */
+const MAX_POINTS_OFFSET = 64 * 1024 * 1024;
+
+/**
+ * Reads header, VLRs and COPC info. With an HTTP source of the usual kind this costs no request beyond the
+ * opening one: everything lies in its first 64 KiB.
+ * @throws SourceError, FormatError
+ */
+export async function openCopc(source: ByteSource, options: ReadOptions = {}): Promise<CopcFile> {
+  const file = source.name;
+  const opening = await source.read(0, Math.min(COPC_INFO_END, source.size ?? COPC_INFO_END), options);
+  if (looksLikeHtml(opening)) {
+    throw new SourceError({
+      code: "SOURCE_HTML",
+      file,
+      cause: "this is an HTML page, not a point cloud",
+      fix: "Check the address; a login or error page may stand in for the file",
+    });
+  }
+  const header = parseLasHeader(opening, file);
+  const info = parseCopcInfo(opening, file);
+  if (source.size !== undefined && header.pointsOffset > source.size) throw truncated(file, "its records");
+  if (header.pointsOffset < COPC_INFO_END || header.pointsOffset > MAX_POINTS_OFFSET) {
+    throw badHeader(file, "offset to the points");
+  }
+  const limits: HierarchyLimits = {
+    file,
+    fileSize: source.size,
+    pointsOffset: header.pointsOffset,
+    pointCount: header.pointCount,
+  };
+  checkPageAddress(info.rootPage, limits);
+  const bytes = await source.read(0, header.pointsOffset, options);
+  const headerLength = new DataView(bytes.buffer, bytes.byteOffset).getUint16(94, true);
+  const entries = walkVlrs(bytes, header, headerLength, file);
+  // Extended records cost requests, so they are only walked where the file does not say its CRS up front.
+  const known = findVlr(entries, "groma", 1) ?? findVlr(entries, PROJECTION, 2112);
+  if (!known) entries.push(...(await walkEvlrs(source, header, options)));
+  return { source, header, info, limits, ...(await readRecords(source, entries, options)) };
+}
+
+type Records = Pick<CopcFile, "wkt" | "geoTiff" | "georeference" | "statistics">;
+
+async function readRecords(
+  source: ByteSource,
+  entries: readonly VlrEntry[],
+  options: ReadOptions,
+): Promise<Records> {
+  const content = (userId: string, id: number) => readVlr(source, findVlr(entries, userId, id), options);
+  const wkt = await content(PROJECTION, 2112);
+  const directory = await content(PROJECTION, 34735);
+  const georeference = await content("groma", 1);
+  const statistics = await content("groma", 2);
+  return {
+    // LAS allows WKT to end with NULs.
+    ...(wkt && {
+      wkt: new TextDecoder()
+        .decode(wkt)
+        .replace(/\0[\s\S]*$/, "")
+        .trim(),
+    }),
+    ...(directory && {
+      geoTiff: geoTiffKeys(directory, await content(PROJECTION, 34736), await content(PROJECTION, 34737)),
+    }),
+    ...(georeference && { georeference }),
+    ...(statistics && { statistics: decodeStatistics(statistics, source.name) }),
+  };
+}
+
+/** The three GeoTIFF records as typed arrays; a copy, since VLR contents are not aligned. */
+function geoTiffKeys(directory: Uint8Array, doubles?: Uint8Array, ascii?: Uint8Array): GeoTiffKeys {
+  const whole = (bytes: Uint8Array, size: number) =>
+    bytes.slice(0, bytes.length - (bytes.length % size)).buffer as ArrayBuffer;
+  return {
+    directory: new Uint16Array(whole(directory, 2)),
+    doubles: doubles ? new Float64Array(whole(doubles, 8)) : new Float64Array(0),
+    ascii: ascii ? new TextDecoder().decode(ascii) : "",
+  };
+}
+
+/**
+ * Reads one page of the hierarchy.
+ * @throws SourceError, FormatError
+ */
+export async function readHierarchyPage(
+  copc: CopcFile,
+  page: PageAddress,
+  options: ReadOptions = {},
+): Promise<HierarchyEntry[]> {
+  checkPageAddress(page, copc.limits);
+  const bytes = await copc.source.read(page.offset, page.offset + page.length, options);
+  return parseHierarchyPage(bytes, copc.limits);
+}

@@ -1,0 +1,116 @@
+import { FormatError } from "../errors/index.js";
+import type { PageAddress } from "./copc-info.js";
+
+/** Bytes of one entry of a hierarchy page (copc.io, "hierarchy VLR"). */
+export const ENTRY_LENGTH = 32;
+
+/** LAS coordinates are 32-bit integers: below 31 halvings a cube of an octree holds one of their steps. */
+export const MAX_DEPTH = 31;
+
+/** Points that one node may hold: 2^24 of them are half a gigabyte of records in a worker. */
+export const MAX_NODE_POINTS = 2 ** 24;
+
+/** Bytes that one page may take: 2^20 entries. */
+const MAX_PAGE_LENGTH = ENTRY_LENGTH * 2 ** 20;
+
+/** One entry of a hierarchy page: a node with its chunk of points, or a reference to a further page. */
+export interface HierarchyEntry {
+  readonly depth: number;
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  /** Chunk of compressed points, or the further page. Length 0 where the node holds no points. */
+  readonly address: PageAddress;
+  /** Number of points; -1 for a reference to a further page. */
+  readonly pointCount: number;
+}
+
+/** What entries are held against. */
+export interface HierarchyLimits {
+  /** Name of the file, for errors. */
+  readonly file: string;
+  /** Length of the file in bytes, where known. */
+  readonly fileSize: number | undefined;
+  /** Byte at which point data begins. */
+  readonly pointsOffset: number;
+  /** Number of points in the whole file. */
+  readonly pointCount: number;
+}
+
+/**
+ * Holds the address of a page against the file before it is read.
+ * @throws FormatError FORMAT_HIERARCHY, FORMAT_TRUNCATED
+ */
+export function checkPageAddress(page: PageAddress, limits: HierarchyLimits): void {
+  const { offset, length } = page;
+  if (length <= 0 || length % ENTRY_LENGTH !== 0 || length > MAX_PAGE_LENGTH || offset <= 0) {
+    throw badHierarchy(limits.file, `a page of ${length} bytes at byte ${offset}`);
+  }
+  checkInside(page, limits);
+}
+
+/**
+ * Reads a page of the hierarchy; each entry is held against the file, so that nothing is ever asked for
+ * that the file cannot hold.
+ * @throws FormatError FORMAT_HIERARCHY, FORMAT_TRUNCATED
+ */
+export function parseHierarchyPage(bytes: Uint8Array, limits: HierarchyLimits): HierarchyEntry[] {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const entries: HierarchyEntry[] = [];
+  for (let at = 0; at + ENTRY_LENGTH <= bytes.length; at += ENTRY_LENGTH) {
+    const entry: HierarchyEntry = {
+      depth: view.getInt32(at, true),
+      x: view.getInt32(at + 4, true),
+      y: view.getInt32(at + 8, true),
+      z: view.getInt32(at + 12, true),
+      address: { offset: Number(view.getBigUint64(at + 16, true)), length: view.getInt32(at + 24, true) },
+      pointCount: view.getInt32(at + 28, true),
+    };
+    checkEntry(entry, limits);
+    entries.push(entry);
+  }
+  return entries;
+}
+
+function checkEntry(entry: HierarchyEntry, limits: HierarchyLimits): void {
+  const { depth, x, y, z, address, pointCount } = entry;
+  const name = `node ${depth}-${x}-${y}-${z}`;
+  const edge = 2 ** depth;
+  const inCube = (index: number) => index >= 0 && index < edge;
+  if (depth < 0 || depth > MAX_DEPTH || !inCube(x) || !inCube(y) || !inCube(z)) {
+    throw badHierarchy(limits.file, `${name}, which no octree has`);
+  }
+  if (pointCount === -1) {
+    checkPageAddress(address, limits);
+    return;
+  }
+  if (pointCount < 0 || pointCount > Math.min(limits.pointCount, MAX_NODE_POINTS)) {
+    throw badHierarchy(limits.file, `${name} with ${pointCount} points`);
+  }
+  if (pointCount === 0) return;
+  if (address.length <= 0 || address.offset < limits.pointsOffset) {
+    throw badHierarchy(limits.file, `${name} with ${address.length} bytes at byte ${address.offset}`);
+  }
+  checkInside(address, limits);
+}
+
+function checkInside(address: PageAddress, limits: HierarchyLimits): void {
+  if (limits.fileSize !== undefined && address.offset + address.length > limits.fileSize) {
+    throw new FormatError({
+      code: "FORMAT_TRUNCATED",
+      file: limits.file,
+      cause: `its octree names byte ${address.offset + address.length}, the file ends at ${limits.fileSize}`,
+      fix: "Copy or convert the file again",
+    });
+  }
+}
+
+/** The error for an octree that cannot be. */
+export function badHierarchy(file: string, what: string): FormatError {
+  return new FormatError({
+    code: "FORMAT_HIERARCHY",
+    file,
+    cause: `its octree names ${what}`,
+    fix: "Convert the scan again",
+  });
+}

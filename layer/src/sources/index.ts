@@ -1,0 +1,21 @@
+export { BlobSource } from "./blob-source.js";
+export { type ByteSource, isByteSource, type ReadOptions } from "./byte-source.js";
+export { type CopcFile, openCopc, readHierarchyPage } from "./copc-file.js";
+export type { CopcInfo, PageAddress } from "./copc-info.js";
+export {
+  badHierarchy,
+  type HierarchyEntry,
+  type HierarchyLimits,
+  MAX_DEPTH,
+  parseHierarchyPage,
+} from "./hierarchy.js";
+export { type HttpOptions, HttpSource } from "./http-source.js";
+export { BASE_RECORD_LENGTH, type LasHeader } from "./las-header.js";
+export { openSource, type SourceLike } from "./open-source.js";
+export type { RetryPolicy } from "./retry.js";
+export {
+  type AttributeStatistics,
+  attributeStatistics,
+  type CloudStatistics,
+  decodeStatistics,
+} from "./statistics-record.js";

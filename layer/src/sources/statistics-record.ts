@@ -1,0 +1,76 @@
+import { FormatError } from "../errors/index.js";
+
+/** Range and mean of one attribute over the whole data set, in the attribute's own units. */
+export interface AttributeStatistics {
+  readonly name: string;
+  readonly min: number;
+  readonly max: number;
+  readonly mean: number;
+}
+
+/** What the converter counted while it wrote the file: the VLR `groma`, record id 2. */
+export interface CloudStatistics {
+  readonly points: number;
+  /** Bits per colour channel that the scan really uses; null where it has no colour. */
+  readonly rgbBits: 8 | 16 | null;
+  readonly attributes: readonly AttributeStatistics[];
+  /** Number of points by class number. */
+  readonly classes: Readonly<Record<string, number>>;
+  /** Number of points by return number. */
+  readonly returns: Readonly<Record<string, number>>;
+}
+
+/**
+ * Decodes and validates the statistics record (UTF-8 JSON, version 1).
+ * @throws FormatError FORMAT_STATISTICS
+ */
+export function decodeStatistics(bytes: Uint8Array, file: string): CloudStatistics {
+  let value: unknown;
+  try {
+    value = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
+  } catch {
+    throw invalid(file, "not JSON");
+  }
+  if (!isObject(value) || value.version !== 1) throw invalid(file, "not version 1");
+  const { points, rgbBits, attributes, classes, returns } = value;
+  if (!isCount(points)) throw invalid(file, "points");
+  if (rgbBits !== 8 && rgbBits !== 16 && rgbBits !== null) throw invalid(file, "rgbBits");
+  if (!Array.isArray(attributes) || !attributes.every(isAttribute)) throw invalid(file, "attributes");
+  if (!isTally(classes)) throw invalid(file, "classes");
+  if (!isTally(returns)) throw invalid(file, "returns");
+  return { points, rgbBits, attributes, classes, returns };
+}
+
+/** The statistics of one attribute by name, or undefined. */
+export function attributeStatistics(
+  statistics: CloudStatistics | undefined,
+  name: string,
+): AttributeStatistics | undefined {
+  return statistics?.attributes.find((attribute) => attribute.name === name);
+}
+
+function isObject(value: unknown): value is Record<string, unknown> {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
+}
+
+function isCount(value: unknown): value is number {
+  return Number.isSafeInteger(value) && (value as number) >= 0;
+}
+
+function isAttribute(value: unknown): value is AttributeStatistics {
+  if (!isObject(value) || typeof value.name !== "string") return false;
+  return [value.min, value.max, value.mean].every(Number.isFinite);
+}
+
+function isTally(value: unknown): value is Record<string, number> {
+  return isObject(value) && Object.values(value).every(isCount);
+}
+
+function invalid(file: string, what: string): FormatError {
+  return new FormatError({
+    code: "FORMAT_STATISTICS",
+    file,
+    cause: `its statistics record is damaged (${what})`,
+    fix: "Convert the scan again",
+  });
+}

@@ -1,0 +1,86 @@
+/** What a {@link tinyCopc} is made with; the defaults make a well-formed file. */
+export interface TinyCopc {
+  readonly magic?: string;
+  readonly minor?: number;
+  readonly formatByte?: number;
+  readonly recordLength?: number;
+  readonly points?: number;
+  readonly scale?: number;
+  readonly wkt?: string;
+  /** Records besides COPC's own and the WKT: user id, record id, content. */
+  readonly records?: readonly (readonly [string, number, Uint8Array])[];
+  /** Rows of the root page: depth, x, y, z, offset, length, points. An offset of 0 stands for the points' own. */
+  readonly page?: readonly (readonly number[])[];
+  /** Put instead of the true offset of the root page. */
+  readonly pageOffset?: number;
+}
+
+/** One point at the origin's cube: enough for a reader that never decodes. */
+const CHUNK = new Uint8Array(100);
+
+/** Bytes of a hierarchy page. */
+export function pageBytes(rows: readonly (readonly number[])[]): Uint8Array {
+  const bytes = new Uint8Array(32 * rows.length);
+  const view = new DataView(bytes.buffer);
+  rows.forEach(([depth, x, y, z, offset, length, points], row) => {
+    const at = 32 * row;
+    for (const [index, value] of [depth, x, y, z].entries()) view.setInt32(at + 4 * index, value, true);
+    view.setBigUint64(at + 16, BigInt(offset), true);
+    view.setInt32(at + 24, length, true);
+    view.setInt32(at + 28, points, true);
+  });
+  return bytes;
+}
+
+/** A COPC file of a few hundred bytes: header, records, a chunk of zeros and a root page. */
+export function tinyCopc(options: TinyCopc = {}): Uint8Array {
+  const {
+    magic = "LASF",
+    minor = 4,
+    formatByte = 0x87,
+    recordLength = 36,
+    points = 10,
+    scale = 0.01,
+  } = options;
+  const encoder = new TextEncoder();
+  const records: [string, number, Uint8Array][] = [["copc", 1, new Uint8Array(160)]];
+  if (options.wkt) records.push(["LASF_Projection", 2112, encoder.encode(`${options.wkt}\0`)]);
+  for (const [user, id, content] of options.records ?? []) records.push([user, id, content]);
+  const pointsOffset = 375 + records.reduce((sum, [, , content]) => sum + 54 + content.length, 0);
+  const rows = (options.page ?? [[0, 0, 0, 0, 0, CHUNK.length, points]]).map(
+    ([depth, x, y, z, offset, length, count]) => [depth, x, y, z, offset || pointsOffset, length, count],
+  );
+  const page = pageBytes(rows);
+  const pageOffset = pointsOffset + CHUNK.length;
+  const file = new Uint8Array(pageOffset + page.length);
+  const view = new DataView(file.buffer);
+  file.set(encoder.encode(magic), 0);
+  view.setUint8(24, 1);
+  view.setUint8(25, minor);
+  view.setUint16(94, 375, true);
+  view.setUint32(96, pointsOffset, true);
+  view.setUint32(100, records.length, true);
+  view.setUint8(104, formatByte);
+  view.setUint16(105, recordLength, true);
+  for (const at of [131, 139, 147]) view.setFloat64(at, scale, true);
+  for (const [at, max] of [
+    [179, 100],
+    [195, 100],
+    [211, 50],
+  ])
+    view.setFloat64(at, max, true);
+  view.setBigUint64(247, BigInt(points), true);
+  let at = 375;
+  for (const [user, id, content] of records) {
+    file.set(encoder.encode(user), at + 2);
+    view.setUint16(at + 18, id, true);
+    view.setUint16(at + 20, content.length, true);
+    file.set(content, at + 54);
+    at += 54 + content.length;
+  }
+  for (const [index, value] of [50, 50, 50, 50, 1].entries()) view.setFloat64(429 + 8 * index, value, true);
+  view.setBigUint64(469, BigInt(options.pageOffset ?? pageOffset), true);
+  view.setBigUint64(477, BigInt(page.length), true);
+  file.set(page, pageOffset);
+  return file;
+}

@@ -1,0 +1,86 @@
+import { create } from "laz-perf/lib/worker/index.js";
+import { DecodeError, toWire } from "../errors/index.js";
+import { LazDecoder } from "./laz-decoder.js";
+import { type PreparedDataSet, prepareDataSet, runNodeJob } from "./node-job.js";
+import type { NodeJob, NodeVertices, WorkerReply, WorkerRequest } from "./protocol.js";
+
+/** The worker's side of the protocol. Bundled into one file, `node.worker.js`, by `scripts/copy-assets.mjs`. */
+declare const self: DedicatedWorkerGlobalScope;
+
+const dataSets = new Map<number, PreparedDataSet | unknown>();
+let decoder: Promise<LazDecoder> | undefined;
+
+/** Magic number of a WebAssembly module: `\0asm`. */
+const WASM_MAGIC = [0x00, 0x61, 0x73, 0x6d];
+
+/** Fetches the decoder that lies beside this file. @throws DecodeError DECODE_WASM */
+async function loadDecoder(): Promise<LazDecoder> {
+  const url = new URL("./laz-perf.wasm", import.meta.url).href;
+  const fail = (cause: string) =>
+    new DecodeError({
+      code: "DECODE_WASM",
+      file: url,
+      cause,
+      fix: "Serve laz-perf.wasm beside node.worker.js",
+    });
+  let bytes: Uint8Array;
+  try {
+    const response = await fetch(url);
+    if (!response.ok) throw fail(`the server answered HTTP ${response.status}`);
+    bytes = new Uint8Array(await response.arrayBuffer());
+  } catch (thrown) {
+    throw thrown instanceof DecodeError ? thrown : fail("the decoder cannot be fetched");
+  }
+  if (WASM_MAGIC.some((byte, index) => bytes[index] !== byte)) throw fail("this is not WebAssembly");
+  return new LazDecoder(() => create({ wasmBinary: bytes }));
+}
+
+async function decodeNode(job: NodeJob): Promise<NodeVertices> {
+  const dataSet = dataSets.get(job.dataSet);
+  if (dataSet === undefined) throw new Error(`data set ${job.dataSet} is not known to this worker`);
+  if (!isPrepared(dataSet)) throw dataSet;
+  decoder ??= loadDecoder();
+  try {
+    return await runNodeJob(dataSet, job, await decoder);
+  } catch (thrown) {
+    // A decoder that could not be fetched is asked for again with the next job.
+    if (thrown instanceof DecodeError && thrown.code === "DECODE_WASM") decoder = undefined;
+    throw thrown;
+  }
+}
+
+function isPrepared(value: unknown): value is PreparedDataSet {
+  return typeof value === "object" && value !== null && "exact" in value;
+}
+
+function prepare(id: number, request: Extract<WorkerRequest, { kind: "dataSet" }>): void {
+  try {
+    dataSets.set(id, prepareDataSet(request.spec));
+  } catch (thrown) {
+    // Kept and thrown again by each job, where there is someone to hear it.
+    dataSets.set(id, thrown);
+  }
+}
+
+async function answer(id: number, job: NodeJob): Promise<void> {
+  let reply: WorkerReply;
+  try {
+    const result = await decodeNode(job);
+    reply = { kind: "done", id, result };
+    self.postMessage(reply, [result.vertices]);
+  } catch (thrown) {
+    const fault = toWire(thrown, {
+      code: "DECODE_FAILED",
+      file: `node ${job.node}`,
+      fix: "Open the file again",
+    });
+    reply = { kind: "failed", id, fault };
+    self.postMessage(reply);
+  }
+}
+
+self.onmessage = ({ data }: MessageEvent<WorkerRequest>) => {
+  if (data.kind === "dataSet") prepare(data.id, data);
+  else if (data.kind === "forget") dataSets.delete(data.id);
+  else void answer(data.id, data.job);
+};

@@ -1,0 +1,25 @@
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, statSync } from "node:fs";
+import { join, parse } from "node:path";
+import { projectRoot } from "./project.js";
+
+const groma = join(projectRoot, "converter/dist/main.js");
+const core = join(projectRoot, "converter/target/release/groma-core");
+const folder = join(projectRoot, "tests/artifacts/copc");
+
+/**
+ * The COPC file that `groma convert` makes of a scan; made again only when the converter is newer than the result.
+ *
+ * @returns absolute path
+ * @throws Error with what the command printed, when it fails
+ */
+export function converted(scan: string): string {
+  const output = join(folder, `${parse(scan).name}.copc.laz`);
+  const newest = Math.max(...[groma, core, scan].map((file) => statSync(file).mtimeMs));
+  if (existsSync(output) && statSync(output).mtimeMs > newest) return output;
+  mkdirSync(folder, { recursive: true });
+  execFileSync(process.execPath, [groma, "convert", scan, output, "--overwrite", "--progress", "json"], {
+    stdio: "pipe",
+  });
+  return output;
+}

@@ -1,0 +1,54 @@
+import { describe, expect, test } from "vitest";
+import { data } from "../project.js";
+import { expectFaithful, refereesMissing, titled } from "./comparison.js";
+
+/** Well-formed files of the data folder; what is odd about each stands in its name. */
+const variants = [
+  "copc__lone-star.copc.laz",
+  "las__100-points.las",
+  "las__autzen_trim.las",
+  "las__bad-geotiff-keys.las",
+  "las__epsg_4326.las",
+  "las__hextest.las",
+  "las__lots_of_vlr.las",
+  "las__noise-dirty.las",
+  "las__permutations__1.0_1.las",
+  "las__permutations__1.1_1.las",
+  "las__permutations__1.2_0.las",
+  "las__permutations__1.2_2.las",
+  "las__prec3.las",
+  "las__sample_c_thin.las",
+  "las__simple.las",
+  "las__spurious.las",
+  "las__test1_4.las",
+  "las__test_epsg_4326.las",
+  "las__test_epsg_4326x3.las",
+  "las__test_utm17.las",
+  "las__utm17.las",
+  "las__wontcompress3.las",
+  "laz__las_with_several_extra_byte_bloc.laz",
+  "laz__simple.laz",
+].map((name) => `las-variants/${name}`);
+
+const scans = [...variants, "lion_takanawa.copc.laz", "ellipsoid.copc.laz", "vol_total.laz"];
+
+describe("referees find every record of the input in the COPC", () => {
+  for (const name of scans) {
+    const { path, missing } = data(name);
+    const reason = refereesMissing ?? missing;
+    test.skipIf(reason)(titled(name, reason), { timeout: 120_000 }, () => {
+      expectFaithful([path]);
+    });
+  }
+
+  const autzen = data("autzen.laz");
+  const reason = refereesMissing ?? autzen.missing;
+  test.skipIf(reason)(titled("autzen.laz", reason), { timeout: 300_000 }, () => {
+    const found = expectFaithful([autzen.path]);
+    expect(found.points).toBe(10_653_336);
+    expect(found.nodes).toBeGreaterThan(100);
+    expect(found.largestNode).toBeLessThan(100_000);
+    expect(found.statistics.rgbBits).toBe(8);
+    expect(found.records).toContainEqual(["LASF_Projection", 2112]);
+  });
+});

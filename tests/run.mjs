@@ -1,0 +1,93 @@
+// `npm test [-- room …]`: set-up, then every check of the project; ends with "N passed, N failed, N skipped".
+import { spawn } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync } from "node:fs";
+import { join } from "node:path";
+import { root, setup } from "../.ci/setup/main.mjs";
+import { forTest } from "../.ci/setup/steps.mjs";
+
+/** Runs a program with its output shown and returned. */
+function run(program, args) {
+  return new Promise((done) => {
+    const child = spawn(program, args, { cwd: root, stdio: ["ignore", "pipe", "pipe"] });
+    let output = "";
+    for (const stream of [child.stdout, child.stderr]) {
+      stream.on("data", (chunk) => {
+        output += chunk;
+        process.stdout.write(chunk);
+      });
+    }
+    child.on("error", (error) => done({ code: 1, output: String(error) }));
+    child.on("close", (code) => done({ code: code ?? 1, output }));
+  });
+}
+
+const npx = (program, ...args) => run(process.execPath, [join(root, "node_modules", program), ...args]);
+const cargo = (...args) =>
+  run("cargo", [args[0], "--manifest-path", "converter/Cargo.toml", ...args.slice(1)]);
+
+/** A check that either holds or does not. */
+const holds = (check) => async () => {
+  const { code } = await check();
+  return { passed: code === 0 ? 1 : 0, failed: code === 0 ? 0 : 1, skipped: 0 };
+};
+
+/** Rust's own tests, counted from cargo's closing lines; a build that fails counts as one failure. */
+async function rust() {
+  const { code, output } = await cargo("test", "--release", "--locked");
+  const counts = { passed: 0, failed: 0, skipped: 0 };
+  for (const [, passed, failed, ignored] of output.matchAll(
+    /^test result: .*? (\d+) passed; (\d+) failed; (\d+) ignored/gm,
+  )) {
+    counts.passed += Number(passed);
+    counts.failed += Number(failed);
+    counts.skipped += Number(ignored);
+  }
+  if (code !== 0 && counts.failed === 0) counts.failed = 1;
+  return counts;
+}
+
+/** The TypeScript suite; a file that cannot be loaded counts as one failure. */
+async function vitest(rooms) {
+  const report = join(root, "tests/artifacts/vitest.json");
+  rmSync(report, { force: true });
+  const projects = rooms.flatMap((room) => ["--project", room]);
+  const { code } = await npx(
+    "vitest/vitest.mjs",
+    "run",
+    ...projects,
+    "--reporter=default",
+    "--reporter=json",
+    `--outputFile.json=${report}`,
+  );
+  try {
+    const result = JSON.parse(readFileSync(report, "utf8"));
+    const failed = Math.max(result.numFailedTests, code === 0 ? 0 : 1);
+    return { passed: result.numPassedTests, failed, skipped: result.numPendingTests + result.numTodoTests };
+  } catch {
+    return { passed: 0, failed: 1, skipped: 0 };
+  }
+}
+
+const checks = {
+  "format and lint (TypeScript)": holds(() => npx("@biomejs/biome/bin/biome", "ci", ".")),
+  "types of the tests": holds(() => npx("typescript/bin/tsc", "-p", "tests")),
+  "format (Rust)": holds(() => cargo("fmt", "--check")),
+  "lint (Rust)": holds(() =>
+    cargo("clippy", "--release", "--all-targets", "--locked", "--quiet", "--", "-D", "warnings"),
+  ),
+  "tests (Rust)": rust,
+  "tests (TypeScript)": () => vitest([]),
+};
+
+mkdirSync(join(root, "tests/artifacts"), { recursive: true });
+await setup(forTest);
+const rooms = process.argv.slice(2);
+const chosen = rooms.length === 0 ? checks : { "tests (TypeScript)": () => vitest(rooms) };
+const total = { passed: 0, failed: 0, skipped: 0 };
+for (const [name, check] of Object.entries(chosen)) {
+  console.log(`\n── ${name}`);
+  const counts = await check();
+  for (const key of Object.keys(total)) total[key] += counts[key];
+}
+console.log(`\n${total.passed} passed, ${total.failed} failed, ${total.skipped} skipped`);
+process.exitCode = total.failed === 0 && total.passed > 0 ? 0 : 1;
