@@ -48,7 +48,7 @@ module.exports = {
   ],
   options: {
     doNotFollow: { path: "node_modules" },
-    exclude: { path: ["/dist/.*\\.map$", "\\.test\\.ts$", "/target/"] },
+    exclude: { path: ["^demo/dist/", "/dist/.*\\.map$", "\\.test\\.ts$", "/target/"] },
     tsPreCompilationDeps: true,
     tsConfig: { fileName: "tsconfig.base.json" },
     enhancedResolveOptions: { exportsFields: ["exports"], conditionNames: ["types", "import", "default"] },
