@@ -14,6 +14,7 @@ interface FlightLine {
 }
 
 const ALTITUDE = 1000;
+const FLIGHT_HEIGHT = floorHeight(SIZE / 2) + ALTITUDE;
 const SPEED = 60;
 /** Half the field of view across the flight, and how far each channel looks ahead or back, as tangents. */
 const ACROSS = 0.5;
@@ -53,13 +54,16 @@ export function scan(scene: Scene, random: Random, points: number, record: (poin
   const point = {} as LasPoint;
   LINES.forEach((line, index) => {
     const start = START_TIME + index * (flight / SPEED + TURN_SECONDS);
+    const aside = line.dy === 0 ? line.y : line.x;
+    const toEast = line.dy - line.dx;
     for (let pulse = 0; pulse < rows * acrossCount; pulse++) {
       const column = pulse % acrossCount;
-      const channel = random() < 0.5 ? 0 : 1;
-      const across = ACROSS * (-1 + (2 * (column + random())) / acrossCount);
-      const along = pulse * pulseSeconds * SPEED - RUN_IN + spacing * (random() - 0.5);
-      aim(ray, line, along, across, AHEAD[channel]);
-      if (misses(ray)) continue;
+      const channel = (pulse + Math.floor(pulse / acrossCount)) % 2;
+      const along = pulse * pulseSeconds * SPEED - RUN_IN;
+      const middle = ACROSS * (-1 + (2 * column + 1) / acrossCount);
+      if (misses(along, AHEAD[channel], spacing) || misses(aside, toEast * middle, spacing)) continue;
+      const across = middle + (ACROSS * (2 * random() - 1)) / acrossCount;
+      aim(ray, line, along + spacing * (random() - 0.5), across, AHEAD[channel]);
       scene.trace(ray, random, echoes);
       const heard = receive(echoes, random);
       if (heard === 0 || !allInside(ray, echoes, heard)) continue;
@@ -78,20 +82,17 @@ function aim(ray: Ray, line: FlightLine, along: number, across: number, ahead: n
   const length = Math.sqrt(1 + across * across + ahead * ahead);
   ray.x = line.x + line.dx * along;
   ray.y = line.y + line.dy * along;
-  ray.z = floorHeight(SIZE / 2) + ALTITUDE;
+  ray.z = FLIGHT_HEIGHT;
   ray.dx = (line.dy * across + line.dx * ahead) / length;
   ray.dy = (-line.dx * across + line.dy * ahead) / length;
   ray.dz = -1 / length;
 }
 
-/** True for a pulse that is outside the square, on the same side, from the highest ground down to the lowest. */
-function misses(ray: Ray): boolean {
-  const high = (HIGHEST - ray.z) / ray.dz;
-  const low = (LOWEST - ray.z) / ray.dz;
-  const [west, east] = [ray.x + high * ray.dx, ray.x + low * ray.dx];
-  const [south, north] = [ray.y + high * ray.dy, ray.y + low * ray.dy];
-  const { min, max } = Math;
-  return max(west, east) < 0 || min(west, east) > SIZE || max(south, north) < 0 || min(south, north) > SIZE;
+/** True for pulses that pass the square along one axis, whether they meet the highest ground or the lowest. */
+function misses(from: number, tangent: number, jitter: number): boolean {
+  const high = from + tangent * (FLIGHT_HEIGHT - HIGHEST);
+  const low = from + tangent * (FLIGHT_HEIGHT - LOWEST);
+  return Math.max(high, low) < -jitter || Math.min(high, low) > SIZE + jitter;
 }
 
 /**

@@ -30,6 +30,8 @@ export interface Scene {
 interface Cell {
   buildings: Building[];
   trees: Tree[];
+  /** Place and radius of each tree again, three numbers each, for a quick look. */
+  crowns: Float64Array;
   wires: Wire[];
   towers: Tower[];
 }
@@ -46,6 +48,7 @@ export function createScene(seed: number): Scene {
   const cells: Cell[] = Array.from({ length: CELLS * CELLS }, () => ({
     buildings: [],
     trees: [],
+    crowns: new Float64Array(),
     wires: [],
     towers: [],
   }));
@@ -55,6 +58,8 @@ export function createScene(seed: number): Scene {
   }
   for (const it of trees)
     around(cells, it.x, it.y, it.radius + STEEPEST * it.height, (cell) => cell.trees.push(it));
+  for (const cell of cells)
+    cell.crowns = Float64Array.from(cell.trees.flatMap((it) => [it.x, it.y, it.radius]));
   for (const it of towers)
     around(cells, it.x, it.y, 8 + STEEPEST * TOWER_HEIGHT, (cell) => cell.towers.push(it));
   for (const it of wires) hang(cells, it);
@@ -73,9 +78,13 @@ export function createScene(seed: number): Scene {
     const add = (): void => {
       echoes.push({ ...scratch });
     };
-    for (const tree of cell.trees) {
-      const aside = Math.abs((tree.x - x) * ray.dy - (tree.y - y) * ray.dx);
-      if (aside <= tree.radius * level) hitTree(tree, ray, limit, source, scratch, add);
+    for (let i = 0; i < cell.trees.length; i++) {
+      const toX = cell.crowns[3 * i] - x;
+      const toY = cell.crowns[3 * i + 1] - y;
+      const reach = cell.crowns[3 * i + 2] * level;
+      const beyond = toX * ray.dx + toY * ray.dy;
+      if (beyond > reach || Math.abs(toX * ray.dy - toY * ray.dx) > reach) continue;
+      hitTree(cell.trees[i], ray, limit, source, scratch, add);
     }
     for (const tower of cell.towers) hitTower(tower, ray, limit, source, scratch, add);
     for (const wire of cell.wires) hitWire(wire, ray, limit, source, scratch, add);

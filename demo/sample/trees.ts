@@ -23,6 +23,9 @@ export interface Tree {
 }
 
 const GRID = 4.6;
+/** Density of foliage at the stem and at the skin of a crown, as a share of the mean. */
+const THINNEST = 0.35;
+const DENSEST = 1.25;
 /** Free path of light in foliage, metres: what makes several echoes of one pulse. */
 const FREE_PATH = { conifer: 2.3, broadleaf: 2.9, shrub: 1.2 } as const;
 
@@ -128,14 +131,15 @@ export function hitTree(
   const bottom = (tree.ground + tree.crownBase - ray.z) / ray.dz;
   const enter = Math.max(top, nearest - half);
   const leave = Math.min(limit - 0.4, bottom, nearest + half);
-  const path = FREE_PATH[tree.crown];
-  for (let t = enter + 0.5 * random(); t < leave; t += 0.5) {
+  // Free paths in foliage as dense as it gets; where it is thinner, only a share of the stops is real.
+  const step = (): number => (-FREE_PATH[tree.crown] / DENSEST) * Math.log(1 - random());
+  for (let t = enter + step(); t < leave; t += step()) {
     const height = ray.z + t * ray.dz - tree.ground;
     const radius = crownRadius(tree, height);
     const distance = Math.sqrt(square(x + t * ray.dx) + square(y + t * ray.dy));
     if (distance > radius) continue;
     const share = distance / radius;
-    if (random() > ((0.35 + 0.9 * share) * 0.5) / path) continue;
+    if (random() * DENSEST > THINNEST + (DENSEST - THINNEST) * share) continue;
     const tone = 0.45 + 0.55 * (height / tree.height) * (0.6 + 0.4 * share) + 0.25 * (random() - 0.5);
     echo.range = t;
     echo.classification = vegetationClass(height);

@@ -36,10 +36,9 @@ def check(path: str, proj4: str, vertical: float, asked: list) -> dict:
         points = reader.GetPoints(node)
         source[key] = np.stack([points.x, points.y, points.z], axis=1)
     xyz = np.array([source[point["key"]][point["index"]] for point in asked])
-    geodetic = Transformer.from_crs(CRS.from_proj4(proj4), CRS.from_epsg(4326), always_xy=True)
-    longitude, latitude = geodetic.transform(xyz[:, 0], xyz[:, 1])
-    geocentric = Transformer.from_crs(CRS.from_epsg(4979), CRS.from_epsg(4978), always_xy=True)
-    truth = np.stack(geocentric.transform(longitude, latitude, xyz[:, 2] * vertical), axis=1)
+    # From a 2D CRS PROJ shifts longitude and latitude and leaves the height alone, in metres.
+    geocentric = Transformer.from_crs(CRS.from_proj4(proj4), CRS.from_epsg(4978), always_xy=True)
+    truth = np.stack(geocentric.transform(xyz[:, 0], xyz[:, 1], xyz[:, 2] * vertical), axis=1)
     distance = np.linalg.norm(truth - np.array([point["ecef"] for point in asked]), axis=1)
     return {"count": len(asked), "worst": float(distance.max())}
 

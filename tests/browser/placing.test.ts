@@ -17,7 +17,8 @@ const scans = [
     name: "autzen.laz",
     proj4:
       "+proj=lcc +lat_0=41.75 +lon_0=-120.5 +lat_1=43 +lat_2=45.5 +x_0=400000 +y_0=0 +ellps=GRS80 " +
-      "+towgs84=0,0,0,0,0,0,0 +units=ft +no_defs",
+      // NAD83(HARN) to WGS 84 (3), EPSG:1901, rotations in the position vector convention.
+      "+towgs84=-0.991,1.9072,0.5129,0.0257899075194932,0.0096500989602704,0.0116599432323421,0 +units=ft +no_defs",
     metresPerVerticalUnit: 0.3048,
   },
   {

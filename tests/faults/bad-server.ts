@@ -47,6 +47,9 @@ export class BadServer {
 
   #handle(request: IncomingMessage, response: ServerResponse): void {
     this.requests++;
+    // Pages of another origin may read every answer, the bad ones too.
+    response.setHeader("Access-Control-Allow-Origin", "*");
+    response.setHeader("Access-Control-Expose-Headers", "Content-Range, Content-Length, ETag, Accept-Ranges");
     const [, from, to] = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "") ?? [];
     if (from === undefined) {
       response.writeHead(400).end("a client that asks without a Range, or for bytes=0--1, is at fault");

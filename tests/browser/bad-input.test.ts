@@ -1,0 +1,111 @@
+import { readFileSync } from "node:fs";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
+import { converted } from "../converted.js";
+import { BadServer, type Misbehaviour } from "../faults/bad-server.js";
+import { data } from "../project.js";
+import { settle } from "./globe.js";
+import { launch, openPage, screenshot, type View, view, type Watch } from "./harness.js";
+
+const scan = data("vol_total.laz");
+const withoutCrs = data("lion_takanawa.copc.laz");
+const missing = scan.missing ?? withoutCrs.missing;
+const HTML = new TextEncoder().encode("<!DOCTYPE html><title>Sign in</title>");
+
+describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing})` : ""}`, () => {
+  let good: View;
+  let goodCloud: string;
+  let file: Uint8Array;
+  let browser: Browser;
+  let bad: BadServer | undefined;
+  let page: Page;
+  let watch: Watch;
+
+  beforeAll(async () => {
+    const copc = converted(scan.path);
+    file = readFileSync(copc);
+    good = await view(copc);
+    goodCloud = new URL(good.address).searchParams.get("cloud") ?? "";
+    browser = await launch();
+  }, 120_000);
+
+  afterAll(async () => {
+    await browser?.close();
+    await good?.stop();
+  });
+
+  beforeEach(async () => {
+    ({ page, watch } = await openPage(browser, { width: 640, height: 420 }));
+  });
+
+  afterEach(async () => {
+    await page.context().close();
+    await bad?.stop();
+    bad = undefined;
+  });
+
+  const show = (cloud: string) =>
+    page.goto(`${new URL(good.address).origin}/?fly=0&budget=50000&cloud=${encodeURIComponent(cloud)}`);
+
+  /** The code that the page tells, once it tells one. */
+  async function told(): Promise<string> {
+    const message = page.locator("#message .code");
+    await message.waitFor({ timeout: 60_000 });
+    return (await message.textContent()) ?? "";
+  }
+
+  /** The same page opens and draws a good cloud after all that; no exception went unhandled. */
+  async function livesOn(): Promise<void> {
+    if (!(await page.locator("#chooser").evaluate((chooser: HTMLDetailsElement) => chooser.open))) {
+      await page.locator("#chooser summary").click();
+    }
+    await page.fill("#address", goodCloud);
+    await page.press("#address", "Enter");
+    await page.waitForFunction(
+      () => window.groma?.layer?.cloud.name === "vol_total.copc.laz" && window.groma.layer.settled,
+      undefined,
+      { timeout: 120_000 },
+    );
+    expect(await page.evaluate(() => window.groma.layer.statistics.pointsDrawn)).toBeGreaterThan(1000);
+    expect(await page.locator("#message .code").count()).toBe(0);
+    expect(watch.errors.filter((text) => !/Failed to load resource/.test(text))).toEqual([]);
+  }
+
+  it.each<[string, string, Misbehaviour]>([
+    ["SOURCE_NO_RANGE", "a server without Range", ({ response }) => response.writeHead(200).end(file)],
+    ["SOURCE_HTML", "a web page instead of data", ({ response }) => response.writeHead(200).end(HTML)],
+    ["SOURCE_NOT_FOUND", "no such file", ({ response }) => response.writeHead(404).end()],
+    [
+      "FORMAT_MAGIC",
+      "another kind of file",
+      ({ answer, first, last }) => answer({}, new Uint8Array(last - first + 1).fill(7)),
+    ],
+    [
+      "SOURCE_NOT_FOUND",
+      "a file that vanishes while it loads",
+      ({ count, answer, response }) => {
+        if (count <= 2) answer();
+        else response.writeHead(404).end();
+      },
+    ],
+  ])("%s: %s", { timeout: 180_000 }, async (code, _, misbehave) => {
+    bad = await BadServer.start(file, misbehave);
+    await show(bad.url);
+    expect(await told()).toBe(code);
+    await livesOn();
+  });
+
+  it("CRS_MISSING: a file that names no coordinate system", { timeout: 180_000 }, async () => {
+    bad = await BadServer.start(readFileSync(withoutCrs.path));
+    await show(bad.url);
+    expect(await told()).toBe("CRS_MISSING");
+    await screenshot(page, "bad-input-no-crs");
+    await livesOn();
+  });
+
+  it("an address that is none of a cloud is not followed", { timeout: 60_000 }, async () => {
+    await show("javascript:alert(1)");
+    expect(await told()).toMatch(/^PAGE_/);
+    expect(await page.locator("#message").innerHTML()).not.toMatch(/<script/i);
+  });
+});
