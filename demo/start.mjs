@@ -4,6 +4,7 @@ import { existsSync } from "node:fs";
 import { mkdir } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import { root, setup } from "../.ci/setup/main.mjs";
+import { digest, isDone, markDone } from "../.ci/setup/stamp.mjs";
 import { forStart } from "../.ci/setup/steps.mjs";
 
 const groma = join(root, "converter/dist/main.js");
@@ -17,13 +18,17 @@ function node(program, args) {
   });
 }
 
-/** The sample scan, made once. */
+/** The sample scan, made once for each version of its generator. */
 async function sample() {
   const folder = join(root, ".groma");
   const scan = join(folder, "sample.las");
-  if (!existsSync(scan)) {
+  const stamp = join(folder, "sample.stamp");
+  const generator = digest(root, ["demo/sample"]);
+  if (!existsSync(scan) || !isDone(stamp, generator)) {
+    console.log("sample   making a scan of two million points");
     await mkdir(folder, { recursive: true });
     await node(join(root, "demo/sample/dist/generate.js"), [scan]);
+    markDone(stamp, generator);
   }
   return scan;
 }

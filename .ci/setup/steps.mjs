@@ -75,6 +75,20 @@ const typescript = {
   },
 };
 
+/** The best engine for the places of points, but not one that conversion cannot do without. @type {Step} */
+const proj = {
+  name: "PROJ",
+  async run(root) {
+    const need = { program: "projinfo", args: ["EPSG:4326"], package: "proj-bin" };
+    try {
+      return await ensurePrograms([need], root);
+    } catch (error) {
+      if (!(error instanceof SetupError)) throw error;
+      return `not there, proj4js and EGM96 do its work less exactly (${error.message})`;
+    }
+  },
+};
+
 /** @type {Step} */
 const browser = {
   name: "Chromium",
@@ -109,8 +123,8 @@ const referees = {
   },
 };
 
-/** What `npm start` needs: the libraries, the converter and the page. */
-export const forStart = [node, packages, core, typescript];
+/** What `npm start` needs: the libraries, the converter, the page, and PROJ where it can be had. */
+export const forStart = [node, packages, core, typescript, proj];
 
 /** What `npm test` needs besides: a browser and readers of LAS and COPC that nobody here wrote. */
 export const forTest = [...forStart, browser, referees];

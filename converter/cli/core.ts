@@ -1,6 +1,7 @@
-import { type ChildProcess, spawn } from "node:child_process";
+import { type ChildProcess, type ChildProcessByStdio, spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { createInterface } from "node:readline";
+import type { Readable, Writable } from "node:stream";
 import { fileURLToPath } from "node:url";
 import { type Fault, GromaError } from "@groma/georef";
 
@@ -31,8 +32,8 @@ export interface Scan {
   readonly extraBytes: readonly { readonly name: string; readonly type: string }[];
   readonly wkt?: string;
   readonly geoTiff?: { readonly directory: number[]; readonly doubles: number[]; readonly ascii: string };
-  /** The records of user id `groma`: base64 of the georeference, the statistics as they are. */
-  readonly groma?: { readonly "1"?: string; readonly "2"?: ScanStatistics };
+  /** The records of user id `groma`: base64 of georeference and transformation, the statistics as they are. */
+  readonly groma?: { readonly "1"?: string; readonly "2"?: ScanStatistics; readonly "3"?: string };
   readonly warnings: readonly string[];
 }
 
@@ -50,6 +51,21 @@ export type CoreEvent =
   | { readonly event: "progress"; readonly stage: string; readonly done: number; readonly total: number }
   | { readonly event: "warning"; readonly text: string };
 
+/** Bounds of the points themselves, source units; the same that the output's header gets. */
+export interface PointBounds {
+  readonly min: readonly [number, number, number];
+  readonly max: readonly [number, number, number];
+}
+
+/** Files of the records that are made while a conversion runs. */
+export interface RecordFiles {
+  readonly record: string;
+  readonly transformation?: string | undefined;
+}
+
+/** Makes the records once the bounds are known; the signal says that the conversion has ended without them. */
+export type RecordMaker = (bounds: PointBounds, signal: AbortSignal) => Promise<RecordFiles>;
+
 /** What a conversion made. */
 export interface Conversion {
   readonly points: number;
@@ -58,7 +74,11 @@ export interface Conversion {
   readonly seconds: number;
 }
 
-type Line = CoreEvent | ({ event: "done" } & Conversion) | ({ event: "error" } & Fault);
+type Line =
+  | CoreEvent
+  | ({ event: "bounds" } & PointBounds)
+  | ({ event: "done" } & Conversion)
+  | ({ event: "error" } & Fault);
 
 const program = fileURLToPath(
   new URL(`../target/release/groma-core${process.platform === "win32" ? ".exe" : ""}`, import.meta.url),
@@ -82,33 +102,41 @@ export async function scanFile(file: string): Promise<Scan> {
 }
 
 /**
- * Runs a conversion to its end. Aborting ends the core, which leaves nothing behind.
+ * Runs a conversion to its end. Where the records cannot be made, the core is stopped and leaves nothing behind.
  *
  * @param args arguments of `groma-core convert`
- * @throws CoreError INPUT_*, OUTPUT_*, OPTION_*
+ * @throws CoreError INPUT_*, OUTPUT_*, OPTION_*, and whatever `makeRecords` throws
  */
 export async function convertFiles(
   args: readonly string[],
   onEvent: (event: CoreEvent) => void,
+  makeRecords: RecordMaker,
 ): Promise<Conversion> {
   let done: Conversion | undefined;
-  await run(["convert", ...args], (line) => {
+  const onLine = (line: Line) => {
     if (line.event === "done") done = line;
-    else if (line.event !== "error") onEvent(line);
-  });
+    else if (line.event === "progress" || line.event === "warning") onEvent(line);
+  };
+  await run(["convert", ...args, "--wait-for-record"], onLine, makeRecords);
   if (done === undefined) throw broken("it ended without a result");
   return done;
 }
 
-/** Runs the core, giving each JSON line of its standard output to `onLine`. */
-async function run(args: readonly string[], onLine: (line: Line) => void): Promise<void> {
+/** Runs the core, giving each JSON line of its standard output to `onLine`, and an answer to its bounds. */
+async function run(
+  args: readonly string[],
+  onLine: (line: Line) => void,
+  makeRecords?: RecordMaker,
+): Promise<void> {
   if (!existsSync(program)) {
     throw new CoreError({
       ...{ code: "CORE_MISSING", file: program, cause: "the converter core is not built" },
       fix: "run npm run setup",
     });
   }
-  const child = spawn(program, args, { stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(program, args, { stdio: ["pipe", "pipe", "pipe"] });
+  // The core may have ended by itself; then its own error tells why.
+  child.stdin.on("error", () => undefined);
   let fault: Fault | undefined;
   let complaint = "";
   child.stderr.on("data", (chunk: Buffer) => {
@@ -121,15 +149,47 @@ async function run(args: readonly string[], onLine: (line: Line) => void): Promi
   });
   // A process that is stopped ends its output; whoever reads must not wait for more.
   closed.catch(() => undefined);
+  const answer = answerer(child, makeRecords);
   for await (const text of createInterface({ input: child.stdout })) {
     const line = JSON.parse(text) as Line;
     if (line.event === "error") fault = line;
+    else if (line.event === "bounds") answer.begin(line);
     else onLine(line);
   }
   const code = await closed;
   release();
+  await answer.end();
   if (fault) throw new CoreError(fault);
   if (code !== 0) throw broken(complaint.trim().split("\n").at(-1) || `it ended with ${code}`);
+}
+
+/** Answers the core when the records are made, and stops it when they cannot be. */
+function answerer(child: ChildProcessByStdio<Writable, Readable, Readable>, makeRecords?: RecordMaker) {
+  const controller = new AbortController();
+  let ended = false;
+  let failure: { readonly error: unknown } | undefined;
+  let work: Promise<void> | undefined;
+  return {
+    begin(bounds: PointBounds): void {
+      work = makeRecords?.(bounds, controller.signal).then(
+        (files) => {
+          child.stdin.end(`${JSON.stringify(files)}\n`);
+        },
+        (error: unknown) => {
+          if (ended) return;
+          failure = { error };
+          child.kill("SIGTERM");
+        },
+      );
+    },
+    /** @throws what the records failed with, unless the core had failed before */
+    async end(): Promise<void> {
+      ended = true;
+      controller.abort();
+      await work;
+      if (failure) throw failure.error;
+    },
+  };
 }
 
 /** The core hears of SIGINT and SIGTERM and tidies up; this process then ends by the core's error. */

@@ -1,5 +1,15 @@
-import { type Crs, ecefToGeodetic, exactTransform, toEcef } from "@groma/georef";
+import {
+  type AccuracyPart,
+  type Crs,
+  EGM96,
+  ecefToGeodetic,
+  type OperationReport,
+  pointTransform,
+  type Truth,
+} from "@groma/georef";
 import type { Scan } from "./core.js";
+import { length } from "./output.js";
+import type { Placed } from "./placed.js";
 
 const DEGREE = Math.PI / 180;
 
@@ -14,22 +24,22 @@ export interface GeodeticBounds {
 }
 
 /**
- * Longitudes and latitudes that the header's box covers, from its corners and the middles of its edges.
- *
- * @throws PlacementError PLACE_DOMAIN when the CRS has no such place
+ * Longitudes and latitudes that the header's box covers, from its corners and the middles of its edges as far as these
+ * have a place; undefined where none has.
  */
-export function geodeticBounds(scan: Scan, crs: Crs): GeodeticBounds {
-  const exact = exactTransform(crs, (scan.min[2] + scan.max[2]) / 2);
+export function geodeticBounds(scan: Scan, truth: Truth): GeodeticBounds | undefined {
+  const evaluate = pointTransform(truth);
   const ecef = new Float64Array(3);
   const geodetic = new Float64Array(3);
   const bounds = { west: 180, south: 90, east: -180, north: -90, lowest: Infinity, highest: -Infinity };
   const steps = [0, 0.5, 1];
+  const at = (axis: 0 | 1 | 2, share: number) =>
+    share === 1 ? scan.max[axis] : scan.min[axis] + share * (scan.max[axis] - scan.min[axis]);
   for (const u of steps) {
     for (const v of steps) {
       for (const w of [0, 1]) {
-        const at = (axis: 0 | 1 | 2, share: number) =>
-          scan.min[axis] + share * (scan.max[axis] - scan.min[axis]);
-        toEcef(crs, exact, at(0, u), at(1, v), at(2, w), ecef);
+        evaluate(at(0, u), at(1, v), at(2, w), ecef, 0);
+        if (!ecef.every(Number.isFinite)) continue;
         ecefToGeodetic(ecef[0]!, ecef[1]!, ecef[2]!, geodetic);
         const [longitude, latitude, height] = [geodetic[0]! / DEGREE, geodetic[1]! / DEGREE, geodetic[2]!];
         bounds.west = Math.min(bounds.west, longitude);
@@ -41,24 +51,74 @@ export function geodeticBounds(scan: Scan, crs: Crs): GeodeticBounds {
       }
     }
   }
-  return bounds;
+  return bounds.lowest <= bounds.highest ? bounds : undefined;
 }
 
-/** What the heights of a data set are measured from, in words. */
-export function heightInWords({ height }: Crs): string {
+/**
+ * What the heights of a data set are measured from, in words.
+ *
+ * @param geoids grids that they go through; undefined as long as nothing is settled
+ */
+export function heightInWords({ height }: Crs, geoids?: readonly string[]): string {
   switch (height.kind) {
     case "ellipsoidal":
       return "ellipsoidal";
-    case "geoid":
-      return `above ${height.model}${height.epsg ? ` (EPSG:${height.epsg})` : ""}, geoid not applied: shown as ellipsoidal`;
+    case "geoid": {
+      const above = `above ${height.model}${height.epsg ? ` (EPSG:${height.epsg})` : ""}`;
+      return geoids === undefined ? above : `${above}, ${geoidInWords(geoids)}`;
+    }
     case "unknown":
       return "unknown (shown as ellipsoidal)";
   }
 }
 
+function geoidInWords(geoids: readonly string[]): string {
+  if (geoids.length === 0) return "geoid not applied: shown as ellipsoidal";
+  if (geoids.includes(EGM96)) return `geoid ${EGM96} applied in place of the country's own`;
+  return `geoid ${geoids.map(stem).join(", ")} applied`;
+}
+
 /** Name of a CRS with its code, if the name does not have it. */
 export function crsInWords({ name, code }: Crs): string {
   return code && !name.includes(code) ? `${code} ${name}` : name;
+}
+
+/** What was computed and how well: `EPSG:7415 … → ECEF by PROJ 9.4.0 (grids), fit ≤ 0.02 mm, operation 1 mm`. */
+export function placeInWords(
+  place: Pick<Placed, "crs" | "engine" | "operation" | "fitBound" | "accuracy">,
+): string {
+  const { crs, engine, operation, fitBound, accuracy } = place;
+  const whole = crsInWords(crs);
+  if (engine.name === "similarity") return `${whole} → ECEF by a similarity${residualsInWords(accuracy)}`;
+  const grids = operation?.grids ?? [];
+  const by = `${engine.name} ${engine.version}${grids.length > 0 ? ` (${grids.map(stem).join(", ")})` : ""}`;
+  const fit = fitBound === undefined ? "" : `, fit ≤ ${length(fitBound)}`;
+  return `${whole} → ECEF by ${by}${fit}${operation ? `, operation ${operationInWords(operation)}` : ""}`;
+}
+
+function operationInWords({ accuracy, ballpark }: OperationReport): string {
+  if (ballpark) return "without a datum shift";
+  return accuracy === null ? "of unknown accuracy" : length(accuracy);
+}
+
+function residualsInWords(accuracy: readonly AccuracyPart[]): string {
+  const worst = accuracy.find(({ name }) => name === "control points")?.metres;
+  return typeof worst === "number" ? `, residuals ≤ ${length(worst)}` : "";
+}
+
+/** What a reader has to know of the way that was chosen, one sentence each. */
+export function remarks(operation: OperationReport | undefined): string[] {
+  if (!operation) return [];
+  const lacking = operation.lacking.map(({ name, accuracy, grids }) => {
+    const worth = accuracy === null ? "" : ` (${length(accuracy)})`;
+    return `better with ${grids.join(", ")}: ${name}${worth}`;
+  });
+  return [...operation.notes, ...lacking];
+}
+
+/** Name of a grid without what kind of file it is. */
+function stem(file: string): string {
+  return file.replace(/\.(tif|tiff|gtx|gsb|gtg)$/i, "");
 }
 
 /** Points per square metre over the header's rectangle; undefined for a rectangle without area. */

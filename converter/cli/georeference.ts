@@ -1,20 +1,18 @@
 import {
-  accuracyParts,
   type Crs,
   CrsError,
-  encodeRecord,
+  decodeRecord,
   type GeoreferenceRecord,
+  RecordError,
   resolveCrs,
 } from "@groma/georef";
-import proj4 from "proj4";
 import type { Scan } from "./core.js";
 import { epsg } from "./epsg.js";
-
-/** Bound on the drawn position that the page keeps by default, metres. */
-export const TOLERANCE = 0.001;
+import { type GivenPlace, isPlaced, type LocalPlace, localPlace } from "./place/local.js";
 
 /** What the user says of the coordinates; it goes before what the files say. */
-export interface Given {
+export interface Given extends GivenPlace {
+  /** `none` passes over what the files say. */
   readonly crs?: string | undefined;
   readonly vertical?: string | undefined;
 }
@@ -22,45 +20,106 @@ export interface Given {
 /** The coordinate reference system of a file, and who named it. */
 export interface Georeferenced {
   readonly crs: Crs;
-  readonly basis: "given" | "WKT" | "GeoTIFF keys";
+  readonly basis: "given" | "WKT" | "GeoTIFF keys" | LocalPlace["basis"];
+  /** For a data set without a coordinate reference system: where it is put. */
+  readonly local?: LocalPlace;
 }
 
+/** `--crs none`. */
+const NONE = "none";
+
 /**
- * The coordinate reference system of one file.
+ * The coordinate reference system of one file, or the place that it was given instead.
  *
- * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED
+ * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED, CRS_TWICE
+ * @throws OptionError, RowsError, ControlError
  */
-export function georeference(scan: Scan, given: Given): Georeferenced {
+export async function georeference(scan: Scan, given: Given): Promise<Georeferenced> {
+  if (isPlaced(given)) {
+    refuseSecondPlace(scan, given);
+    const local = await localPlace(given);
+    return { crs: local.crs, basis: local.basis, local };
+  }
+  if (given.crs === NONE) throw missing(scan.file, "its coordinate reference system is to be passed over");
+  const record = given.crs === undefined && given.vertical === undefined ? readable(scan) : undefined;
+  if (!record) return named(scan, given);
+  const { crs, similarity, accuracy } = record;
+  const basis = "Groma's record";
+  return { crs, basis, ...(similarity && { local: { basis, crs, similarity, accuracy } }) };
+}
+
+/** The georeference record of a file that has one, unless it is damaged: a conversion makes it anew. */
+function readable(scan: Scan): GeoreferenceRecord | undefined {
+  try {
+    return georeferenceRecord(scan);
+  } catch (error) {
+    if (error instanceof RecordError) return undefined;
+    throw error;
+  }
+}
+
+/** @throws RecordError RECORD_* */
+export function georeferenceRecord({ file, groma }: Scan): GeoreferenceRecord | undefined {
+  const record = groma?.["1"];
+  return record === undefined ? undefined : decodeRecord(Buffer.from(record, "base64"), file);
+}
+
+/** The coordinate reference system that the user or the file names. */
+function named(scan: Scan, given: Given): Georeferenced {
   const geoTiff = scan.geoTiff && {
     directory: Uint16Array.from(scan.geoTiff.directory),
     doubles: Float64Array.from(scan.geoTiff.doubles),
     ascii: scan.geoTiff.ascii,
   };
-  const sources = {
-    file: scan.file,
-    given: given.crs,
-    givenVertical: given.vertical,
-    wkt: scan.wkt,
-    geoTiff,
-  };
+  const wkt = wktOnEarth(scan);
+  const sources = { file: scan.file, given: given.crs, givenVertical: given.vertical, wkt, geoTiff };
   try {
-    const basis = given.crs !== undefined ? "given" : scan.wkt?.trim() ? "WKT" : "GeoTIFF keys";
+    const basis = given.crs !== undefined ? "given" : wkt ? "WKT" : "GeoTIFF keys";
     return { crs: resolveCrs(sources, epsg), basis };
   } catch (error) {
     if (!(error instanceof CrsError) || error.code !== "CRS_MISSING") throw error;
-    throw new CrsError({ ...error.toWire(), fix: "give it with --crs, e.g. --crs EPSG:2056+5728" });
+    throw missing(error.file, error.cause);
+  }
+}
+
+/** The WKT of a file, unless it only says that the coordinates are local. */
+function wktOnEarth({ wkt }: Scan): string | undefined {
+  const text = wkt?.trim();
+  return text && !/^(LOCAL_CS|ENGCRS|ENGINEERINGCRS)\s*[[(]/i.test(text) ? text : undefined;
+}
+
+function missing(file: string, cause: string): CrsError {
+  return new CrsError({
+    ...{ code: "CRS_MISSING", file, cause },
+    fix: "give it with --crs, e.g. --crs EPSG:2056+5728, or say where the scan is with --anchor or --control",
+  });
+}
+
+function refuseSecondPlace(scan: Scan, { crs, vertical }: Given): void {
+  const file = scan.file;
+  const fix = "leave one of them out; --crs none passes over what the file says";
+  const cause = "has a place of its own, and --anchor or --control gives another";
+  const second =
+    vertical !== undefined ? "--vertical" : crs !== undefined && crs !== NONE ? "--crs" : undefined;
+  if (second) throw new CrsError({ code: "CRS_TWICE", file, cause: `what ${second} names ${cause}`, fix });
+  if (crs === undefined && (wktOnEarth(scan) || scan.geoTiff)) {
+    throw new CrsError({ code: "CRS_TWICE", file, cause: `its coordinate reference system ${cause}`, fix });
   }
 }
 
 /**
  * The one coordinate reference system of several inputs.
  *
- * @throws CrsError CRS_MIXED with the list when they differ
+ * @throws CrsError CRS_MIXED with the list when they differ; as {@link georeference}
  */
-export function commonGeoreference(scans: readonly Scan[], given: Given): Georeferenced {
-  const all = scans.map((scan) => georeference(scan, given));
-  const meaning = ({ crs }: Georeferenced) =>
-    JSON.stringify([crs.proj4, crs.horizontalUnit.size, crs.verticalUnit.size, crs.height]);
+export async function commonGeoreference(scans: readonly Scan[], given: Given): Promise<Georeferenced> {
+  const all: Georeferenced[] = [];
+  for (const scan of scans) all.push(await georeference(scan, given));
+  const meaning = ({ crs, local }: Georeferenced) =>
+    JSON.stringify([
+      ...[crs.proj4, crs.horizontalUnit.size, crs.verticalUnit.size, crs.height],
+      local?.similarity ?? null,
+    ]);
   const first = all[0]!;
   if (all.some((other) => meaning(other) !== meaning(first))) {
     const list = scans.map((scan, index) => `${scan.file} is in ${all[index]!.crs.name}`).join(", ");
@@ -72,24 +131,20 @@ export function commonGeoreference(scans: readonly Scan[], given: Given): Georef
   return first;
 }
 
-/** The georeference record of a data set (docs/record.md, record id 1). */
-export function recordOf(crs: Crs, scale: readonly [number, number, number]): Uint8Array {
-  const record: GeoreferenceRecord = {
-    version: 1,
-    crs,
-    engine: { name: "proj4js", version: proj4.version },
-    accuracy: accuracyParts(crs, scale, TOLERANCE),
-  };
-  return encodeRecord(record);
-}
-
 /**
  * WKT 1 for an output whose input had none (LAS 1.4 R15 asks for WKT in point formats 6 to 10): the text that was
- * given or the EPSG table's, horizontal and vertical joined as a compound. Undefined where nobody has words for it.
+ * given or the EPSG table's, horizontal and vertical joined as a compound; a local system says that it is one. Undefined
+ * where nobody has words for it.
  */
-export function wktOf(crs: Crs): string | undefined {
+export function wktOf({ crs, local }: Georeferenced): string | undefined {
+  // Readers of LAS do not agree on what else than ASCII is.
+  const name = crs.name.replaceAll('"', "'").replace(/[^ -~]/g, "");
+  if (local) {
+    const unit = `UNIT["${crs.horizontalUnit.name}",${crs.horizontalUnit.size}]`;
+    return `LOCAL_CS["${name}",LOCAL_DATUM["${name}",32767],${unit},AXIS["x",OTHER],AXIS["y",OTHER]]`;
+  }
   if (crs.wkt) return crs.wkt;
   const [horizontal, vertical] = (crs.code?.match(/\d+/g) ?? []).map((code) => epsg(Number(code))?.wkt);
   if (!horizontal || !vertical) return horizontal;
-  return `COMPD_CS["${crs.name.replaceAll('"', "'")}",${horizontal},${vertical}]`;
+  return `COMPD_CS["${name}",${horizontal},${vertical}]`;
 }

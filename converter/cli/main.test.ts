@@ -64,7 +64,29 @@ describe("groma convert", () => {
     expect(info.geodeticBounds.west).toBeGreaterThan(7.8);
     expect(info.geodeticBounds.east).toBeLessThan(8);
     const people = (await groma("info", "out.copc.laz")).stdout;
-    expect(people).toContain("LN02 height (EPSG:5728), geoid not applied");
+    expect(people).toMatch(/height +above LN02 height \(EPSG:5728\), geoid .* applied/);
+    expect(people).toMatch(/place +EPSG:2056\+5728 .* → ECEF by (PROJ|proj4js) .*, fit ≤ .* mm, operation /);
+    expect((await groma("info", sample)).stdout).toContain("geoid not applied: shown as ellipsoidal");
+    expect(made.stdout).toMatch(/^out\.copc\.laz .*\nplace {4}EPSG:2056/);
+  });
+
+  it("says in words what proj4js is worth, to people and to machines", async () => {
+    const made = await groma("convert", sample, "js.copc.laz", "--engine", "proj4js");
+    expect(made.stdout).toMatch(/^note {5}.*without PROJ.*expect errors of/m);
+    const info = JSON.parse((await groma("info", "--json", "js.copc.laz")).stdout);
+    expect(info).toMatchObject({ engine: { name: "proj4js" }, geoids: ["EGM96"] });
+    expect(info.operation.notes.join()).toMatch(/expect errors of/);
+    expect(info.accuracy.total).toBeGreaterThan(1);
+    expect(info.recordBytes.transformation).toBeGreaterThan(100);
+  });
+
+  it("tells what an unknown height may mean", async () => {
+    await groma("convert", sample, "unknown.copc.laz", "--crs", "EPSG:2056");
+    const { accuracy, crs } = JSON.parse((await groma("info", "--json", "unknown.copc.laz")).stdout);
+    expect(crs.height.kind).toBe("unknown");
+    const height = accuracy.parts.find((part: { name: string }) => part.name === "height");
+    expect(height).toMatchObject({ metres: null, note: expect.stringMatching(/belong \d+\.\d m higher/) });
+    expect(accuracy.total).toBeNull();
   });
 
   it("refuses a file without CRS in one line, leaves no output, and takes the one given", async () => {
@@ -113,6 +135,50 @@ describe("groma convert", () => {
   });
 });
 
+describe("a header that lies about its bounds", () => {
+  it("does not move the domain of the transformation: the points themselves do", async () => {
+    const bytes = readFileSync(sample);
+    // LAS 1.4 R15, table 3: max and min of x, y, z, six doubles from byte 179.
+    const [maxX, minX, maxY, minY] = [0, 1, 2, 3].map((i) => bytes.readDoubleLE(179 + 8 * i));
+    for (let i = 0; i < 6; i++) bytes.writeDoubleLE(i % 2 ? -1e7 : 1e7, 179 + 8 * i);
+    writeFileSync(join(folder, "lying.las"), bytes);
+    await groma("convert", "lying.las", "lying.copc.laz");
+    const info = JSON.parse((await groma("info", "--json", "lying.copc.laz")).stdout);
+    expect([info.max[0], info.min[0], info.max[1], info.min[1]]).toEqual([maxX, minX, maxY, minY]);
+    writeFileSync(join(folder, "corners.txt"), `${minX} ${minY}\n${maxX} ${maxY}\n`);
+    const { points } = JSON.parse(
+      (await groma("locate", "lying.copc.laz", "--points", "corners.txt", "--json")).stdout,
+    );
+    expect(points).toHaveLength(2);
+    writeFileSync(join(folder, "outside.txt"), `${minX} ${minY}\n${maxX + 1} ${maxY}\n`);
+    const outside = await groma("locate", "lying.copc.laz", "--points", "outside.txt");
+    expect(outside.stderr).toMatch(/^PLACE_DOMAIN: lying\.copc\.laz: line 2: /);
+  });
+});
+
+describe("groma locate", () => {
+  it("places points by the file's record, or by proj4js where it has none, and says which", async () => {
+    const info = JSON.parse((await groma("info", "--json", sample)).stdout);
+    const [x, y, z] = [0, 1, 2].map((axis) => (info.min[axis] + info.max[axis]) / 2);
+    writeFileSync(join(folder, "points.txt"), `# middle\n${x}, ${y}, ${z}\n${x} ${y}\n`);
+    const { points, engine } = JSON.parse(
+      (await groma("locate", "out.copc.laz", "--points", "points.txt", "--json")).stdout,
+    );
+    expect(points).toHaveLength(2);
+    expect(points[0].source).toEqual([x, y, z]);
+    expect(points[1].source[2]).toBe(0);
+    expect(points[0].geodetic[0]).toBeCloseTo((info.geodeticBounds.west + info.geodeticBounds.east) / 2, 3);
+    // The geoid is 50 m above the ellipsoid there.
+    expect(points[0].geodetic[2] - z).toBeGreaterThan(40);
+    expect(Math.hypot(...points[0].ecef)).toBeGreaterThan(6.3e6);
+    expect(engine.name).toMatch(/PROJ|proj4js/);
+    const bare = await groma("locate", sample, "--points", "points.txt");
+    expect(bare.stdout).toMatch(/^# .* by proj4js .*, derived here from the file's WKT\n/);
+    const outside = await groma("locate", "out.copc.laz", "--points", "far.txt");
+    expect(outside.stderr).toMatch(/^POINTS_NOT_FOUND: far\.txt: /);
+  });
+});
+
 describe("the command line", () => {
   it.each([
     [["frob"], "OPTION_INVALID"],
@@ -120,6 +186,18 @@ describe("the command line", () => {
     [["convert", "in.las", "out.copc.laz", "--no-such-option"], "OPTION_INVALID"],
     [["view", "x.las", "--port", "70000"], "OPTION_INVALID"],
     [["info", "nowhere.laz"], "INPUT_NOT_FOUND"],
+    [["locate", sample], "OPTION_INVALID"],
+    [["locate", sample, "--points", "nowhere.txt"], "POINTS_NOT_FOUND"],
+    [["convert", sample, "out3.copc.laz", "--anchor", "7.9,46.5,800,0"], "CRS_TWICE"],
+    [["convert", sample, "out3.copc.laz", "--anchor", "7.9,46.5", "--crs", "none"], "OPTION_ANCHOR"],
+    [["convert", sample, "out3.copc.laz", "--anchor", "7.9,95,0,0", "--crs", "none"], "OPTION_ANCHOR"],
+    [["convert", sample, "out3.copc.laz", "--anchor-at", "1,2,3", "--crs", "none"], "OPTION_ANCHOR"],
+    [["convert", sample, "out3.copc.laz", "--anchor", "1,2,3,4", "--control", "c.txt"], "OPTION_INVALID"],
+    [["convert", sample, "out3.copc.laz", "--control", "nowhere.txt", "--crs", "none"], "CONTROL_NOT_FOUND"],
+    [["convert", sample, "out3.copc.laz", "--crs", "none"], "CRS_MISSING"],
+    [["convert", sample, "out3.copc.laz", "--proj", "nowhere"], "PROJ_MISSING"],
+    [["convert", sample, "out3.copc.laz", "--engine", "proj4js", "--grids", "."], "OPTION_ENGINE"],
+    [["view", sample, "--engine", "guess"], "OPTION_INVALID"],
     [["view", "nowhere.laz"], "INPUT_NOT_FOUND"],
     [["serve", "nowhere"], "SERVER_FOLDER"],
     [["convert", sample, "out2.copc.laz", "--crs", "EPSG:999999"], "CRS_UNKNOWN"],

@@ -36,6 +36,13 @@ struct Convert {
     /// File whose bytes become the georeference record (user id groma, record id 1)
     #[arg(long)]
     record: Option<PathBuf>,
+    /// File whose bytes become the transformation record (user id groma, record id 3)
+    #[arg(long)]
+    transformation: Option<PathBuf>,
+    /// Print the bounds of the points when they are known, and before writing wait for a line on standard input that
+    /// names the files of the two records: {"record":PATH,"transformation":PATH}
+    #[arg(long, conflicts_with_all = ["record", "transformation"])]
+    wait_for_record: bool,
     /// File with the WKT that the output carries instead of the input's
     #[arg(long)]
     wkt: Option<PathBuf>,
@@ -107,13 +114,23 @@ fn convert(arguments: Convert) -> Result<()> {
 }
 
 fn options(arguments: Convert) -> Result<Options> {
-    let Convert { mut files, record, wkt, overwrite, sampling: Sampling::Grid, memory, temp_dir } = arguments;
+    let Convert {
+        mut files,
+        record,
+        transformation,
+        wait_for_record,
+        wkt,
+        overwrite,
+        sampling: Sampling::Grid,
+        memory,
+        temp_dir,
+    } = arguments;
     if let Some(folder) = temp_dir.filter(|folder| !folder.is_dir()) {
         return Err(Error::option("TEMP_DIR", format!("{} is not a folder", folder.display())));
     }
     let output = files.pop().unwrap_or_default();
     let memory = memory.as_deref().map(memory::parse_size).transpose()?;
-    Ok(Options { inputs: files, output, record, wkt, overwrite, memory })
+    Ok(Options { inputs: files, output, record, transformation, wait_for_record, wkt, overwrite, memory })
 }
 
 /// On SIGINT, SIGTERM and SIGHUP: nothing is left behind, and the exit status says what happened.
@@ -134,12 +151,15 @@ fn usage(error: &clap::Error) -> Error {
     let text = error.to_string();
     let cause = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string();
     let option = error.get(clap::error::ContextKind::InvalidArg).map(ToString::to_string).unwrap_or_default();
-    let name =
-        ["sampling", "memory", "temp-dir", "record", "wkt"].into_iter().find(|name| option.contains(name));
+    let name = ["sampling", "memory", "temp-dir", "wait-for-record", "record", "transformation", "wkt"]
+        .into_iter()
+        .find(|name| option.contains(name));
     match name {
         Some("sampling") => Error::option("SAMPLING", cause),
         Some("memory") => Error::option("MEMORY", cause),
         Some("temp-dir") => Error::option("TEMP_DIR", cause),
+        Some("wait-for-record") => Error::option("WAIT_FOR_RECORD", cause),
+        Some("transformation") => Error::option("TRANSFORMATION", cause),
         Some("record") => Error::option("RECORD", cause),
         Some("wkt") => Error::option("WKT", cause),
         _ => Error::option("USAGE", cause),

@@ -21,6 +21,8 @@ pub trait Progress: Sync {
     fn advance(&self, stage: Stage, done: u64, total: u64);
     /// Something in the input was not as the standard wants it, and this is what was made of it.
     fn warn(&self, text: &str);
+    /// The points lie within these, source units; said once, to who asked for it.
+    fn bounds(&self, min: [f64; 3], max: [f64; 3]);
 }
 
 /// Tells nobody.
@@ -29,6 +31,7 @@ pub struct Silent;
 impl Progress for Silent {
     fn advance(&self, _: Stage, _: u64, _: u64) {}
     fn warn(&self, _: &str) {}
+    fn bounds(&self, _: [f64; 3], _: [f64; 3]) {}
 }
 
 #[derive(Serialize)]
@@ -36,6 +39,7 @@ impl Progress for Silent {
 enum Line<'a> {
     Progress { stage: Stage, done: u64, total: u64 },
     Warning { text: &'a str },
+    Bounds { min: [f64; 3], max: [f64; 3] },
 }
 
 /// One JSON object per line on standard output.
@@ -57,6 +61,10 @@ impl Progress for JsonLines {
 
     fn warn(&self, text: &str) {
         Self::print(&Line::Warning { text });
+    }
+
+    fn bounds(&self, min: [f64; 3], max: [f64; 3]) {
+        Self::print(&Line::Bounds { min, max });
     }
 }
 

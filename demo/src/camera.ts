@@ -1,4 +1,4 @@
-import { eastNorthUp, exactTransform, toEcef } from "@groma/georef";
+import { eastNorthUp, PlacementError } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import { Cartesian3, PerspectiveFrustum, type Viewer } from "cesium";
 import { fitView, type ScreenRectangle, viewWindow } from "./framing.js";
@@ -90,22 +90,29 @@ function axes(place: Cartesian3, { heading, pitch }: { heading: number; pitch: n
   return { right, up: Cartesian3.cross(right, forward, new Cartesian3()), forward };
 }
 
-/** Corners of the box that the file's header declares, ECEF; of the bounding sphere where it cannot be placed. */
-function cornersOf({ cloud, boundingSphere }: PointCloudLayer): Cartesian3[] {
+/**
+ * Corners of the box that the file's header declares, as they are drawn, ECEF; of the bounding sphere where one of them
+ * has no place.
+ */
+function cornersOf({ cloud, boundingSphere: { center, radius } }: PointCloudLayer): Cartesian3[] {
   const { min, max } = cloud.boundingBox;
-  const exact = exactTransform(cloud.crs, (min[2] + max[2]) / 2);
-  const corners: Cartesian3[] = [];
-  const ecef = new Float64Array(3);
-  for (const x of [min[0], max[0]]) {
-    for (const y of [min[1], max[1]]) {
-      for (const z of [min[2], max[2]]) {
-        toEcef(cloud.crs, exact, x, y, z, ecef);
-        if (ecef.every(Number.isFinite)) corners.push(Cartesian3.unpack([...ecef]));
+  const { x: centreX, y: centreY, z: centreZ } = cloud.bounds;
+  // What a height offset of the layer adds to all places.
+  const lift = Cartesian3.subtract(center, new Cartesian3(centreX, centreY, centreZ), new Cartesian3());
+  try {
+    const corners: Cartesian3[] = [];
+    for (const x of [min[0], max[0]]) {
+      for (const y of [min[1], max[1]]) {
+        for (const z of [min[2], max[2]]) {
+          const place = Cartesian3.unpack([...cloud.place(x, y, z)]);
+          corners.push(Cartesian3.add(place, lift, place));
+        }
       }
     }
+    return corners;
+  } catch (thrown) {
+    if (!(thrown instanceof PlacementError)) throw thrown;
   }
-  if (corners.length === 8) return corners;
-  const { center, radius } = boundingSphere;
   return [-radius, radius].flatMap((away) =>
     [Cartesian3.UNIT_X, Cartesian3.UNIT_Y, Cartesian3.UNIT_Z].map((axis) =>
       Cartesian3.add(center, Cartesian3.multiplyByScalar(axis, away, new Cartesian3()), new Cartesian3()),

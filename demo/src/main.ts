@@ -1,7 +1,7 @@
 import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
 import { CrsError } from "@groma/georef";
-import type { PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import type { PointCloudLayer } from "@groma/layer/cesium";
 import type { Viewer } from "cesium";
 import { cloudAddress, PageError, type PageOptions, readPageOptions } from "./address.js";
 import { type Flight, goToCloud } from "./camera.js";
@@ -12,22 +12,34 @@ import { Controls } from "./panel/controls.js";
 import { byId } from "./panel/elements.js";
 import { showFacts } from "./panel/facts.js";
 import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
+import { Heights } from "./panel/heights.js";
 import { Message } from "./panel/message.js";
 import { Progress } from "./panel/progress.js";
 import { addBaseMap, createViewer } from "./viewer.js";
 
 const message = new Message();
 
+/** What the cloud in the scene was opened from. */
+interface Opened {
+  readonly from: string | File;
+  readonly name: string;
+  readonly how: OpenOptions;
+  /** Coordinate system that the reader gave, where it was used. */
+  readonly crs: string | undefined;
+}
+
 /** The page once its globe stands. */
 function start(viewer: Viewer): void {
   const groma: Groma = { viewer, layer: undefined };
   window.groma = groma;
   let options: PageOptions = { fly: true };
+  let opened: Opened | undefined;
   const slot = new CloudSlot(viewer.scene.primitives);
   const progress = new Progress();
   const controls = new Controls((aspect) => {
     if (slot.layer) void goToCloud(viewer, slot.layer, { aspect, free: freeArea(), way: way("fly") });
   });
+  const heights = new Heights(reopen);
   const chooser = new Chooser({
     file: (file) => void choose(file, file.name),
     address: (text) => {
@@ -62,7 +74,17 @@ function start(viewer: Viewer): void {
   /** Opens the cloud that the reader chose. */
   async function choose(from: string | File, name: string): Promise<void> {
     const layer = await open(from, name, { ...lasting(), crsIfMissing: chooser.crs });
-    if (layer) rememberCloud(from, layer.cloud, chooser.crs);
+    if (layer && opened) rememberCloud(opened);
+  }
+
+  /** Opens the cloud that is there with another height reference, seen from where the camera stands. */
+  async function reopen(vertical: string | undefined): Promise<boolean> {
+    if (!opened || !slot.layer) return false;
+    const { from, name, how, crs } = opened;
+    const { style, heightOffset, show } = slot.layer;
+    const layer = await open(from, name, { ...how, style, heightOffset, show, crs, vertical }, "stay");
+    if (layer) rememberCloud(opened);
+    return layer !== undefined;
   }
 
   /** What holds for every cloud that is opened, not only for the one in the page's address. */
@@ -84,13 +106,19 @@ function start(viewer: Viewer): void {
     from: string | File,
     name: string,
     how: OpenOptions,
+    wanted: Flight["way"] | "stay" = slot.layer ? "fly" : "descend",
   ): Promise<PointCloudLayer | undefined> {
-    const wanted = slot.layer ? "fly" : "descend";
     message.clear();
     progress.opening(name);
     try {
       const layer = await slot.open(from, how);
-      if (layer) await show(layer, wanted);
+      if (layer) {
+        const { crs, crsIfMissing, vertical } = how;
+        // A system for clouds without one was taken where nothing else could have been given.
+        const taken = vertical === undefined && layer.cloud.basis === "given" ? crsIfMissing : undefined;
+        opened = { from, name, how, crs: crs ?? taken };
+        await show(layer, opened, wanted);
+      }
       return slot.layer === layer ? layer : undefined;
     } catch (thrown) {
       if (slot.layer) progress.follow(slot.layer);
@@ -101,15 +129,22 @@ function start(viewer: Viewer): void {
     }
   }
 
-  async function show(layer: PointCloudLayer, wanted: Flight["way"]): Promise<void> {
+  async function show(
+    layer: PointCloudLayer,
+    { how, crs }: Opened,
+    wanted: Flight["way"] | "stay",
+  ): Promise<void> {
     groma.layer = undefined;
-    showFacts(layer.cloud);
+    showFacts(layer.cloud, { given: crs !== undefined });
+    heights.attach(layer.cloud, how.vertical);
     controls.attach(layer);
     progress.follow(layer);
     tellFailures(layer);
-    chooser.fold();
-    foldIfNarrow();
-    await goToCloud(viewer, layer, { aspect: "oblique", free: freeArea(), way: way(wanted) });
+    if (wanted !== "stay") {
+      chooser.fold();
+      foldIfNarrow();
+      await goToCloud(viewer, layer, { aspect: "oblique", free: freeArea(), way: way(wanted) });
+    }
     if (slot.layer === layer) groma.layer = layer;
   }
 }
@@ -129,13 +164,14 @@ function tellFailures(layer: PointCloudLayer): void {
 }
 
 /** Keeps the page's address in step with what it shows, so that it can be reloaded and passed on. */
-function rememberCloud(from: string | File, { basis }: PointCloud, crs: string | undefined): void {
+function rememberCloud({ from, how: { vertical }, crs }: Opened): void {
   const page = new URL(location.href);
   for (const name of ["cloud", "crs", "vertical"]) page.searchParams.delete(name);
   if (typeof from === "string") {
     const { origin, pathname, search } = new URL(from);
     page.searchParams.set("cloud", origin === location.origin ? pathname + search : from);
-    if (basis === "given" && crs) page.searchParams.set("crs", crs);
+    if (crs) page.searchParams.set("crs", crs);
+    if (vertical) page.searchParams.set("vertical", vertical);
   }
   history.replaceState(null, "", page);
 }

@@ -32,15 +32,34 @@ export {
 } from "./engines/truth.js";
 export { CrsError, type Fault, type FaultWire, GromaError, PlacementError, RecordError } from "./errors.js";
 export { type Geodesic, type GeodesicEnd, geodesicBetween, geodesicFrom } from "./geodesic/geodesic.js";
-export { chordArea, type GeodesicPolygon, geodesicPolygon } from "./geodesic/polygon.js";
+export {
+  type ChordPolygon,
+  chordPolygon,
+  type GeodesicPolygon,
+  geodesicPolygon,
+} from "./geodesic/polygon.js";
 export { fitPlacement } from "./georeference/fit.js";
 export { place } from "./georeference/place.js";
 export { placeIntegers } from "./georeference/place-integers.js";
 export type { Domain, Placement, Scheme } from "./georeference/placement.js";
 export { type Bounds, cutWindow, type Grid } from "./grid/window.js";
-export { type AccuracyPart, accuracyParts, type StatedAccuracy, statedAccuracy } from "./record/accuracy.js";
+export {
+  type AccuracyPart,
+  accuracyParts,
+  EGM96,
+  EGM96_ACCURACY,
+  type Placing,
+  type StatedAccuracy,
+  similarityParts,
+  statedAccuracy,
+} from "./record/accuracy.js";
 export type { GeoreferenceRecord } from "./record/georeference-record.js";
+export type { OperationReport } from "./record/operation-report.js";
 export { decodeRecord, encodeRecord } from "./record/record.js";
+export { type Anchor, anchorSimilarity } from "./similarity/anchor.js";
+export { ControlError } from "./similarity/errors.js";
+export { type ControlPoint, type FittedSimilarity, fitSimilarity } from "./similarity/fit.js";
+export { localCrs } from "./similarity/local-crs.js";
 export { decodeTransformation } from "./transformation/decode.js";
 export { encodeTransformation } from "./transformation/encode.js";
 export { type CompiledTransformation, compileTransformation } from "./transformation/evaluate.js";

@@ -43,7 +43,7 @@ export async function bench(root) {
       const page = await context.newPage();
       const began = performance.now();
       const seconds = () => ((performance.now() - began) / 1000).toFixed(1);
-      await page.goto(`${address}&budget=1000000`);
+      await page.goto(`${address}&budget=1000000&fly=0`);
       const wait = (condition) =>
         page.waitForFunction(condition, undefined, { timeout: 240_000, polling: 50 });
       await wait(() => window.groma?.layer?.statistics.pointsDrawn > 0);

@@ -4,7 +4,7 @@ import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from
 import { converted } from "../converted.js";
 import { BadServer, type Misbehaviour } from "../faults/bad-server.js";
 import { data } from "../project.js";
-import { settle } from "./globe.js";
+import type {} from "./globe.js";
 import { launch, openPage, screenshot, type View, view, type Watch } from "./harness.js";
 
 const scan = data("vol_total.laz");

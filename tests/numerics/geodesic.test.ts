@@ -1,6 +1,6 @@
 import { readFileSync } from "node:fs";
 import {
-  chordArea,
+  chordPolygon,
   ellipsoid,
   geodesicBetween,
   geodesicFrom,
@@ -144,7 +144,7 @@ describe("polygons", () => {
         expect(area).toBeGreaterThan(0);
         expect(Math.abs(other.area + area)).toBeLessThanOrEqual(tolerance);
         expect(Math.abs(shifted.area - area)).toBeLessThanOrEqual(tolerance);
-        expect(Math.abs(shifted.perimeter - perimeter)).toBeLessThanOrEqual(1e-7);
+        expect(Math.abs(shifted.perimeter - perimeter)).toBeLessThanOrEqual(1e-7 + 1e-9 * perimeter);
       }),
       { numRuns: 2000 },
     );
@@ -178,7 +178,7 @@ describe("polygons", () => {
       fc.property(longitude, finite(-1.4, 1.4), finite(1e3, 1e5), (lon, lat, radius) => {
         const ring = star(lon, lat, new Array(24).fill(radius));
         const { area } = geodesicPolygon(ring);
-        const chords = chordArea(ring);
+        const chords = chordPolygon(ring);
         expect(Math.abs(chords.area - area)).toBeLessThanOrEqual(
           0.1 + (area * chords.extent ** 2) / (15 * WGS84.a ** 2),
         );

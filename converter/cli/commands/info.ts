@@ -1,22 +1,21 @@
-import {
-  type AccuracyPart,
-  accuracyParts,
-  type Crs,
-  CrsError,
-  decodeRecord,
-  statedAccuracy,
-} from "@groma/georef";
+import { type AccuracyPart, CrsError, statedAccuracy } from "@groma/georef";
 import { type Scan, type ScanStatistics, scanFile } from "../core.js";
-import { crsInWords, density, type GeodeticBounds, geodeticBounds, heightInWords } from "../describe.js";
-import { georeference, TOLERANCE } from "../georeference.js";
+import {
+  density,
+  type GeodeticBounds,
+  geodeticBounds,
+  heightInWords,
+  placeInWords,
+  remarks,
+} from "../describe.js";
 import { count, length, size } from "../output.js";
+import { type Placed, placed } from "../placed.js";
 
 /** What `groma info` knows of a file. */
 interface Info {
   readonly scan: Scan;
   /** Undefined where the file says nothing, `problem` then tells. */
-  readonly crs: Crs | undefined;
-  readonly basis: string;
+  readonly place: Placed | undefined;
   readonly problem: CrsError | undefined;
   readonly bounds: GeodeticBounds | undefined;
   readonly accuracy: readonly AccuracyPart[];
@@ -26,27 +25,13 @@ interface Info {
 async function gather(file: string): Promise<Info> {
   const scan = await scanFile(file);
   const statistics = scan.groma?.["2"];
-  const record = scan.groma?.["1"];
-  if (record !== undefined) {
-    const { crs, accuracy } = decodeRecord(Buffer.from(record, "base64"), file);
-    const bounds = geodeticBounds(scan, crs);
-    return { scan, crs, basis: "Groma's record", problem: undefined, bounds, accuracy, statistics };
-  }
   try {
-    const { crs, basis } = georeference(scan, {});
-    const accuracy = accuracyParts(crs, scan.scale, TOLERANCE);
-    return { scan, crs, basis, problem: undefined, bounds: geodeticBounds(scan, crs), accuracy, statistics };
+    const place = await placed(scan);
+    const bounds = geodeticBounds(scan, place.truth);
+    return { scan, place, problem: undefined, bounds, accuracy: place.accuracy, statistics };
   } catch (error) {
     if (!(error instanceof CrsError)) throw error;
-    return {
-      scan,
-      crs: undefined,
-      basis: "none",
-      problem: error,
-      bounds: undefined,
-      accuracy: [],
-      statistics,
-    };
+    return { scan, place: undefined, problem: error, bounds: undefined, accuracy: [], statistics };
   }
 }
 
@@ -56,16 +41,22 @@ export async function runInfo(file: string, { json = false }: { json?: boolean }
   process.stdout.write(json ? `${JSON.stringify(machineForm(info), undefined, 2)}\n` : personForm(info));
 }
 
-function machineForm({ scan, crs, basis, problem, bounds, accuracy, statistics }: Info) {
-  const { groma: _, wkt: __, geoTiff: ___, ...header } = scan;
+function machineForm({ scan, place, problem, bounds, accuracy, statistics }: Info) {
+  const { groma, wkt: _, geoTiff: __, ...header } = scan;
+  const bytes = (base64: string | undefined) => (base64 ? Buffer.byteLength(base64, "base64") : 0);
   return {
     ...header,
-    crs: crs ?? null,
-    crsFrom: basis,
+    crs: place?.crs ?? null,
+    crsFrom: place?.basis ?? "none",
     problem: problem?.toWire() ?? null,
+    engine: place?.engine ?? null,
+    operation: place?.operation ?? null,
+    geoids: place?.geoids ?? [],
+    fitBound: place?.fitBound ?? null,
     geodeticBounds: bounds ?? null,
-    density: (crs && density(scan, crs)) ?? null,
+    density: (place && density(scan, place.crs)) ?? null,
     accuracy: statedAccuracy(accuracy),
+    recordBytes: { georeference: bytes(groma?.["1"]), transformation: bytes(groma?.["3"]) },
     statistics: statistics ?? null,
   };
 }
@@ -98,24 +89,23 @@ function headerLines(scan: Scan): Row[] {
 
 const axes = ["x", "y", "z"] as const;
 
-function placeLines({ scan, crs, basis, problem, bounds, accuracy }: Info): Row[] {
-  if (!crs || !bounds) return [["place", problem?.message ?? "unknown"]];
+function placeLines({ scan, place, problem, bounds, accuracy }: Info): Row[] {
+  if (!place) return [["place", problem?.message ?? "unknown"]];
+  const { crs, basis, operation } = place;
   const { horizontalUnit, verticalUnit } = crs;
   const perArea = density(scan, crs);
   const { total } = statedAccuracy(accuracy);
-  const range = (from: number, to: number, digits: number) =>
-    `${from.toFixed(digits)} … ${to.toFixed(digits)}`;
   return [
-    ["place", `${crsInWords(crs)}  (from ${basis})`],
+    ["place", placeInWords(place)],
+    ["from", basis],
+    ...(operation ? [["operation", operation.name] as const] : []),
+    ...remarks(operation).map((text) => ["note", text] as const),
     [
       "units",
       `${horizontalUnit.name} in plane, ${verticalUnit.name} in height${verticalUnit.declared ? "" : " (assumed)"}`,
     ],
-    ["height", heightInWords(crs)],
-    [
-      "on earth",
-      `longitude ${range(bounds.west, bounds.east, 6)}°   latitude ${range(bounds.south, bounds.north, 6)}°`,
-    ],
+    ["height", heightInWords(crs, place.geoids)],
+    ["on earth", bounds ? boundsInWords(bounds) : "no corner of the file's bounds has a place"],
     ...(perArea === undefined ? [] : [["density", `${perArea.toPrecision(3)} points per m²`] as const]),
     ["accuracy", total === null ? "not known as a whole" : length(total)],
     ...accuracy.map(({ name, metres, note }) => {
@@ -125,6 +115,11 @@ function placeLines({ scan, crs, basis, problem, bounds, accuracy }: Info): Row[
       ] as const;
     }),
   ];
+}
+
+function boundsInWords({ west, east, south, north }: GeodeticBounds): string {
+  const range = (from: number, to: number) => `${from.toFixed(6)} … ${to.toFixed(6)}`;
+  return `longitude ${range(west, east)}°   latitude ${range(south, north)}°`;
 }
 
 function contentLines(statistics: ScanStatistics | undefined): Row[] {

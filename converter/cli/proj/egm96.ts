@@ -1,4 +1,11 @@
-import { type Bounds, cutWindow, type GridWindow, type VerticalShiftStep } from "@groma/georef";
+import {
+  type Bounds,
+  cutWindow,
+  EGM96,
+  EGM96_ACCURACY,
+  type GridWindow,
+  type VerticalShiftStep,
+} from "@groma/georef";
 
 const DEGREE = Math.PI / 180;
 /** Degrees between the nodes of EGM96. */
@@ -6,14 +13,10 @@ const STEP = 0.25;
 const COLUMNS = 1440;
 const ROWS = 721;
 
-/**
- * What heights by EGM96 are worth in a country's height system. The reason: national zero levels follow a tide gauge and
- * lie up to 2 m from the global geoid, and EGM96 itself, with nodes every 28 km, is off by decimetres, in mountains
- * by a metre.
- */
+/** Said of heights by EGM96 in a country's height system; why it is so much is told at {@link EGM96_ACCURACY}. */
 export const EGM96_NOTE =
-  "height by the geoid model EGM96 instead of the country's own: expect errors of some decimetres, up to about 2 m, " +
-  "because national zero levels follow a tide gauge and EGM96 has one value every 28 km";
+  `height by the geoid model ${EGM96} instead of the country's own: expect errors of some decimetres, in ` +
+  `mountains up to about ${EGM96_ACCURACY} m, because national zero levels follow a tide gauge and ${EGM96} has one value every 28 km`;
 
 /** The geoid model EGM96 (NGA, 15' × 15'), nodes rounded to a centimetre by the package that carries them. */
 type Undulation = (latitudeDegrees: number, longitudeDegrees: number) => number;
@@ -29,7 +32,7 @@ export async function egm96Window(bounds: Bounds): Promise<GridWindow> {
   const undulation = await undulationModel();
   return cutWindow(
     {
-      grid: "EGM96",
+      grid: EGM96,
       west: -Math.PI,
       south: -Math.PI / 2,
       stepLongitude: STEP * DEGREE,

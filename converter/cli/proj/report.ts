@@ -13,7 +13,10 @@ export interface Lacking {
 export interface EngineReport {
   readonly engine: { readonly name: "PROJ" | "proj4js"; readonly version: string };
   readonly operation: string;
-  /** Metres as published; `null` when nobody has stated it. */
+  /**
+   * Metres as published; `null` when nobody has stated it. Where EGM96 stands for a geoid, that of the operation in
+   * plane: what EGM96 is worth is told apart.
+   */
   readonly accuracy: number | null;
   /** A difference of datums is passed over: the place may be off by hundreds of metres. */
   readonly ballpark: boolean;

@@ -26,13 +26,14 @@ const LIMIT_BYTES = 512 * 2 ** 20;
  * @throws ProjError PROJ_MISSING when there is no such program, PROJ_FAILED when it does not end or never stops writing
  */
 export function run(program: string, args: readonly string[], options: RunOptions = {}): Promise<Outcome> {
+  // Not the timer of `spawn`: that goes on, and keeps this process alive, where there is no such program.
+  const limit = AbortSignal.timeout(LIMIT_MILLISECONDS);
   return new Promise((resolve, reject) => {
     const child = spawn(program, args, {
       stdio: ["pipe", "pipe", "pipe"],
-      timeout: LIMIT_MILLISECONDS,
       killSignal: "SIGKILL",
       ...(options.environment ? { env: options.environment } : {}),
-      ...(options.signal ? { signal: options.signal } : {}),
+      signal: options.signal ? AbortSignal.any([options.signal, limit]) : limit,
     });
     const collected: Record<"stdout" | "stderr", Buffer[]> = { stdout: [], stderr: [] };
     let bytes = 0;
@@ -49,6 +50,7 @@ export function run(program: string, args: readonly string[], options: RunOption
     child.stdin.end(options.input ?? "");
     child.on("error", (error: NodeJS.ErrnoException) => {
       if (options.signal?.aborted) reject(options.signal.reason);
+      else if (limit.aborted) reject(failed(program, `gave no answer in ${LIMIT_MILLISECONDS / 1000} s`));
       else reject(error.code === "ENOENT" || error.code === "EACCES" ? missing(program, error.code) : error);
     });
     child.on("close", (status, signal) => {

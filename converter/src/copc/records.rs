@@ -2,8 +2,8 @@
 
 use crate::scan::Scan;
 use crate::scan::variable_record::{
-    COPC, EXTRA_BYTES, GROMA, GROMA_GEOREFERENCE, GROMA_STATISTICS, PROJECTION, SPECIFICATION,
-    VariableRecord, WKT,
+    COPC, EXTRA_BYTES, GROMA, GROMA_GEOREFERENCE, GROMA_STATISTICS, GROMA_TRANSFORMATION, PROJECTION,
+    SPECIFICATION, VariableRecord, WKT,
 };
 use laz::LazVlr;
 
@@ -14,6 +14,8 @@ pub struct Additions {
     pub wkt: Option<Vec<u8>>,
     /// Bytes of the georeference record.
     pub georeference: Option<Vec<u8>>,
+    /// Bytes of the transformation record.
+    pub transformation: Option<Vec<u8>>,
     /// JSON of the statistics record.
     pub statistics: Vec<u8>,
 }
@@ -52,6 +54,9 @@ pub fn collect(scan: &Scan, laz: &LazVlr, additions: &Additions) -> std::io::Res
     }
     let statistics = additions.statistics.clone();
     front.push(VariableRecord::new(GROMA, GROMA_STATISTICS, "attribute statistics", statistics));
+    if let Some(bytes) = &additions.transformation {
+        front.push(VariableRecord::new(GROMA, GROMA_TRANSFORMATION, "transformation", bytes.clone()));
+    }
     let extra_bytes = scan.extra_bytes_data();
     if !extra_bytes.is_empty() {
         front.push(VariableRecord::new(SPECIFICATION, EXTRA_BYTES, "Extra Bytes Record", extra_bytes));

@@ -3,6 +3,7 @@
 //!
 //! Between `distribute` and `write` all records are held in memory.
 
+pub mod answer;
 pub mod options;
 mod points;
 
@@ -112,6 +113,9 @@ impl<'a> Pipeline<'a, Validated> {
         let first = &sources[0].scan;
         let (scale, offset) = (first.scale(), first.offset());
         let bounds = points::bounds(&data, length, scale, offset);
+        if options.wait_for_record {
+            progress.bounds(bounds.min, bounds.max);
+        }
         let cube = Cube::around(&bounds, scale);
         let entries = points::entries(&data, length, scale, offset, &cube);
         let stage = Distributed { sources, additions, data, bounds, cube, entries };
@@ -157,7 +161,10 @@ impl Pipeline<'_, Built> {
     /// Writes the file; it has its name only when all of it is on disk.
     pub fn write(self) -> Result<Summary> {
         let Self { options, progress, stage } = self;
-        let Built { sources, additions, data, points, info, nodes } = stage;
+        let Built { sources, mut additions, data, points, info, nodes } = stage;
+        if options.wait_for_record {
+            answer::read(std::io::stdin().lock(), &options.output, &mut additions)?;
+        }
         let failed = |e: std::io::Error| Error::output_write(&options.output, e);
         let first = &sources[0];
         let extra = first.mapping.extra() as u16;

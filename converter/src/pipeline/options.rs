@@ -14,6 +14,11 @@ pub struct Options {
     pub output: PathBuf,
     /// File whose bytes become the georeference record.
     pub record: Option<PathBuf>,
+    /// File whose bytes become the transformation record.
+    pub transformation: Option<PathBuf>,
+    /// The two files are made while the conversion runs: it tells the bounds of the points, and before it writes it
+    /// waits for a line on standard input that names them, see [`super::answer`].
+    pub wait_for_record: bool,
     /// File with the WKT that the output carries instead of the input's.
     pub wkt: Option<PathBuf>,
     pub overwrite: bool,
@@ -22,17 +27,29 @@ pub struct Options {
 }
 
 impl Options {
-    /// Reads the files that the options name. Errors: `OPTION_RECORD`, `OPTION_WKT`.
+    /// Reads the files that the options name. Errors: `OPTION_RECORD`, `OPTION_TRANSFORMATION`, `OPTION_WKT`.
     pub fn additions(&self) -> Result<Additions> {
-        let georeference = self.record.as_deref().map(|path| read("RECORD", path)).transpose()?;
-        if let Some(bytes) = georeference.as_ref().filter(|bytes| bytes.len() > LONGEST_RECORD) {
-            let cause =
-                format!("{} bytes do not go into a variable length record of {LONGEST_RECORD}", bytes.len());
-            return Err(Error::option("RECORD", cause));
-        }
         let wkt = self.wkt.as_deref().map(|path| read("WKT", path)).transpose()?.map(wkt).transpose()?;
-        Ok(Additions { wkt, georeference, statistics: Vec::new() })
+        let mut additions = Additions { wkt, ..Additions::default() };
+        read_records(self.record.as_deref(), self.transformation.as_deref(), &mut additions)?;
+        Ok(additions)
     }
+}
+
+/// Reads the files of the georeference. Errors: `OPTION_RECORD`, `OPTION_TRANSFORMATION`.
+pub fn read_records(
+    record: Option<&Path>,
+    transformation: Option<&Path>,
+    additions: &mut Additions,
+) -> Result<()> {
+    additions.georeference = record.map(|path| read("RECORD", path)).transpose()?;
+    if let Some(bytes) = additions.georeference.as_ref().filter(|bytes| bytes.len() > LONGEST_RECORD) {
+        let cause =
+            format!("{} bytes do not go into a variable length record of {LONGEST_RECORD}", bytes.len());
+        return Err(Error::option("RECORD", cause));
+    }
+    additions.transformation = transformation.map(|path| read("TRANSFORMATION", path)).transpose()?;
+    Ok(())
 }
 
 fn read(option: &'static str, path: &Path) -> Result<Vec<u8>> {

@@ -4,12 +4,16 @@ use super::Scan;
 use super::extra_bytes::{self, ExtraBytes};
 use super::variable_record::{
     COPC, COPC_INFO, EXTRA_BYTES, GEOTIFF_ASCII, GEOTIFF_DIRECTORY, GEOTIFF_DOUBLES, GROMA,
-    GROMA_GEOREFERENCE, GROMA_STATISTICS, PROJECTION, SPECIFICATION, VariableRecord, WKT, text,
+    GROMA_GEOREFERENCE, GROMA_STATISTICS, GROMA_TRANSFORMATION, PROJECTION, SPECIFICATION, VariableRecord,
+    WKT, text,
 };
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use serde_json::Value;
+
+/// Bytes; a transformation with EGM96 for the whole earth takes two megabytes. A longer record is none.
+const LONGEST_TRANSFORMATION: usize = 1 << 24;
 
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -53,6 +57,8 @@ struct Groma {
     georeference: Option<String>,
     #[serde(rename = "2", skip_serializing_if = "Option::is_none")]
     statistics: Option<Value>,
+    #[serde(rename = "3", skip_serializing_if = "Option::is_none")]
+    transformation: Option<String>,
 }
 
 impl Scan {
@@ -120,7 +126,11 @@ impl Scan {
         let data = |id| self.record(GROMA, id).map(|record: &VariableRecord| record.data.as_slice());
         let georeference = data(GROMA_GEOREFERENCE).map(|bytes| STANDARD.encode(bytes));
         let statistics = data(GROMA_STATISTICS).and_then(|bytes| serde_json::from_slice(bytes).ok());
-        (georeference.is_some() || statistics.is_some()).then_some(Groma { georeference, statistics })
+        let transformation = data(GROMA_TRANSFORMATION)
+            .filter(|bytes| bytes.len() <= LONGEST_TRANSFORMATION)
+            .map(|bytes| STANDARD.encode(bytes));
+        let any = georeference.is_some() || statistics.is_some() || transformation.is_some();
+        any.then_some(Groma { georeference, statistics, transformation })
     }
 }
 

@@ -25,6 +25,7 @@ pub const COPC_HIERARCHY: u16 = 1000;
 pub const GROMA: &str = "groma";
 pub const GROMA_GEOREFERENCE: u16 = 1;
 pub const GROMA_STATISTICS: u16 = 2;
+pub const GROMA_TRANSFORMATION: u16 = 3;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct VariableRecord {

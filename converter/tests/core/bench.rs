@@ -9,9 +9,9 @@ use las::raw::Header;
 use las::raw::header::LargeFile;
 use laz::{LasZipCompressor, LazVlr, LazVlrBuilder};
 use serde_json::Value;
-use std::io::Cursor;
+use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 /// A file to be written.
 pub struct Las {
@@ -171,6 +171,21 @@ impl Bench {
         let (done, lines) = self.run(&[&["convert"], arguments].concat());
         assert!(done, "{lines:?}");
         lines
+    }
+
+    /// A conversion with something on its standard input: the JSON lines that it printed.
+    pub fn answered(&self, arguments: &[&str], input: &str) -> Vec<Value> {
+        let mut command = self.command();
+        command
+            .arg("convert")
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        // Who ends without reading has closed the pipe.
+        let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+        lines(&child.wait_with_output().unwrap())
     }
 
     /// A conversion that must fail, and must leave nothing behind: its code.

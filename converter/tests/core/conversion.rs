@@ -145,3 +145,58 @@ fn scan_prints_one_object() {
     assert_eq!(scan["groma"]["2"]["points"], 20);
     assert_eq!(scan["warnings"], serde_json::json!([]));
 }
+
+#[test]
+fn a_transformation_stands_before_or_behind_the_points() {
+    let bench = Bench::new();
+    let mut las = Las::at(7, 0, &cloud(2000, [5000, 3000, 400]));
+    las.vlrs = vec![VariableRecord::new("groma", 3, "", b"old".to_vec())];
+    let input = bench.put("in.las", &las.las());
+    for (length, behind) in [(0, false), (65_535, false), (65_536, true), (300_000, true)] {
+        let bytes: Vec<u8> = (0..length).map(|i| crate::bench::scatter(i) as u8).collect();
+        bench.put("transformation.bin", &bytes);
+        let arguments = ["in.las", "out.copc.laz", "--overwrite", "--transformation", "transformation.bin"];
+        bench.convert(&arguments);
+        let scan = Scan::read(&bench.path("out.copc.laz")).unwrap();
+        let record = VariableRecord::new("groma", 3, "transformation", bytes);
+        let (holds, other) = if behind { (&scan.evlrs, &scan.vlrs) } else { (&scan.vlrs, &scan.evlrs) };
+        assert!(holds.contains(&record));
+        assert!(!other.iter().any(|other| other.is("groma", 3)));
+        assert_eq!(scan.header.evlr.unwrap().number_of_evlrs, if behind { 2 } else { 1 });
+        assert!(scan.warnings.is_empty());
+        assert!(sorted(records(&input)) == sorted(records(&bench.path("out.copc.laz"))));
+        let (_, lines) = bench.run(&["scan", "out.copc.laz"]);
+        let expected = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, &record.data);
+        assert_eq!(lines[0]["groma"]["3"], expected);
+    }
+    bench.convert(&["out.copc.laz", "again.copc.laz"]);
+    assert!(Scan::read(&bench.path("again.copc.laz")).unwrap().record("groma", 3).is_none());
+}
+
+#[test]
+fn the_records_may_be_made_when_the_bounds_are_known() {
+    let bench = Bench::new();
+    bench.put("in.las", &Las::at(7, 0, &[[-7, 2, 3], [5, 6, 7]]).las());
+    bench.put("record.json", b"{}");
+    bench.put("transformation.bin", b"GTRF");
+    let answer = serde_json::json!({
+        "record": bench.path("record.json"),
+        "transformation": bench.path("transformation.bin"),
+    });
+    let lines = bench.answered(&["in.las", "out.copc.laz", "--wait-for-record"], &format!("{answer}\n"));
+    let bounds = lines.iter().find(|line| line["event"] == "bounds").unwrap();
+    let scan = Scan::read(&bench.path("out.copc.laz")).unwrap();
+    let h = &scan.header;
+    assert_eq!(bounds["min"], serde_json::json!([h.min_x, h.min_y, h.min_z]));
+    assert_eq!(bounds["max"], serde_json::json!([h.max_x, h.max_y, h.max_z]));
+    assert_eq!(scan.record("groma", 1).unwrap().data, b"{}");
+    assert_eq!(scan.record("groma", 3).unwrap().data, b"GTRF");
+
+    let before = bench.names();
+    let lines = bench.answered(&["in.las", "none.copc.laz", "--wait-for-record"], "");
+    assert_eq!(lines.last().unwrap()["code"], "INTERRUPTED");
+    let lines =
+        bench.answered(&["in.las", "none.copc.laz", "--wait-for-record"], "{\"record\":\"nowhere\"}\n");
+    assert_eq!(lines.last().unwrap()["code"], "OPTION_RECORD");
+    assert_eq!(bench.names(), before);
+}

@@ -2,12 +2,15 @@ import type { ColourBy, PointCloudLayer } from "@groma/layer/cesium";
 import { COLOURS } from "../address.js";
 import type { Aspect } from "../camera.js";
 import { byId } from "./elements.js";
+import { liftWords } from "./words.js";
 
 /** The switches for how a cloud is drawn and from where it is seen. */
 export class Controls {
   readonly #form = byId("controls", HTMLFormElement);
   readonly #size = byId("size", HTMLInputElement);
   readonly #sizeValue = byId("size-value", HTMLOutputElement);
+  readonly #lift = byId("lift", HTMLInputElement);
+  readonly #liftNote = byId("lift-note", HTMLParagraphElement);
   readonly #show = byId("show", HTMLInputElement);
   readonly #colours: readonly HTMLInputElement[];
   #layer: PointCloudLayer | undefined;
@@ -31,8 +34,10 @@ export class Controls {
     }
     this.#size.max = String(Math.max(10, pointSize));
     this.#size.value = String(pointSize);
+    this.#lift.value = String(layer.heightOffset);
     this.#show.checked = layer.show;
     this.#writeSize();
+    this.#writeLift(layer);
     this.#form.hidden = false;
   }
 
@@ -42,8 +47,15 @@ export class Controls {
     const chosen = this.#colours.find((input) => input.checked)?.value;
     const color: ColourBy = COLOURS.find((each) => each === chosen) ?? layer.style.color;
     layer.style = { color, pointSize: this.#size.valueAsNumber };
+    // Half a number, as while it is being typed, changes nothing yet.
+    if (this.#lift.validity.valid && this.#lift.value !== "") layer.heightOffset = this.#lift.valueAsNumber;
     layer.show = this.#show.checked;
     this.#writeSize();
+    this.#writeLift(layer);
+  }
+
+  #writeLift({ heightOffset }: PointCloudLayer): void {
+    this.#liftNote.textContent = liftWords(heightOffset);
   }
 
   #writeSize(): void {

@@ -1,41 +1,84 @@
-import type { AccuracyPart } from "@groma/georef";
+import type { AccuracyPart, OperationReport } from "@groma/georef";
 import type { PointCloud } from "@groma/layer/cesium";
 import { byId, textElement } from "./elements.js";
-import { accuracyWords, countWords, crsWords, heightWords, lengthWords, type Words } from "./words.js";
+import {
+  accuracyWords,
+  counted,
+  countWords,
+  crsWords,
+  engineWords,
+  heightWords,
+  lackingWords,
+  lengthWords,
+  type Words,
+  warningsOf,
+} from "./words.js";
 
-/** Writes what a cloud is, where it is and what that is worth. */
-export function showFacts({ name, pointCount, crs, basis, accuracy }: PointCloud): void {
+/**
+ * Writes what a cloud is, where it is and what that is worth.
+ * @param given whether the reader gave its coordinate system
+ */
+export function showFacts(cloud: PointCloud, { given }: { given: boolean }): void {
+  const { name, pointCount, crs, geoids, operation, accuracy } = cloud;
   byId("title", HTMLHeadingElement).textContent = name;
   document.title = `${name} · Groma`;
-  const height = accuracy.parts.find((part) => part.name === "height");
+  const remark = accuracy.parts.find((part) => part.name === "height")?.note;
   const facts = byId("facts", HTMLDListElement);
   facts.replaceChildren(
     ...fact("Points", { text: countWords(pointCount) }),
-    ...fact("Coordinate system", crsWords(crs, { given: basis === "given" })),
-    ...fact("Height", heightWords(crs, { applied: height !== undefined && height.metres !== null })),
+    ...fact("Coordinate system", crsWords(crs, { given })),
+    ...fact("Height", heightWords(crs, { geoids, remark })),
+    ...fact(
+      "Placed by",
+      engineWords(cloud),
+      ...warningsOf(operation, { remark }).map(warning),
+      ...lackingOf(operation),
+    ),
     ...fact("Accuracy", accuracyWords(accuracy), partsOf(accuracy.parts)),
   );
   facts.hidden = false;
 }
 
-function fact(term: string, { text, note }: Words, more?: HTMLElement): HTMLElement[] {
+function fact(term: string, { text, note }: Words, ...more: HTMLElement[]): HTMLElement[] {
   const value = textElement("dd", text);
   if (note) value.append(textElement("small", note));
-  if (more) value.append(more);
+  value.append(...more);
   return [textElement("dt", term), value];
+}
+
+function warning(text: string): HTMLElement {
+  return textElement("small", text, "warning");
+}
+
+/** The operations that would have been better, folded away; nothing where there are none. */
+function lackingOf(operation: OperationReport | undefined): HTMLElement[] {
+  const lacking = lackingWords(operation);
+  if (lacking.length === 0) return [];
+  const items = lacking.map(({ text, note }) => row([textElement("span", text)], note));
+  return [folded(`${counted(lacking.length, "better way")} without grids`, items)];
 }
 
 /** The parts of an accuracy, folded away. */
 function partsOf(parts: readonly AccuracyPart[]): HTMLElement {
+  const items = parts.map(({ name, metres, note }) =>
+    row([textElement("span", name), textElement("span", lengthWords(metres))], note),
+  );
+  return folded(counted(parts.length, "part"), items);
+}
+
+function row(cells: readonly HTMLElement[], note: string | undefined): HTMLElement {
+  const item = document.createElement("li");
+  item.append(...cells);
+  if (note) item.append(textElement("small", note));
+  return item;
+}
+
+/** A list under a line that opens it. */
+function folded(summary: string, items: readonly HTMLElement[]): HTMLElement {
   const details = document.createElement("details");
   details.className = "parts";
   const list = document.createElement("ul");
-  for (const { name, metres, note } of parts) {
-    const item = document.createElement("li");
-    item.append(textElement("span", name), textElement("span", lengthWords(metres)));
-    if (note) item.append(textElement("small", note));
-    list.append(item);
-  }
-  details.append(textElement("summary", `${parts.length} parts`), list);
+  list.append(...items);
+  details.append(textElement("summary", summary), list);
   return details;
 }

@@ -1,9 +1,30 @@
 import type { Crs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { accuracyWords, counted, countWords, crsWords, heightWords, lengthWords } from "./words.js";
+import {
+  accuracyWords,
+  counted,
+  countWords,
+  crsWords,
+  engineWords,
+  heightWords,
+  lackingWords,
+  lengthWords,
+  liftWords,
+  warningsOf,
+} from "./words.js";
 
 const foot = { name: "foot", kind: "linear", size: 0.3048 } as const;
 const crs = (height: Crs["height"], declared = true) => ({ height, verticalUnit: { ...foot, declared } });
+
+const report = {
+  name: "RD to ETRS89",
+  accuracy: 0.001,
+  ballpark: false,
+  grids: ["a.tif", "b.tif"],
+  lacking: [{ name: "RD to ITRF", accuracy: 0.1, grids: ["c.tif"] }],
+  worstDifference: 1e-6,
+  notes: ["outside of the grids"],
+};
 
 describe("numbers in words", () => {
   it("groups counts by thousands", () => {
@@ -42,22 +63,62 @@ describe("a cloud in words", () => {
   });
 
   it("never guesses a height reference", () => {
-    const drawn = { applied: false };
-    expect(heightWords(crs({ kind: "ellipsoidal" }), drawn)).toEqual({ text: "above the ellipsoid" });
-    expect(heightWords(crs({ kind: "unknown" }), drawn)).toEqual({
+    const none = { geoids: [] };
+    expect(heightWords(crs({ kind: "ellipsoidal" }), none)).toEqual({ text: "above the ellipsoid" });
+    expect(heightWords(crs({ kind: "unknown" }), none)).toEqual({
       text: "unknown",
       note: "drawn as ellipsoidal",
     });
-    expect(heightWords(crs({ kind: "unknown" }, false), drawn).note).toBe(
+    expect(heightWords(crs({ kind: "unknown" }, false), none).note).toBe(
       "drawn as ellipsoidal; unit not declared, taken as foot",
     );
-    expect(heightWords(crs({ kind: "geoid", model: "LN02 height", epsg: 5728 }), drawn)).toEqual({
-      text: "above the geoid: LN02 height (EPSG:5728)",
-      note: "its geoid is not applied, drawn as ellipsoidal",
+  });
+
+  it("passes on what the conversion guessed, once", () => {
+    const said = (remark: string) => heightWords(crs({ kind: "unknown" }), { geoids: [], remark }).note;
+    const guess = "shown as ellipsoidal; if the heights are above sea level, the points belong 22 m lower";
+    expect(said(`unknown: ${guess}`)).toBe(guess);
+    expect(said("reference unknown, drawn as ellipsoidal")).toBe("drawn as ellipsoidal");
+    const operation = { ...report, notes: [`height unknown: ${guess}`, "another"] };
+    expect(warningsOf(operation, { remark: `unknown: ${guess}` })).toEqual(["another"]);
+  });
+
+  it("names the geoid that is applied, or says that none is", () => {
+    const nap = crs({ kind: "geoid", model: "NAP height", epsg: 5709 });
+    expect(heightWords(nap, { geoids: ["nl_nsgi_nlgeo2018.tif"] })).toEqual({
+      text: "above NAP (EPSG:5709)",
+      note: "geoid applied: nl_nsgi_nlgeo2018.tif",
     });
-    expect(heightWords(crs({ kind: "geoid", model: "NAVD88" }), { applied: true }).note).toBe(
-      "its geoid is applied",
-    );
+    expect(heightWords(nap, { geoids: [] }).note).toMatch(/^geoid not applied/);
+    expect(heightWords(crs({ kind: "geoid", model: "NAVD88" }), { geoids: [] }).text).toBe("above NAVD88");
+  });
+
+  it("says what places come from, and what would have been better", () => {
+    expect(engineWords({ engine: { name: "PROJ", version: "9.5.0" }, operation: report })).toEqual({
+      text: "PROJ 9.5.0",
+      note: "RD to ETRS89; stated accuracy 1 mm; grids: a.tif, b.tif",
+    });
+    expect(lackingWords(report)).toEqual([
+      { text: "RD to ITRF", note: "stated accuracy 10 cm; lacks c.tif" },
+    ]);
+    expect(warningsOf(report)).toEqual(["outside of the grids"]);
+    expect(warningsOf({ ...report, ballpark: true })[0]).toContain("hundreds of metres");
+  });
+
+  it("says so where the page derives the places itself, or where they were given", () => {
+    const words = (name: "proj4js" | "similarity") =>
+      engineWords({ engine: { name, version: "2.22.0" }, operation: undefined });
+    expect(words("proj4js")).toEqual({ text: "proj4js 2.22.0", note: "in this page, without grids" });
+    expect(words("similarity")).toEqual({ text: "an anchor or control points" });
+    expect([lackingWords(undefined), warningsOf(undefined)]).toEqual([[], []]);
+  });
+
+  it.each([
+    [0, ""],
+    [2.5, "Drawn 2.5 m above its place, for looks only."],
+    [-1200, "Drawn 1,200 m below its place, for looks only."],
+  ])("says how far %s m off points are drawn", (offset, words) => {
+    expect(liftWords(offset)).toBe(words);
   });
 
   it("sums an accuracy only when every part is known", () => {

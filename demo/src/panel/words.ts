@@ -1,4 +1,5 @@
-import type { Crs, StatedAccuracy } from "@groma/georef";
+import type { Crs, OperationReport, StatedAccuracy } from "@groma/georef";
+import type { PointCloud } from "@groma/layer/cesium";
 
 /** A fact and, where there is one, a remark to it. */
 export interface Words {
@@ -40,19 +41,70 @@ export function crsWords({ name, code }: Pick<Crs, "name" | "code">, { given }: 
 
 /**
  * What heights are measured from, and how they are drawn.
- * @param applied whether the geoid of the heights takes part in the placing
+ * @param geoids files of the geoids that take part in the placing
+ * @param remark what the accuracy's part on heights says
  */
 export function heightWords(
   { height, verticalUnit }: Pick<Crs, "height" | "verticalUnit">,
-  { applied }: { applied: boolean },
+  { geoids, remark }: { geoids: readonly string[]; remark?: string | undefined },
 ): Words {
-  const unit = verticalUnit.declared ? "" : `; unit not declared, taken as ${verticalUnit.name}`;
-  if (height.kind === "ellipsoidal")
-    return { text: "above the ellipsoid", ...(unit && { note: unit.slice(2) }) };
-  if (height.kind === "unknown") return { text: "unknown", note: `drawn as ellipsoidal${unit}` };
+  const unit = verticalUnit.declared ? [] : [`unit not declared, taken as ${verticalUnit.name}`];
+  if (height.kind === "ellipsoidal") return noted("above the ellipsoid", unit);
+  if (height.kind === "unknown") {
+    const said = remark?.replace(/^(reference )?unknown[:,] /, "");
+    return noted("unknown", [said ?? "drawn as ellipsoidal", ...unit]);
+  }
   const code = height.epsg === undefined ? "" : ` (EPSG:${height.epsg})`;
-  const drawn = applied ? "its geoid is applied" : "its geoid is not applied, drawn as ellipsoidal";
-  return { text: `above the geoid: ${height.model}${code}`, note: `${drawn}${unit}` };
+  const geoid =
+    geoids.length > 0
+      ? `geoid applied: ${geoids.join(", ")}`
+      : "geoid not applied: drawn as if above the ellipsoid";
+  return noted(`above ${height.model.replace(/ height$/i, "")}${code}`, [geoid, ...unit]);
+}
+
+/** What places come from. */
+export function engineWords({ engine, operation }: Pick<PointCloud, "engine" | "operation">): Words {
+  const { name, version } = engine;
+  const text = name === "similarity" ? "an anchor or control points" : `${name} ${version}`;
+  if (!operation) return noted(text, name === "proj4js" ? ["in this page, without grids"] : []);
+  const grids = operation.grids.length > 0 ? [`grids: ${operation.grids.join(", ")}`] : [];
+  const accuracy = operation.accuracy === null ? [] : [`stated accuracy ${lengthWords(operation.accuracy)}`];
+  return noted(text, [operation.name, ...accuracy, ...grids]);
+}
+
+/**
+ * What a reader has to be warned of: a difference of datums that is passed over, and what the engine noted.
+ * @param remark what is told with the heights already
+ */
+export function warningsOf(
+  operation: OperationReport | undefined,
+  { remark }: { remark?: string | undefined } = {},
+): string[] {
+  if (!operation) return [];
+  const ballpark = "A difference of datums is passed over: the place may be off by hundreds of metres.";
+  const notes = operation.notes.filter((note) => !(remark && note.includes(remark)));
+  return [...(operation.ballpark ? [ballpark] : []), ...notes];
+}
+
+/** Better operations whose grids the conversion did not have. */
+export function lackingWords(operation: OperationReport | undefined): Words[] {
+  return (operation?.lacking ?? []).map(({ name, accuracy, grids }) =>
+    noted(name, [
+      ...(accuracy === null ? [] : [`stated accuracy ${lengthWords(accuracy)}`]),
+      `lacks ${grids.join(", ") || "a grid"}`,
+    ]),
+  );
+}
+
+/** How far from their places points are drawn; nothing where they are in them. */
+export function liftWords(heightOffset: number): string {
+  if (heightOffset === 0) return "";
+  const metres = `${Math.abs(heightOffset).toLocaleString("en", { maximumFractionDigits: 3 })} m`;
+  return `Drawn ${metres} ${heightOffset > 0 ? "above" : "below"} its place, for looks only.`;
+}
+
+function noted(text: string, notes: readonly string[]): Words {
+  return notes.length > 0 ? { text, note: notes.join("; ") } : { text };
 }
 
 /** The sum of an accuracy's parts, or what of it is known. */

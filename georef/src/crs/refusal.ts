@@ -1,7 +1,8 @@
 import { CrsError } from "../errors.js";
 
 /** What to do when a CRS text cannot be used: the same for all of them. */
-const GIVE_ANOTHER = "give the coordinate reference system yourself, for example --crs EPSG:2056";
+const GIVE_ANOTHER =
+  "give the coordinate reference system yourself: the option crs of the layer, --crs on the command line";
 
 /** Thrown inside this room where the file is not known; `resolveCrs` adds it. */
 export class Refusal extends Error {

@@ -1,5 +1,6 @@
 import type { Crs } from "../crs/crs.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
+import type { OperationReport } from "./operation-report.js";
 
 /** One named part of what a stated position is worth. */
 export interface AccuracyPart {
@@ -22,23 +23,73 @@ export function statedAccuracy(parts: readonly AccuracyPart[]): StatedAccuracy {
   return { total, parts };
 }
 
+/** How an engine places a data set, as far as its accuracy depends on it. */
+export interface Placing {
+  readonly operation: Pick<OperationReport, "name" | "accuracy" | "ballpark">;
+  /** Grids that heights go through, by their files; {@link EGM96} for the geoid that stands for a missing one. */
+  readonly geoids: readonly string[];
+  /** For heights of unknown reference: what they may be, and how far off the points then are. */
+  readonly guess?: string | undefined;
+}
+
+/** Name of the global geoid model where it is applied in place of a country's own. */
+export const EGM96 = "EGM96";
+
 /**
- * The parts of a data set's accuracy that follow from its CRS, the LAS scale factors and the tolerance of its
- * placement: quantisation, fit, datum operation, height.
+ * What heights by EGM96 are worth in a country's height system, metres. The zero levels of countries follow tide gauges
+ * and lie up to 2.3 m from the global geoid (Ostend); EGM96 itself, with a node every 28 km, is off by decimetres, in
+ * mountains by metres (2.8 m in the Alps, against the geoid of Switzerland).
+ */
+export const EGM96_ACCURACY = 4;
+
+/**
+ * The parts of a data set's accuracy that follow from its CRS, the LAS scale factors and its placement: quantisation,
+ * fit, datum operation, height.
  *
  * @param scale LAS scale factors, 3 values, source units
  * @param fitBound certified bound of the placement, metres (the tolerance, while no node is placed yet)
+ * @param placing the engine's operation; without one, that which `crs.proj4` stands for, heights as they are
  */
 export function accuracyParts(
   crs: Pick<Crs, "horizontalUnit" | "verticalUnit" | "height" | "datum">,
+  scale: ArrayLike<number>,
+  fitBound: number,
+  placing?: Placing,
+): AccuracyPart[] {
+  return [
+    ...storageParts(crs, scale, fitBound),
+    placing ? operationPart(placing.operation) : datumPart(crs.datum),
+    heightPart(crs.height, placing),
+  ];
+}
+
+/**
+ * The parts of a data set that a similarity puts on the globe.
+ *
+ * @param control residuals of its control points, metres; without them it stands where its anchor was given
+ */
+export function similarityParts(
+  crs: Pick<Crs, "horizontalUnit" | "verticalUnit">,
+  scale: ArrayLike<number>,
+  fitBound: number,
+  control?: { readonly residuals: readonly number[]; readonly rms: number; readonly max: number },
+): AccuracyPart[] {
+  const parts = storageParts(crs, scale, fitBound);
+  if (!control)
+    return [...parts, { name: "anchor", metres: null, note: "as good as the place that was given" }];
+  const { residuals, rms, max } = control;
+  const note = `greatest of ${residuals.length} residuals, their RMS is ${Number(rms.toPrecision(3))} m`;
+  return [...parts, { name: "control points", metres: max, note }];
+}
+
+function storageParts(
+  crs: Pick<Crs, "horizontalUnit" | "verticalUnit">,
   scale: ArrayLike<number>,
   fitBound: number,
 ): AccuracyPart[] {
   return [
     { name: "quantisation", metres: quantisation(crs, scale), note: "half a step of the stored integers" },
     { name: "fit", metres: fitBound, note: "certified, rounding to float32 included" },
-    datumPart(crs.datum),
-    heightPart(crs.height),
   ];
 }
 
@@ -56,10 +107,21 @@ function datumPart(datum: Crs["datum"]): AccuracyPart {
   return { name: "datum operation", metres: datum.accuracy, note: datum.operation };
 }
 
-function heightPart(height: Crs["height"]): AccuracyPart {
-  if (height.kind === "ellipsoidal") return { name: "height", metres: 0, note: "ellipsoidal" };
+function operationPart({ name, accuracy, ballpark }: Placing["operation"]): AccuracyPart {
+  const note = ballpark ? `${name}; a difference of datums is passed over` : name;
+  return { name: "datum operation", metres: ballpark ? null : accuracy, note };
+}
+
+function heightPart(height: Crs["height"], placing: Placing | undefined): AccuracyPart {
+  const name = "height";
+  if (height.kind === "ellipsoidal") return { name, metres: 0, note: "ellipsoidal" };
   if (height.kind === "unknown") {
-    return { name: "height", metres: null, note: "reference unknown, drawn as ellipsoidal" };
+    return { name, metres: null, note: placing?.guess ?? "reference unknown, drawn as ellipsoidal" };
   }
-  return { name: "height", metres: null, note: `${height.model}: drawn without its geoid` };
+  if (!placing) return { name, metres: null, note: `${height.model}: drawn without its geoid` };
+  if (placing.geoids.includes(EGM96)) {
+    return { name, metres: EGM96_ACCURACY, note: `${height.model}: by ${EGM96} in place of its own geoid` };
+  }
+  const by = placing.geoids.length > 0 ? ` by ${placing.geoids.join(", ")}` : "";
+  return { name, metres: 0, note: `${height.model}${by}: its accuracy is part of the datum operation's` };
 }

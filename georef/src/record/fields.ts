@@ -1,7 +1,8 @@
 import type { Crs, DatumOperation, HeightReference, Unit } from "../crs/crs.js";
 import type { Similarity } from "../engines/truth.js";
 import type { AccuracyPart } from "./accuracy.js";
-import type { GeoreferenceRecord, OperationReport } from "./georeference-record.js";
+import type { GeoreferenceRecord } from "./georeference-record.js";
+import type { OperationReport } from "./operation-report.js";
 
 /** A member of the record that is not what it should be. */
 export class FieldError extends Error {

@@ -71,6 +71,9 @@ export interface DrawCommandOptions {
 /** `Renderer/DrawCommand`. */
 export interface DrawCommand {
   shaderProgram: ShaderProgram;
+  /** Compared by identity: another matrix has to be another object. */
+  modelMatrix: Matrix4;
+  boundingVolume: BoundingSphere;
 }
 
 /** One attribute of a {@link VertexArray}. */

@@ -5,14 +5,21 @@ import type { FrameState } from "./cesium-private.js";
 /** Cesium's default vertical field of view, radians; for frusta that name none. */
 const DEFAULT_FIELD_OF_VIEW = Math.PI / 3;
 
-/** The camera of a frame in the plain numbers that the octree understands. */
-export function viewOfFrame(frameState: FrameState): View {
+/**
+ * The camera of a frame in the plain numbers that the octree understands.
+ * @param lift what is added to the places of the points as they are drawn, ECEF, metres; the octree knows the places
+ *   themselves, so the camera is moved the other way
+ */
+export function viewOfFrame(frameState: FrameState, [x, y, z]: readonly [number, number, number]): View {
   const { camera, cullingVolume, context, occluder } = frameState;
   const { positionWC: position, directionWC: direction } = camera;
   return {
-    position: [position.x, position.y, position.z],
+    position: [position.x - x, position.y - y, position.z - z],
     direction: [direction.x, direction.y, direction.z],
-    planes: cullingVolume.planes.flatMap((plane) => [plane.x, plane.y, plane.z, plane.w]),
+    planes: cullingVolume.planes.flatMap((plane) => [
+      ...[plane.x, plane.y, plane.z],
+      plane.w + plane.x * x + plane.y * y + plane.z * z,
+    ]),
     height: context.drawingBufferHeight,
     projection: projectionOf(camera.frustum),
     horizon: occluder !== undefined,

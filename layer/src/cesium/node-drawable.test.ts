@@ -23,6 +23,19 @@ describe("matrixOf", () => {
     }
   });
 
+  it("adds a height offset along the node's own up, and nothing sideways", () => {
+    const origin = new Float64Array(3);
+    const higher = new Float64Array(3);
+    geodeticToEcef(-1.2, 0.4, 30, origin);
+    geodeticToEcef(-1.2, 0.4, 55.5, higher);
+    const frame = eastNorthUp(origin);
+    const lifted = matrixOf({ frame }, 25.5);
+    const { x, y, z } = Matrix4.getTranslation(lifted, new Cartesian3());
+    for (const [axis, value] of [x, y, z].entries()) expect(value).toBeCloseTo(higher[axis], 7);
+    const turned = (matrix: Matrix4) => Matrix4.toArray(matrix).slice(0, 12);
+    expect(turned(lifted)).toEqual(turned(matrixOf({ frame })));
+  });
+
   it("puts up where the ellipsoid's normal points", () => {
     const origin = new Float64Array(3);
     geodeticToEcef(0, Math.PI / 2, 0, origin);

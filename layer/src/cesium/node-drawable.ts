@@ -26,33 +26,43 @@ export interface NodeDrawable {
   readonly command: DrawCommand;
   readonly count: number;
   readonly bytes: number;
+  /** Draws the node so many metres above its place from now on. */
+  lift(heightOffset: number): void;
   /** Frees the buffer. */
   destroy(): void;
 }
 
-/** Puts a node's vertices on the GPU. */
-export function createDrawable(context: Context, node: NodeVertices, shared: DrawShared): NodeDrawable {
+/**
+ * Puts a node's vertices on the GPU.
+ * @param heightOffset metres above its place at which it is drawn
+ */
+export function createDrawable(
+  context: Context,
+  node: NodeVertices,
+  shared: DrawShared,
+  heightOffset: number,
+): NodeDrawable {
   const vertexBuffer = Buffer.createVertexBuffer({
     context,
     typedArray: new Uint8Array(node.vertices),
     usage: BufferUsage.STATIC_DRAW,
   });
   const vertexArray = new VertexArray({ context, attributes: attributesOf(vertexBuffer) });
-  const modelMatrix = matrixOf(node);
+  const { frame, box, count, vertices } = node;
   const command = new DrawCommand({
     ...shared,
     vertexArray,
     primitiveType: PrimitiveType.POINTS,
-    count: node.count,
+    count,
     pass: Pass.OPAQUE,
-    modelMatrix,
-    boundingVolume: sphereOf(node, modelMatrix),
+    ...placeOf({ frame, box }, heightOffset),
     pickId: "u_pickColor",
   });
   return {
     command,
-    count: node.count,
-    bytes: node.vertices.byteLength,
+    count,
+    bytes: vertices.byteLength,
+    lift: (metres) => void Object.assign(command, placeOf({ frame, box }, metres)),
     destroy: () => vertexArray.destroy(),
   };
 }
@@ -83,20 +93,32 @@ function attributesOf(vertexBuffer: ReturnType<typeof Buffer.createVertexBuffer>
   ];
 }
 
-/** Node frame → ECEF in float64; Cesium multiplies it with the view in float64 too. */
-export function matrixOf({ frame: { rotation, origin } }: Pick<NodeVertices, "frame">): Matrix4 {
+/** Where a command draws a node: so many metres above its place, along its own up. */
+function placeOf(node: Pick<NodeVertices, "frame" | "box">, heightOffset: number) {
+  const modelMatrix = matrixOf(node, heightOffset);
+  return { modelMatrix, boundingVolume: sphereOf(node, modelMatrix) };
+}
+
+/**
+ * Node frame → ECEF in float64; Cesium multiplies it with the view in float64 too.
+ * @param heightOffset metres along the frame's up that are added, for looks only
+ */
+export function matrixOf(
+  { frame: { rotation, origin } }: Pick<NodeVertices, "frame">,
+  heightOffset = 0,
+): Matrix4 {
   const [ex, ey, ez, nx, ny, nz, ux, uy, uz] = rotation;
   // The constructor takes rows.
   return new Matrix4(
-    ...([ex, nx, ux, origin[0]] as const),
-    ...([ey, ny, uy, origin[1]] as const),
-    ...([ez, nz, uz, origin[2]] as const),
+    ...([ex, nx, ux, origin[0] + heightOffset * ux] as const),
+    ...([ey, ny, uy, origin[1] + heightOffset * uy] as const),
+    ...([ez, nz, uz, origin[2] + heightOffset * uz] as const),
     ...([0, 0, 0, 1] as const),
   );
 }
 
 /** Sphere around a node's box, ECEF, metres: what Cesium culls by and fits its near and far planes to. */
-function sphereOf({ box }: NodeVertices, modelMatrix: Matrix4): BoundingSphere {
+function sphereOf({ box }: Pick<NodeVertices, "box">, modelMatrix: Matrix4): BoundingSphere {
   const [minX, minY, minZ, maxX, maxY, maxZ] = box;
   const centre = new Cartesian3((minX + maxX) / 2, (minY + maxY) / 2, (minZ + maxZ) / 2);
   const radius = Math.hypot(maxX - minX, maxY - minY, maxZ - minZ) / 2;

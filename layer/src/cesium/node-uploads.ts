@@ -17,6 +17,7 @@ const DEFAULT_BUDGET: UploadBudget = { milliseconds: 4, bytes: 4 * 1024 * 1024 }
 export class NodeUploads {
   readonly #drawables = new Map<OctreeNode, NodeDrawable>();
   #bytes = 0;
+  #heightOffset = 0;
 
   /** GPU buffers that are alive. */
   get buffers(): number {
@@ -26,6 +27,11 @@ export class NodeUploads {
   /** Bytes in them. */
   get bytes(): number {
     return this.#bytes;
+  }
+
+  /** Metres above their places at which nodes are drawn. */
+  get heightOffset(): number {
+    return this.#heightOffset;
   }
 
   get(node: OctreeNode): NodeDrawable | undefined {
@@ -55,7 +61,7 @@ export class NodeUploads {
         waiting++;
         continue;
       }
-      const drawable = createDrawable(context, content, shared);
+      const drawable = createDrawable(context, content, shared, this.#heightOffset);
       this.#drawables.set(node, drawable);
       this.#bytes += drawable.bytes;
       left -= drawable.bytes;
@@ -66,6 +72,13 @@ export class NodeUploads {
   /** Gives all commands another program. */
   setProgram(program: ShaderProgram): void {
     for (const { command } of this.#drawables.values()) command.shaderProgram = program;
+  }
+
+  /** Draws all nodes so many metres above their places, those to come as well. */
+  lift(heightOffset: number): void {
+    if (heightOffset === this.#heightOffset) return;
+    this.#heightOffset = heightOffset;
+    for (const drawable of this.#drawables.values()) drawable.lift(heightOffset);
   }
 
   /** Frees a node's buffer, if it has one. */

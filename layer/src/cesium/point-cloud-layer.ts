@@ -3,6 +3,7 @@ import { PointCloud, type PointCloudOptions, type StreamProgress } from "../clou
 import type { OctreeNode, Selection } from "../octree/index.js";
 import type { Context, DrawCommand, FrameState } from "./cesium-private.js";
 import { viewOfFrame } from "./frame-view.js";
+import { checkHeightOffset, liftOf } from "./height-offset.js";
 import { LayerResources } from "./layer-resources.js";
 import { NodeUploads } from "./node-uploads.js";
 import { type LayerSource, resolveSource } from "./source-from-resource.js";
@@ -17,6 +18,8 @@ export interface PointCloudLayerOptions {
   readonly maximumScreenSpaceError?: number;
   /** Most points drawn at once. Default: 1,000,000. */
   readonly pointBudget?: number;
+  /** Metres above their places at which points are drawn, for looks only. Default: 0. */
+  readonly heightOffset?: number;
   /** What `scene.pick` returns as `id`. Default: the cloud's name. */
   readonly id?: unknown;
 }
@@ -55,7 +58,7 @@ export class PointCloudLayer {
   pointBudget: number;
   /** The data set. */
   readonly cloud: PointCloud;
-  /** Sphere around all points, to fly to. */
+  /** Sphere around all points as they are drawn, to fly to; moves with {@link heightOffset}. */
   readonly boundingSphere: BoundingSphere;
   /** Raised with a node's name (`depth-x-y-z`) once its points are here. */
   readonly nodeLoaded = new Event<(name: string) => void>();
@@ -71,6 +74,7 @@ export class PointCloudLayer {
   readonly #uploads = new NodeUploads();
   readonly #unsubscribe: () => void;
   #style: PointCloudStyle;
+  #heightOffset = 0;
   #resources: LayerResources | undefined;
   #context: Context | undefined;
   #commands: DrawCommand[] = [];
@@ -96,8 +100,8 @@ export class PointCloudLayer {
     this.#style = defaultStyle(cloud.hasColour);
     this.style = options.style ?? {};
     this.#picked = { primitive: this, id: options.id ?? cloud.name };
-    const { x, y, z, radius } = cloud.bounds;
-    this.boundingSphere = new BoundingSphere(new Cartesian3(x, y, z), radius);
+    this.boundingSphere = new BoundingSphere(new Cartesian3(), cloud.bounds.radius);
+    this.heightOffset = options.heightOffset ?? 0;
     this.#unsubscribe = cloud.stream.subscribe({
       nodeLoaded: (node) => this.nodeLoaded.raiseEvent(node.name),
       nodeFailed: (node, error) => this.nodeFailed.raiseEvent(node.name, error),
@@ -142,6 +146,22 @@ export class PointCloudLayer {
     this.#style = style;
   }
 
+  /**
+   * Metres above their places at which points are drawn, along the local up: to lift a cloud out of a terrain that
+   * does not fit it. For looks only: `cloud.place`, `cloud.loadNode` and `cloud.accuracy` know nothing of it, while
+   * what Cesium reads from the picture (`scene.pickPosition`) includes it. From −10,000 to 10,000. @throws StyleError
+   */
+  get heightOffset(): number {
+    return this.#heightOffset;
+  }
+
+  set heightOffset(metres: number) {
+    const { bounds, name } = this.cloud;
+    this.#heightOffset = checkHeightOffset(metres, name);
+    const [x, y, z] = liftOf(bounds, metres);
+    Cartesian3.fromElements(bounds.x + x, bounds.y + y, bounds.z + z, this.boundingSphere.center);
+  }
+
   get statistics(): LayerStatistics {
     return {
       nodesVisible: this.#progress.wanted,
@@ -161,7 +181,8 @@ export class PointCloudLayer {
    */
   get settled(): boolean {
     const moved = this.#camera !== undefined && this.#pose !== poseOf(this.#camera);
-    return this.#settled && this.#shown === this.show && !moved;
+    const lifted = this.#uploads.heightOffset !== this.#heightOffset;
+    return this.#settled && this.#shown === this.show && !moved && !lifted;
   }
 
   /** Lets nodes that failed be asked for again. */
@@ -173,6 +194,7 @@ export class PointCloudLayer {
   update(frameState: FrameState): void {
     if (this.#destroyed) return;
     const { passes, context, mode } = frameState;
+    this.#uploads.lift(this.#heightOffset);
     // A lost context takes no commands; what was on the GPU is gone until the page makes a new viewer.
     if (!this.show || mode !== SceneMode.SCENE3D || context._gl.isContextLost()) {
       this.#rest();
@@ -218,7 +240,8 @@ export class PointCloudLayer {
     const { stream } = this.cloud;
     const resources = this.#resourcesFor(context);
     const { maximumScreenSpaceError, pointBudget } = this;
-    const selection = stream.update(this, viewOfFrame(frameState), { maximumScreenSpaceError, pointBudget });
+    const view = viewOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
+    const selection = stream.update(this, view, { maximumScreenSpaceError, pointBudget });
     this.#selection = selection;
     const waiting = this.#uploads.upload(
       context,

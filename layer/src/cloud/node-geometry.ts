@@ -1,4 +1,4 @@
-import type { Crs, ExactTransform } from "@groma/georef";
+import { type Crs, type PointTransform, pointTransform, type Truth } from "@groma/georef";
 import type { NodeBounds, VoxelKey } from "../octree/index.js";
 import type { CopcInfo, LasHeader } from "../sources/index.js";
 
@@ -12,13 +12,13 @@ const CELLS_PER_EDGE = 128;
 export class NodeGeometry {
   readonly #info: CopcInfo;
   readonly #header: LasHeader;
-  readonly #exact: ExactTransform;
+  readonly #transform: PointTransform;
   readonly #unit: number;
 
-  constructor(info: CopcInfo, header: LasHeader, exact: ExactTransform, crs: Pick<Crs, "horizontalUnit">) {
+  constructor(info: CopcInfo, header: LasHeader, truth: Truth, crs: Pick<Crs, "horizontalUnit">) {
     this.#info = info;
     this.#header = header;
-    this.#exact = exact;
+    this.#transform = pointTransform(truth);
     const { kind, size } = crs.horizontalUnit;
     this.#unit = kind === "angular" ? size * LEAST_RADIUS_OF_CURVATURE : size;
   }
@@ -37,7 +37,8 @@ export class NodeGeometry {
 
   /**
    * Sphere around the part of a node's cube in which the file has points, and the spacing of its points on the
-   * ground; undefined where the coordinate system has no such place.
+   * ground; undefined where the data set's map has no such place. What the file's own transformation covers ends with
+   * its bounding box, which cubes reach beyond.
    */
   bounds(key: VoxelKey): NodeBounds | undefined {
     const box = this.#dataBox(key);
@@ -81,15 +82,13 @@ export class NodeGeometry {
   /** ECEF of a grid of 3 × 3 over a box in plane, each at its lower and its upper side: 54 numbers. */
   #sample(box: readonly number[]): Float64Array {
     const samples = new Float64Array(54);
-    const parts = new Float64Array(6);
     for (let j = 0; j < 3; j++) {
       for (let i = 0; i < 3; i++) {
-        this.#exact(box[0] + ((box[3] - box[0]) * i) / 2, box[1] + ((box[4] - box[1]) * j) / 2, parts, 0);
-        for (let axis = 0; axis < 3; axis++) {
-          const to = 6 * (3 * j + i) + axis;
-          samples[to] = parts[axis] + box[2] * parts[axis + 3];
-          samples[to + 3] = parts[axis] + box[5] * parts[axis + 3];
-        }
+        const x = box[0] + ((box[3] - box[0]) * i) / 2;
+        const y = box[1] + ((box[4] - box[1]) * j) / 2;
+        const to = 6 * (3 * j + i);
+        this.#transform(x, y, box[2], samples, to);
+        this.#transform(x, y, box[5], samples, to + 3);
       }
     }
     return samples;

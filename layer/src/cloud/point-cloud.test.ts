@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { BlobSource } from "../sources/index.js";
 import { type TinyCopc, tinyCopc } from "../sources/tiny-copc.fixture.js";
 import type { DataSetSpec, NodeExecutor, NodeJob, NodeVertices } from "../workers/index.js";
+import { transformationBytes } from "../workers/transformation.fixture.js";
 import { PointCloud, type PointCloudOptions } from "./point-cloud.js";
 
 const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
@@ -75,6 +76,37 @@ describe("PointCloud", () => {
     const fit = cloud.accuracy.parts.find((part) => part.name === "fit");
     const datum = cloud.accuracy.parts.find((part) => part.name === "datum operation");
     expect([fit?.metres, datum?.note]).toEqual([0.01, expect.stringContaining("given by the user")]);
+  });
+
+  it("hands the worker the transformation in the file, and places single points by it", async () => {
+    const third = await transformationBytes(crs, { minX: 0, minY: 0, maxX: 100, maxY: 100 }, 40);
+    const records: TinyCopc["records"] = [
+      ["groma", 1, encodeRecord({ ...record, crs, engine: { name: "PROJ", version: "9.5.0" } })],
+      ["groma", 3, third],
+    ];
+    const { cloud, executor } = await open({ records });
+    expect(executor.specs[0].transformation).toEqual(third);
+    const { cloud: flat } = await open({}, { crs: UTM, vertical: "ellipsoidal" });
+    const [at, below] = [cloud.place(50, 60, 7), flat.place(50, 60, 47)];
+    expect(Math.hypot(at[0] - below[0], at[1] - below[1], at[2] - below[2])).toBeLessThan(1e-4);
+    expect([cloud.engine.name, cloud.geoids, flat.engine.name, flat.geoids]).toEqual([
+      ...["PROJ", ["flat.tif"]],
+      ...["proj4js", []],
+    ]);
+    const { bounds } = cloud;
+    expect(Math.hypot(at[0] - bounds.x, at[1] - bounds.y, at[2] - bounds.z)).toBeLessThan(bounds.radius);
+    expect(() => cloud.place(-1, 0, 0)).toThrow(expect.objectContaining({ code: "PLACE_DOMAIN" }));
+  });
+
+  it("PLACE_DOMAIN where the transformation covers other places than the file's box", async () => {
+    const third = await transformationBytes(crs, { minX: 0, minY: 0, maxX: 100, maxY: 90 }, 40);
+    const records: TinyCopc["records"] = [
+      ["groma", 1, encodeRecord(record)],
+      ["groma", 3, third],
+    ];
+    await expect(open({ records })).rejects.toThrow(
+      expect.objectContaining({ code: "PLACE_DOMAIN", cause: expect.stringContaining("transformation") }),
+    );
   });
 
   it("tells its name, count and box", async () => {

@@ -1,4 +1,12 @@
-import { type Crs, type HeightReference, PlacementError, type StatedAccuracy } from "@groma/georef";
+import {
+  type Crs,
+  type HeightReference,
+  type OperationReport,
+  PlacementError,
+  placePoint,
+  type StatedAccuracy,
+  type Truth,
+} from "@groma/georef";
 import { FormatError } from "../errors/index.js";
 import {
   keyName,
@@ -59,6 +67,12 @@ export class PointCloud {
   readonly accuracy: StatedAccuracy;
   /** Who named the coordinate system. */
   readonly basis: Georeference["basis"];
+  /** What the places come from. */
+  readonly engine: Georeference["engine"];
+  /** What that engine said of the way it chose; undefined where the page derives the places itself. */
+  readonly operation: OperationReport | undefined;
+  /** Files of the geoids that heights go through; empty where they are drawn as they are. */
+  readonly geoids: readonly string[];
   /** The converter's statistics; undefined for files of other writers. */
   readonly statistics: CloudStatistics | undefined;
   /** As the header declares it, source units. */
@@ -71,6 +85,7 @@ export class PointCloud {
   readonly stream: NodeStream;
 
   readonly #copc: CopcFile;
+  readonly #truth: Truth;
   readonly #store: NodeStore;
   readonly #geometry: NodeGeometry;
   readonly #executor: NodeExecutor;
@@ -82,26 +97,30 @@ export class PointCloud {
 
   private constructor(copc: CopcFile, georeference: Georeference, options: PointCloudOptions) {
     const { header, info, source } = copc;
-    const { crs, exact, tolerance } = georeference;
+    const { crs, sources, truth, tolerance } = georeference;
     this.#copc = copc;
+    this.#truth = truth;
     this.name = baseName(source.name);
     this.pointCount = header.pointCount;
     this.crs = crs;
     this.height = crs.height;
     this.accuracy = georeference.accuracy;
     this.basis = georeference.basis;
+    this.engine = georeference.engine;
+    this.operation = georeference.operation;
+    this.geoids = georeference.geoids;
     this.statistics = copc.statistics;
     this.boundingBox = { min: header.min, max: header.max };
     this.hasColour = header.pointFormat !== 6 && copc.statistics?.rgbBits !== null;
     this.#store = new NodeStore(source.name, header.pointCount, info.rootPage);
-    this.#geometry = new NodeGeometry(info, header, exact, crs);
+    this.#geometry = new NodeGeometry(info, header, truth, crs);
     this.bounds = this.#rootBounds();
     this.#appearance = recordedAppearance(copc);
     this.#ownsExecutor = options.executor === undefined;
     this.#executor = options.executor ?? new WorkerPool(options.workers);
     this.#dataSet = this.#executor.addDataSet({
+      ...sources,
       file: source.name,
-      crs,
       pointFormat: header.pointFormat,
       recordLength: header.recordLength,
       scale: header.scale,
@@ -141,6 +160,16 @@ export class PointCloud {
   /** Least and greatest intensity: from the statistics, else from the first node that was loaded. */
   get intensityRange(): readonly [number, number] {
     return this.#appearance?.intensity ?? [0, 65535];
+  }
+
+  /**
+   * Where a point is: source coordinates to ECEF by the map that the points are drawn by, exact, not fitted.
+   * @param out receives X, Y, Z, metres
+   * @throws PlacementError PLACE_DOMAIN where the data set's map has no such place
+   */
+  place(x: number, y: number, z: number, out: Float64Array = new Float64Array(3)): Float64Array {
+    placePoint(this.#truth, x, y, z, out, this.#copc.source.name);
+    return out;
   }
 
   /** Nodes of the octree that are known so far. */
@@ -196,11 +225,15 @@ export class PointCloud {
   #rootBounds(): NodeBounds {
     const bounds = this.#geometry.bounds(this.#store.root.key);
     if (bounds) return bounds;
+    const derived = typeof this.#truth === "function";
+    const what = derived ? this.crs.name : "the transformation in its georeference record";
     throw new PlacementError({
       code: "PLACE_DOMAIN",
       file: this.#copc.source.name,
-      cause: `its coordinates lie outside what ${this.crs.name} covers`,
-      fix: "Check the coordinate system, or give the right one with the option crs",
+      cause: `its coordinates lie outside what ${what} covers`,
+      fix: derived
+        ? "Check the coordinate system, or give the right one with the option crs"
+        : "Convert the scan again, or give its coordinate system with the option crs",
     });
   }
 

@@ -38,6 +38,54 @@ describe("openCopc", () => {
     expect(geoTiff?.doubles).toHaveLength(0);
   });
 
+  describe("the transformation in record groma 3", () => {
+    const georeference = ["groma", 1, new Uint8Array(9)] as const;
+    const bytes = Uint8Array.from({ length: 70_000 }, (_, i) => i % 251);
+
+    it("is read from a VLR, and does not keep the whole opening alive", async () => {
+      const { transformation } = await open({ records: [georeference, ["groma", 3, bytes.subarray(0, 80)]] });
+      expect(transformation).toEqual(bytes.slice(0, 80));
+      expect(transformation?.buffer.byteLength).toBe(80);
+    });
+
+    it("is read from an extended VLR where it is too long for another", async () => {
+      const copc = await open({ records: [georeference], extended: [["groma", 3, bytes]] });
+      expect(copc.transformation).toEqual(bytes);
+    });
+
+    it("costs no request behind the points where no extended record can hold it", async () => {
+      const blob = source(tinyCopc({ records: [georeference] }));
+      const reads: number[] = [];
+      const read: BlobSource["read"] = (begin, end, options) => {
+        reads.push(begin);
+        return blob.read(begin, end, options);
+      };
+      await openCopc({ name: blob.name, size: blob.size, read });
+      expect(Math.max(...reads)).toBeLessThan(700);
+    });
+
+    it("FORMAT_VLR where it is beyond reason, without reading it", async () => {
+      const claimed = 17 * 1024 * 1024;
+      const tiny = tinyCopc({ records: [georeference], extended: [["groma", 3, bytes, claimed]] });
+      const blob = source(tiny);
+      const size = tiny.length + claimed;
+      const read: BlobSource["read"] = (begin, end, options) => {
+        expect(end - begin).toBeLessThan(100_000);
+        return blob.read(begin, end, options);
+      };
+      await expect(openCopc({ name: blob.name, size, read })).rejects.toThrow(
+        expect.objectContaining({ code: "FORMAT_VLR" }),
+      );
+    });
+
+    it("FORMAT_TRUNCATED where it goes on beyond the file", async () => {
+      const extended = [["groma", 3, bytes, 80_000]] as const;
+      await expect(open({ records: [georeference], extended })).rejects.toThrow(
+        expect.objectContaining({ code: "FORMAT_TRUNCATED" }),
+      );
+    });
+  });
+
   it.each<[string, string, TinyCopc]>([
     ["FORMAT_MAGIC", "another format", { magic: "PK\x03\x04" }],
     ["SOURCE_HTML", "a web page", { magic: "<!doctype html>" }],

@@ -24,6 +24,8 @@ export interface CopcFile {
   readonly geoTiff?: GeoTiffKeys;
   /** Raw bytes of Groma's georeference record (VLR `groma` 1). */
   readonly georeference?: Uint8Array;
+  /** Raw bytes of the transformation that goes with it (VLR or extended VLR `groma` 3), in a buffer of their own. */
+  readonly transformation?: Uint8Array;
   /** Groma's statistics record (VLR `groma` 2). */
   readonly statistics?: CloudStatistics;
   readonly limits: HierarchyLimits;
@@ -66,13 +68,21 @@ export async function openCopc(source: ByteSource, options: ReadOptions = {}): P
   const bytes = await source.read(0, header.pointsOffset, options);
   const headerLength = new DataView(bytes.buffer, bytes.byteOffset).getUint16(94, true);
   const entries = walkVlrs(bytes, header, headerLength, file);
-  // Extended records cost requests, so they are only walked where the file does not say its CRS up front.
-  const known = findVlr(entries, "groma", 1) ?? findVlr(entries, PROJECTION, 2112);
-  if (!known) entries.push(...(await walkEvlrs(source, header, options)));
+  if (isSpreadOut(entries, header)) entries.push(...(await walkEvlrs(source, header, options)));
   return { source, header, info, limits, ...(await readRecords(source, entries, options)) };
 }
 
-type Records = Pick<CopcFile, "wkt" | "geoTiff" | "georeference" | "statistics">;
+/**
+ * Whether what the file says of its coordinates may go on behind the points. Extended records cost requests, so they
+ * are only walked where the file does not say its CRS up front, or where a transformation too long for a VLR may
+ * follow Groma's record. The hierarchy of a COPC file is an extended record itself: one alone is that.
+ */
+function isSpreadOut(entries: readonly VlrEntry[], { evlrCount }: LasHeader): boolean {
+  if (findVlr(entries, "groma", 1)) return !findVlr(entries, "groma", 3) && evlrCount > 1;
+  return !findVlr(entries, PROJECTION, 2112);
+}
+
+type Records = Pick<CopcFile, "wkt" | "geoTiff" | "georeference" | "transformation" | "statistics">;
 
 async function readRecords(
   source: ByteSource,
@@ -83,6 +93,7 @@ async function readRecords(
   const wkt = await content(PROJECTION, 2112);
   const directory = await content(PROJECTION, 34735);
   const georeference = await content("groma", 1);
+  const transformation = await content("groma", 3);
   const statistics = await content("groma", 2);
   return {
     // LAS allows WKT to end with NULs.
@@ -96,6 +107,8 @@ async function readRecords(
       geoTiff: geoTiffKeys(directory, await content(PROJECTION, 34736), await content(PROJECTION, 34737)),
     }),
     ...(georeference && { georeference }),
+    // A copy: what goes to the workers takes its whole buffer along, here that of the opening read.
+    ...(transformation && { transformation: transformation.slice() }),
     ...(statistics && { statistics: decodeStatistics(statistics, source.name) }),
   };
 }

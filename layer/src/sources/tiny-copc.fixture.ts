@@ -9,6 +9,8 @@ export interface TinyCopc {
   readonly wkt?: string;
   /** Records besides COPC's own and the WKT: user id, record id, content. */
   readonly records?: readonly (readonly [string, number, Uint8Array])[];
+  /** Extended records at the end: user id, record id, content, and the length that is claimed if not the true one. */
+  readonly extended?: readonly (readonly [string, number, Uint8Array, number?])[];
   /** Rows of the root page: depth, x, y, z, offset, length, points. An offset of 0 stands for the points' own. */
   readonly page?: readonly (readonly number[])[];
   /** Put instead of the true offset of the root page. */
@@ -32,6 +34,21 @@ export function pageBytes(rows: readonly (readonly number[])[]): Uint8Array {
   return bytes;
 }
 
+/** Extended records one after the other, as they stand at the end of a file. */
+function extendedBytes(records: NonNullable<TinyCopc["extended"]>): Uint8Array {
+  const bytes = new Uint8Array(records.reduce((sum, [, , content]) => sum + 60 + content.length, 0));
+  const view = new DataView(bytes.buffer);
+  let at = 0;
+  for (const [user, id, content, claimed = content.length] of records) {
+    bytes.set(new TextEncoder().encode(user), at + 2);
+    view.setUint16(at + 18, id, true);
+    view.setBigUint64(at + 20, BigInt(claimed), true);
+    bytes.set(content, at + 60);
+    at += 60 + content.length;
+  }
+  return bytes;
+}
+
 /** A COPC file of a few hundred bytes: header, records, a chunk of zeros and a root page. */
 export function tinyCopc(options: TinyCopc = {}): Uint8Array {
   const {
@@ -52,7 +69,11 @@ export function tinyCopc(options: TinyCopc = {}): Uint8Array {
   );
   const page = pageBytes(rows);
   const pageOffset = pointsOffset + CHUNK.length;
-  const file = new Uint8Array(pageOffset + page.length);
+  // A hierarchy is an extended record in real files; here an empty one stands for it.
+  const extended = options.extended
+    ? extendedBytes([["copc", 1000, new Uint8Array()], ...options.extended])
+    : new Uint8Array();
+  const file = new Uint8Array(pageOffset + page.length + extended.length);
   const view = new DataView(file.buffer);
   file.set(encoder.encode(magic), 0);
   view.setUint8(24, 1);
@@ -82,5 +103,10 @@ export function tinyCopc(options: TinyCopc = {}): Uint8Array {
   view.setBigUint64(469, BigInt(options.pageOffset ?? pageOffset), true);
   view.setBigUint64(477, BigInt(page.length), true);
   file.set(page, pageOffset);
+  if (options.extended) {
+    view.setBigUint64(235, BigInt(pageOffset + page.length), true);
+    view.setUint32(243, options.extended.length + 1, true);
+    file.set(extended, pageOffset + page.length);
+  }
   return file;
 }

@@ -50,7 +50,7 @@ async function decodeNode(job: NodeJob): Promise<NodeVertices> {
 }
 
 function isPrepared(value: unknown): value is PreparedDataSet {
-  return typeof value === "object" && value !== null && "exact" in value;
+  return typeof value === "object" && value !== null && "truth" in value;
 }
 
 function prepare(id: number, request: Extract<WorkerRequest, { kind: "dataSet" }>): void {

@@ -1,19 +1,19 @@
-import { type Domain, type ExactTransform, exactTransform, fitPlacement, placeIntegers } from "@groma/georef";
+import { type Domain, fitPlacement, placeIntegers, type Truth, truthOf } from "@groma/georef";
 import { badChunk } from "./chunk-layout.js";
 import type { LazDecoder } from "./laz-decoder.js";
 import { packVertices, positionBox } from "./pack.js";
 import type { DataSetSpec, NodeJob, NodeVertices } from "./protocol.js";
 import { integerBox, readRecords, valueRange } from "./records.js";
 
-/** A data set with its exact transform, which is made once. */
+/** A data set with the map of its coordinates to ECEF, which is made once. */
 export interface PreparedDataSet {
   readonly spec: DataSetSpec;
-  readonly exact: ExactTransform;
+  readonly truth: Truth;
 }
 
-/** Makes the exact transform of a data set. @throws CrsError */
+/** Makes the map of a data set. @throws CrsError, RecordError */
 export function prepareDataSet(spec: DataSetSpec): PreparedDataSet {
-  return { spec, exact: exactTransform(spec.crs, (spec.heights[0] + spec.heights[1]) / 2) };
+  return { spec, truth: truthOf(spec, (spec.heights[0] + spec.heights[1]) / 2, spec.file) };
 }
 
 /**
@@ -25,14 +25,14 @@ export async function runNodeJob(
   job: NodeJob,
   decoder: LazDecoder,
 ): Promise<NodeVertices> {
-  const { spec, exact } = dataSet;
+  const { spec, truth } = dataSet;
   const { pointFormat, recordLength, scale, offset, file } = spec;
   const chunk = new Uint8Array(job.chunk);
   const bytes = await decoder.decode(chunk, pointFormat, recordLength, job.pointCount, file, job.node);
   const records = readRecords(bytes, pointFormat, recordLength);
   const domain = sourceBox(integerBox(records), spec);
   checkInCube(domain, job, spec);
-  const placement = fitPlacement(exact, domain, spec.tolerance, file);
+  const placement = fitPlacement(truth, domain, spec.tolerance, file);
   const positions = new Float32Array(3 * records.count);
   placeIntegers(placement, records.xyz, records.count, scale, offset, positions);
   const colour = valueRange(records.rgb);

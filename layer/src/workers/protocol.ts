@@ -1,10 +1,9 @@
-import type { Crs, FaultWire, Frame, Scheme } from "@groma/georef";
+import type { FaultWire, Frame, Scheme, TruthSources } from "@groma/georef";
 
-/** What a worker must know of a data set, once, before it takes jobs for it. */
-export interface DataSetSpec {
+/** What a worker must know of a data set, once, before it takes jobs for it: where it is, and how it is stored. */
+export interface DataSetSpec extends TruthSources {
   /** Name of the file, for errors. */
   readonly file: string;
-  readonly crs: Pick<Crs, "proj4" | "horizontalUnit" | "verticalUnit" | "height">;
   /** Point data record format: 6, 7 or 8. */
   readonly pointFormat: number;
   /** Bytes per record, extra bytes included. */

@@ -11,21 +11,21 @@ export function openCrs(given) {
 }
 
 /**
- * Random LAS integers of a square node: in plane of 2⁻³⁰ of its edge, in height of 0.1 µm.
+ * Random LAS integers of a square node, of 2⁻³⁰ of its edge and of its height.
  *
  * @param {number} edge source units, as the centre
  * @param {number} height of the box, from z = 0
  */
 export function nodeOf(x, y, edge, height, count) {
   const offset = [x, y, 0];
-  const scale = [edge * 2 ** -30, edge * 2 ** -30, 1e-7];
+  const scale = [edge * 2 ** -30, edge * 2 ** -30, height * 2 ** -30];
   const next = random(20261122);
   const xyz = Int32Array.from({ length: 3 * count }, (_, i) =>
-    i % 3 === 2 ? Math.floor(next() * height * 1e7) : Math.floor((next() - 0.5) * 2 ** 30),
+    Math.floor((next() - (i % 3 === 2 ? 0 : 0.5)) * 2 ** 30),
   );
   // The corners, where polynomials err most.
   for (let i = 0; i < 4; i++) {
-    xyz.set([i & 1 ? 2 ** 29 : -(2 ** 29), i & 2 ? 2 ** 29 : -(2 ** 29), i % 3 ? 0 : height * 1e7], 3 * i);
+    xyz.set([i & 1 ? 2 ** 29 : -(2 ** 29), i & 2 ? 2 ** 29 : -(2 ** 29), i % 3 ? 0 : 2 ** 30], 3 * i);
   }
   const domain = {
     ...{ minX: x - edge / 2, maxX: x + edge / 2, minY: y - edge / 2, maxY: y + edge / 2 },
@@ -42,9 +42,7 @@ export function sourceOf({ xyz, scale, offset }, i) {
 /** Distance of a point stored in a node frame (float32) from where it belongs in ECEF. */
 export function offBy({ origin, rotation: r }, local, i, ecef) {
   const [e, n, u] = local.subarray(3 * i, 3 * i + 3);
-  return Math.hypot(
-    ...[0, 1, 2].map((k) => origin[k] + r[k] * e + r[k + 3] * n + r[k + 6] * u - ecef[k]),
-  );
+  return Math.hypot(...[0, 1, 2].map((k) => origin[k] + r[k] * e + r[k + 3] * n + r[k + 6] * u - ecef[k]));
 }
 
 /** Writes ECEF into the node frame at point i, as the page stores it. */

@@ -1,4 +1,4 @@
-import { fitPlacement, place, placeIntegers } from "@groma/georef";
+import { fitPlacement, geodeticToEcef, place, placeIntegers } from "@groma/georef";
 import proj4 from "proj4";
 import { nodeOf, offBy, openCrs, sourceOf, store } from "./nodes.mjs";
 import { nanoseconds } from "./timing.mjs";
@@ -15,13 +15,15 @@ const PLACES = [
   ["EPSG:3857", 1000000, 6000000],
 ];
 const EDGES = [100, 1000, 10000, 100000];
+/** Metres. */
 const HEIGHT = 200;
+const DEGREE = Math.PI / 180;
 /** Of one round; the engines are a hundred times slower than the schemes. */
 const POINTS = 50000;
 const ENGINE_POINTS = 4000;
 
 export const SCHEMES = ["affine", "affineLinearNormal", "quadratic", "cubic", "quartic", "tensor6"];
-export const EXACT = "exact (own ECEF)";
+export const EXACT = "exact";
 export const FORWARD = "proj4.forward";
 
 /** Placements of one domain by scheme: each bound, just undercut, calls for the next scheme. */
@@ -73,9 +75,16 @@ function measureNode(crs, exact, node) {
     return {
       method: placement?.scheme ?? engines[i - placements.length][0],
       ns: times[i],
-      error: worst(exact, node, Math.min(items, ENGINE_POINTS), (point, ecef) => offBy(frame, out, point, ecef)),
-      fitError: placement ? fitError(exact, node, placement) : 0,
-      ...(placement ? { bound: placement.bound, fitBound: placement.fitBound } : {}),
+      error: worst(exact, node, Math.min(items, ENGINE_POINTS), (point, ecef) =>
+        offBy(frame, out, point, ecef),
+      ),
+      ...(placement
+        ? {
+            fitError: fitError(exact, node, placement),
+            fitBound: placement.fitBound,
+            bound: placement.bound,
+          }
+        : {}),
       chosen: placement?.scheme === chosen.scheme,
     };
   });
@@ -96,19 +105,20 @@ function exactTask(exact, { xyz, scale, offset }, frame, out) {
   };
 }
 
-/** proj4js from the source CRS to geocentric coordinates in one call: what a library without this one does. */
+/** proj4js to longitude, latitude and the height as it is, then ECEF: what a page without this project does. */
 function forwardTask(crs, { xyz, scale, offset }, frame, out) {
-  const toGeocentric = proj4(crs.proj4, "+proj=geocent +datum=WGS84");
+  const toWgs84 = proj4(crs.proj4, "WGS84");
   const metres = crs.verticalUnit.size;
+  const ecef = new Float64Array(3);
   return () => {
     for (let i = 0; i < ENGINE_POINTS; i++) {
-      // proj4js takes x and y in the unit of the CRS, and z in metres.
-      const point = [
+      const [longitude, latitude, height] = toWgs84.forward([
         xyz[3 * i] * scale[0] + offset[0],
         xyz[3 * i + 1] * scale[1] + offset[1],
         (xyz[3 * i + 2] * scale[2] + offset[2]) * metres,
-      ];
-      store(frame, toGeocentric.forward(point), out, i);
+      ]);
+      geodeticToEcef(longitude * DEGREE, latitude * DEGREE, height, ecef);
+      store(frame, ecef, out, i);
     }
   };
 }

@@ -1,5 +1,7 @@
 /** Rounds in which all tasks take turns, so that a busy moment of the machine hits none of them alone. */
-const ROUNDS = 9;
+const ROUNDS = 15;
+/** Nanoseconds that a task is run for in a round, at least: enough for the compiler and the clock. */
+const LEAST = 4e6;
 
 /**
  * Nanoseconds per item of several tasks: the least of several rounds, the tasks taking turns.
@@ -8,15 +10,23 @@ const ROUNDS = 9;
  * @returns {number[]}
  */
 export function nanoseconds(tasks) {
-  const best = tasks.map(() => Number.POSITIVE_INFINITY);
+  const timed = tasks.map(({ task, items }) => {
+    run(task, 3);
+    return { task, items, times: Math.ceil(LEAST / run(task, 1)), best: Number.POSITIVE_INFINITY };
+  });
   for (let round = 0; round < ROUNDS; round++) {
-    for (const [i, { task, items }] of tasks.entries()) {
-      const began = process.hrtime.bigint();
-      task();
-      best[i] = Math.min(best[i], Number(process.hrtime.bigint() - began) / items);
+    for (const one of timed) {
+      one.best = Math.min(one.best, run(one.task, one.times) / (one.times * one.items));
     }
   }
-  return best;
+  return timed.map(({ best }) => best);
+}
+
+/** Nanoseconds that a task takes several times. */
+function run(task, times) {
+  const began = process.hrtime.bigint();
+  for (let i = 0; i < times; i++) task();
+  return Number(process.hrtime.bigint() - began);
 }
 
 /** A reproducible generator of numbers from 0 to 1 (mulberry32). */

@@ -1,0 +1,120 @@
+import {
+  accuracyParts,
+  type Crs,
+  type Domain,
+  ENGINE,
+  ecefToGeodetic,
+  encodeRecord,
+  encodeTransformation,
+  type GeoreferenceRecord,
+  type OperationReport,
+  pointTransform,
+  similarityParts,
+  type Truth,
+  truthOf,
+} from "@groma/georef";
+import type { PointBounds } from "../core.js";
+import type { Georeferenced } from "../georeference.js";
+import { guessHeight } from "../proj/egm96.js";
+import { type EngineReport, UNKNOWN_HEIGHT_NOTE } from "../proj/report.js";
+import { type EngineChoice, type EngineSurroundings, engineTransformation } from "./engine.js";
+import { geoidsOf } from "./geoids.js";
+
+/** Bound on the drawn position that the page keeps by default, metres. */
+export const TOLERANCE = 0.001;
+
+/** What goes into a file to say where its points are. */
+export interface GeoreferenceRecords {
+  readonly georeference: GeoreferenceRecord;
+  /** Payload of the VLR `groma`/1. */
+  readonly record: Uint8Array;
+  /** Payload of the VLR `groma`/3; absent where the coordinates are in space already. */
+  readonly transformation?: Uint8Array;
+  /** Bound of the projection's fit, metres. */
+  readonly fitBound?: number;
+}
+
+/** Longest payload of a plain VLR. */
+const LONGEST_RECORD = 65535;
+
+/**
+ * Settles how a data set is placed: by its similarity, or by an engine over the bounds of its points.
+ *
+ * @param bounds of the points themselves: the transformation holds there and nowhere else
+ * @param scale LAS scale factors, source units
+ * @throws CrsError, PlacementError, ProjError
+ */
+export async function makeRecords(
+  { crs, local }: Georeferenced,
+  { min, max }: PointBounds,
+  scale: ArrayLike<number>,
+  choice: EngineChoice,
+  surroundings: EngineSurroundings,
+): Promise<GeoreferenceRecords> {
+  if (local) {
+    const accuracy = local.accuracy ?? similarityParts(crs, scale, TOLERANCE, local.fitted);
+    const engine = { name: "similarity", version: "1" } as const;
+    return encoded({ version: 1, crs, engine, similarity: local.similarity, accuracy });
+  }
+  if (isInSpace(crs)) {
+    return encoded({ version: 1, crs, engine: ENGINE, accuracy: accuracyParts(crs, scale, TOLERANCE) });
+  }
+  const [minX, minY, minZ] = min;
+  const [maxX, maxY, maxZ] = max;
+  const domain = { minX, minY, minZ, maxX, maxY, maxZ };
+  const { transformation, report } = await engineTransformation(crs, domain, choice, surroundings);
+  const bytes = encodeTransformation(transformation);
+  const truth = truthOf({ crs, transformation: bytes }, (minZ + maxZ) / 2, surroundings.file);
+  const guess = crs.height.kind === "unknown" ? await guessFor(truth, domain) : undefined;
+  const operation = operationReport(report, guess);
+  const accuracy = accuracyParts(crs, scale, TOLERANCE + report.fitBound, {
+    ...{ operation, geoids: geoidsOf(truth), guess },
+  });
+  const georeference = { version: 1, crs, engine: report.engine, operation, accuracy } as const;
+  return { ...encoded(georeference), transformation: bytes, fitBound: report.fitBound };
+}
+
+/** Geocentric coordinates are ECEF but for their unit: there is nothing to fit. */
+function isInSpace({ proj4 }: Crs): boolean {
+  return /\+proj=geocent\b/.test(proj4);
+}
+
+function encoded(georeference: GeoreferenceRecord): GeoreferenceRecords {
+  const record = encodeRecord(georeference);
+  const { wkt, ...crs } = georeference.crs;
+  // The WKT stands in a record of its own as well.
+  if (record.length > LONGEST_RECORD && wkt !== undefined) return encoded({ ...georeference, crs });
+  return { georeference, record };
+}
+
+/** What the record keeps of an engine's report. */
+function operationReport(report: EngineReport, guess: string | undefined): OperationReport {
+  const passedOver = report.passedOver.map(
+    ({ operation, why }) => `PROJ would have taken "${operation}", which cannot be followed: ${why}`,
+  );
+  const notes = report.notes.map((note) =>
+    note === UNKNOWN_HEIGHT_NOTE && guess !== undefined ? `height reference unknown: ${guess}` : note,
+  );
+  return {
+    name: report.operation,
+    accuracy: report.accuracy,
+    ballpark: report.ballpark,
+    grids: report.grids,
+    lacking: report.lacking.map(({ operation, accuracy, grids }) => ({ name: operation, accuracy, grids })),
+    worstDifference: report.checkedPoints > 0 ? report.worstDifference : null,
+    notes: [...notes, ...passedOver],
+  };
+}
+
+/** What heights of unknown reference may be, in words; nothing where the middle of the data set has no place. */
+async function guessFor(
+  truth: Truth,
+  { minX, minY, minZ, maxX, maxY, maxZ }: Domain,
+): Promise<string | undefined> {
+  const ecef = new Float64Array(3);
+  pointTransform(truth)((minX + maxX) / 2, (minY + maxY) / 2, (minZ + maxZ) / 2, ecef, 0);
+  if (!ecef.every(Number.isFinite)) return undefined;
+  const geodetic = new Float64Array(3);
+  ecefToGeodetic(ecef[0], ecef[1], ecef[2], geodetic);
+  return (await guessHeight(geodetic[0], geodetic[1])).note;
+}

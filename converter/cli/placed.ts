@@ -1,0 +1,67 @@
+import {
+  type AccuracyPart,
+  accuracyParts,
+  type Crs,
+  ENGINE,
+  type GeoreferenceRecord,
+  type OperationReport,
+  type Truth,
+  truthOf,
+} from "@groma/georef";
+import type { Scan } from "./core.js";
+import { type Georeferenced, georeference, georeferenceRecord } from "./georeference.js";
+import { fitBoundOf, geoidsOf } from "./place/geoids.js";
+import { TOLERANCE } from "./place/records.js";
+
+/** Where a file's points are, as the file itself says it: by the same code that a page uses, without PROJ. */
+export interface Placed {
+  readonly crs: Crs;
+  readonly basis: Georeferenced["basis"];
+  /** Source coordinates → ECEF. */
+  readonly truth: Truth;
+  readonly engine: GeoreferenceRecord["engine"];
+  readonly operation: OperationReport | undefined;
+  /** Grids that heights go through. */
+  readonly geoids: readonly string[];
+  /** Metres; undefined where no fit stands for the projection. */
+  readonly fitBound: number | undefined;
+  readonly accuracy: readonly AccuracyPart[];
+}
+
+/**
+ * What a file says of its place: its records, else its WKT or GeoTIFF keys by proj4js.
+ *
+ * @throws RecordError RECORD_*
+ * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED
+ */
+export async function placed(scan: Scan): Promise<Placed> {
+  const middle = (scan.min[2] + scan.max[2]) / 2;
+  const record = georeferenceRecord(scan);
+  if (!record) {
+    const { crs, basis } = await georeference(scan, {});
+    const truth = truthOf({ crs }, middle, scan.file);
+    const accuracy = accuracyParts(crs, scan.scale, TOLERANCE);
+    return { crs, basis, truth, ...noReport, accuracy };
+  }
+  const { crs, similarity, engine, operation, accuracy } = record;
+  const bytes = scan.groma?.["3"];
+  const basis = "Groma's record";
+  const transformation = bytes === undefined ? undefined : Buffer.from(bytes, "base64");
+  const truth = truthOf({ crs, similarity, transformation }, middle, scan.file);
+  if (operation && !transformation) {
+    return { crs, basis, truth, ...noReport, accuracy: accuracyParts(crs, scan.scale, TOLERANCE) };
+  }
+  return {
+    crs,
+    basis,
+    truth,
+    engine,
+    operation,
+    geoids: geoidsOf(truth),
+    fitBound: fitBoundOf(truth),
+    accuracy,
+  };
+}
+
+/** Of a place that no conversion has settled. */
+const noReport = { engine: ENGINE, operation: undefined, geoids: [], fitBound: undefined } as const;
