@@ -158,11 +158,12 @@ describe("a header that lies about its bounds", () => {
 
 describe("groma locate", () => {
   it("places points by the file's record, or by proj4js where it has none, and says which", async () => {
+    await groma("convert", sample, "located.copc.laz");
     const info = JSON.parse((await groma("info", "--json", sample)).stdout);
     const [x, y, z] = [0, 1, 2].map((axis) => (info.min[axis] + info.max[axis]) / 2);
     writeFileSync(join(folder, "points.txt"), `# middle\n${x}, ${y}, ${z}\n${x} ${y}\n`);
     const { points, engine } = JSON.parse(
-      (await groma("locate", "out.copc.laz", "--points", "points.txt", "--json")).stdout,
+      (await groma("locate", "located.copc.laz", "--points", "points.txt", "--json")).stdout,
     );
     expect(points).toHaveLength(2);
     expect(points[0].source).toEqual([x, y, z]);
@@ -174,7 +175,7 @@ describe("groma locate", () => {
     expect(engine.name).toMatch(/PROJ|proj4js/);
     const bare = await groma("locate", sample, "--points", "points.txt");
     expect(bare.stdout).toMatch(/^# .* by proj4js .*, derived here from the file's WKT\n/);
-    const outside = await groma("locate", "out.copc.laz", "--points", "far.txt");
+    const outside = await groma("locate", "located.copc.laz", "--points", "far.txt");
     expect(outside.stderr).toMatch(/^POINTS_NOT_FOUND: far\.txt: /);
   });
 });

@@ -15,8 +15,8 @@ const ROWS = 721;
 
 /** Said of heights by EGM96 in a country's height system; why it is so much is told at {@link EGM96_ACCURACY}. */
 export const EGM96_NOTE =
-  `height by the geoid model ${EGM96} instead of the country's own: expect errors of some decimetres, in ` +
-  `mountains up to about ${EGM96_ACCURACY} m, because national zero levels follow a tide gauge and ${EGM96} has one value every 28 km`;
+  `height by the geoid model ${EGM96} instead of the country's own: expect some decimetres, in mountains up to about ` +
+  `${EGM96_ACCURACY} m`;
 
 /** The geoid model EGM96 (NGA, 15' × 15'), nodes rounded to a centimetre by the package that carries them. */
 type Undulation = (latitudeDegrees: number, longitudeDegrees: number) => number;

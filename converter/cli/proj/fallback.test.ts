@@ -31,7 +31,7 @@ describe("without PROJ", () => {
       ...["projection", "datumShift", "verticalShift", "geocentric"],
     ]);
     expect(report).toMatchObject({ engine: { name: "proj4js" }, accuracy: null, grids: ["EGM96"] });
-    expect(report.notes.join()).toMatch(/about 4 m.*tide gauge/);
+    expect(report.notes.join()).toMatch(/decimetres.*about 4 m/);
   });
 
   it("an unknown height stays unknown", async () => {

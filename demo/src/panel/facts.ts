@@ -32,6 +32,7 @@ export function showFacts(cloud: PointCloud, { given }: { given: boolean }): voi
       "Placed by",
       engineWords(cloud),
       ...warningsOf(operation, { remark }).map(warning),
+      ...operationOf(operation),
       ...lackingOf(operation),
     ),
     ...fact("Accuracy", accuracyWords(accuracy), partsOf(accuracy.parts)),
@@ -50,12 +51,19 @@ function warning(text: string): HTMLElement {
   return textElement("small", text, "warning");
 }
 
+/** The name of the operation, a step after the other, folded away. */
+function operationOf(operation: OperationReport | undefined): HTMLElement[] {
+  if (!operation) return [];
+  const steps = operation.name.split(" + ").map((step) => row([textElement("span", step)], undefined));
+  return [folded("operation", steps)];
+}
+
 /** The operations that would have been better, folded away; nothing where there are none. */
 function lackingOf(operation: OperationReport | undefined): HTMLElement[] {
   const lacking = lackingWords(operation);
   if (lacking.length === 0) return [];
   const items = lacking.map(({ text, note }) => row([textElement("span", text)], note));
-  return [folded(`${counted(lacking.length, "better way")} without grids`, items)];
+  return [folded(`${counted(lacking.length, "better operation")}, grids missing`, items)];
 }
 
 /** The parts of an accuracy, folded away. */

@@ -96,7 +96,7 @@ describe("a cloud in words", () => {
   it("says what places come from, and what would have been better", () => {
     expect(engineWords({ engine: { name: "PROJ", version: "9.5.0" }, operation: report })).toEqual({
       text: "PROJ 9.5.0",
-      note: "RD to ETRS89; stated accuracy 1 mm; grids: a.tif, b.tif",
+      note: "stated accuracy 1 mm; grids: a.tif, b.tif",
     });
     expect(lackingWords(report)).toEqual([
       { text: "RD to ITRF", note: "stated accuracy 10 cm; lacks c.tif" },

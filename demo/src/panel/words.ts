@@ -69,7 +69,7 @@ export function engineWords({ engine, operation }: Pick<PointCloud, "engine" | "
   if (!operation) return noted(text, name === "proj4js" ? ["in this page, without grids"] : []);
   const grids = operation.grids.length > 0 ? [`grids: ${operation.grids.join(", ")}`] : [];
   const accuracy = operation.accuracy === null ? [] : [`stated accuracy ${lengthWords(operation.accuracy)}`];
-  return noted(text, [operation.name, ...accuracy, ...grids]);
+  return noted(text, [...accuracy, ...grids]);
 }
 
 /**
