@@ -56,7 +56,7 @@ beforeAll(() => {
   if (missing) return;
   const jobs = tables.flatMap(({ name, path, ...table }) => {
     const rows = rowsOf(path);
-    const whole = { path: las(name), scale: 0.0001, rows, ...("wkt" in table && { wkt: table.wkt }) };
+    const whole = { path: las(name), scale: 0.01, rows, ...("wkt" in table && { wkt: table.wkt }) };
     const squares = [10, 50].map((km) => ({
       ...{ path: las(`${name}-${km}`), scale: 0.001, rows: square(rows, km * 1000) },
     }));

@@ -197,7 +197,7 @@ describe("texts that say nothing usable", () => {
 
   it("names file, cause and fix in its message", () => {
     expect(() => resolveCrs({ file: "scan.laz" })).toThrow(
-      "CRS_MISSING: scan.laz: it does not say which coordinate reference system it is in. Give the coordinate reference system yourself, for example --crs EPSG:2056.",
+      "CRS_MISSING: scan.laz: it does not say which coordinate reference system it is in. Give the coordinate reference system yourself: the option crs of the layer, --crs on the command line.",
     );
   });
 

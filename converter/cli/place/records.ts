@@ -40,7 +40,7 @@ const LONGEST_RECORD = 65535;
 /**
  * Settles how a data set is placed: by its similarity, or by an engine over the bounds of its points.
  *
- * @param bounds of the points themselves: the transformation holds there and nowhere else
+ * @param bounds of the points themselves: the transformation holds there and one step around, and nowhere else
  * @param scale LAS scale factors, source units
  * @throws CrsError, PlacementError, ProjError
  */
@@ -59,9 +59,8 @@ export async function makeRecords(
   if (isInSpace(crs)) {
     return encoded({ version: 1, crs, engine: ENGINE, accuracy: accuracyParts(crs, scale, TOLERANCE) });
   }
-  const [minX, minY, minZ] = min;
-  const [maxX, maxY, maxZ] = max;
-  const domain = { minX, minY, minZ, maxX, maxY, maxZ };
+  const domain = domainOf(min, max, scale);
+  const { minZ, maxZ } = domain;
   const { transformation, report } = await engineTransformation(crs, domain, choice, surroundings);
   const bytes = encodeTransformation(transformation);
   const truth = truthOf({ crs, transformation: bytes }, (minZ + maxZ) / 2, surroundings.file);
@@ -72,6 +71,16 @@ export async function makeRecords(
   });
   const georeference = { version: 1, crs, engine: report.engine, operation, accuracy } as const;
   return { ...encoded(georeference), transformation: bytes, fitBound: report.fitBound };
+}
+
+/**
+ * The bounds of the points and one step of their integers around: whoever asks for a surveyed point of the scan asks
+ * with the digits that rounding to the steps has taken.
+ */
+function domainOf(min: readonly number[], max: readonly number[], scale: ArrayLike<number>): Domain {
+  const [minX, minY, minZ] = min.map((least, axis) => least - scale[axis]);
+  const [maxX, maxY, maxZ] = max.map((greatest, axis) => greatest + scale[axis]);
+  return { minX, minY, minZ, maxX, maxY, maxZ };
 }
 
 /** Geocentric coordinates are ECEF but for their unit: there is nothing to fit. */
