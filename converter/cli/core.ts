@@ -84,7 +84,7 @@ const program = fileURLToPath(
   new URL(`../target/release/groma-core${process.platform === "win32" ? ".exe" : ""}`, import.meta.url),
 );
 
-/** When the converter core was built, milliseconds; results of an older one are made again. */
+/** Path of the converter core; what an older one made is made again. */
 export const coreProgram = program;
 
 /**

@@ -4,7 +4,7 @@ import { mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { exactTransform, resolveCrs, toEcef } from "@groma/georef";
+import { exactTransform, placePoint, resolveCrs } from "@groma/georef";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { ORIGIN, SIZE } from "./area.js";
 import { generateSample } from "./generate.js";
@@ -127,7 +127,7 @@ describe("WKT of the sample", () => {
     const crs = resolveCrs({ file: "sample.las", wkt: LV95_LN02_WKT });
     expect(crs).toMatchObject({ code: "EPSG:2056+5728", height: { kind: "geoid", epsg: 5728 } });
     const ecef = new Float64Array(3);
-    toEcef(crs, exactTransform(crs), ORIGIN.east, ORIGIN.north, 0, ecef);
+    placePoint(exactTransform(crs), ORIGIN.east, ORIGIN.north, 0, ecef);
     // PROJ 9.5.1: inverse somerc, then the three parameters between push and pop of v_3, then cart on WGS 84.
     const truth = [4349312.341707739, 603841.4891293793, 4610448.230783753];
     expect(Math.hypot(...truth.map((value, axis) => value - ecef[axis]))).toBeLessThan(1e-3);

@@ -20,7 +20,7 @@ export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
 export { eastNorthUp, type Frame } from "./ellipsoid/frame.js";
 export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
-export { ENGINE, type ExactTransform, exactTransform, toEcef } from "./engines/exact.js";
+export { ENGINE, type ExactTransform, exactTransform } from "./engines/exact.js";
 export {
   placePoint,
   pointTransform,

@@ -1,4 +1,4 @@
-import { type Crs, CrsError, type CrsSources, exactTransform, resolveCrs, toEcef } from "@groma/georef";
+import { type Crs, CrsError, type CrsSources, exactTransform, placePoint, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import { distance, lookup } from "./truth.js";
 
@@ -17,7 +17,7 @@ function wkt1({
 
 function ecef(crs: Crs, x: number, y: number, z = 0): Float64Array {
   const out = new Float64Array(3);
-  toEcef(crs, exactTransform(crs), x, y, z, out);
+  placePoint(exactTransform(crs), x, y, z, out);
   return out;
 }
 

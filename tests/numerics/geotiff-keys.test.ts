@@ -1,4 +1,4 @@
-import { exactTransform, type GeoTiffKeys, resolveCrs, toEcef } from "@groma/georef";
+import { exactTransform, type GeoTiffKeys, placePoint, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import { distance, lookup } from "./truth.js";
 
@@ -65,8 +65,8 @@ describe("GeoTIFF keys", () => {
     const keys = read(...OREGON);
     const wkt = resolveCrs({ file: "f", given: "EPSG:2994" }, lookup);
     const [a, b] = [new Float64Array(3), new Float64Array(3)];
-    toEcef(keys, exactTransform(keys), 637000, 850000, 400, a);
-    toEcef(wkt, exactTransform(wkt), 637000, 850000, 400, b);
+    placePoint(exactTransform(keys), 637000, 850000, 400, a);
+    placePoint(exactTransform(wkt), 637000, 850000, 400, b);
     // Half a micrometre of it is the false easting, given to nine places here and to three there.
     expect(distance(a, b)).toBeLessThan(1e-5);
     expect(keys.horizontalUnit.size).toBe(0.3048);

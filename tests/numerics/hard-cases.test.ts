@@ -6,8 +6,8 @@ import {
   fitPatchwork,
   geodeticToEcef,
   PlacementError,
+  placePoint,
   resolveCrs,
-  toEcef,
   undulationOf,
   WGS84,
 } from "@groma/georef";
@@ -73,13 +73,13 @@ describe.skipIf(missing)(titled("hard cases of place at their own tolerance"), (
     const series = (row: HardCase) => Number(row.input.lon) - 15 > 50;
     it.each(named(of("TM exact").filter((row) => !series(row))))("%s", (_, row) => {
       const crs = resolveCrs({ file: row.name, given: String(row.input.crs) }, lookup);
-      toEcef(crs, exactTransform(crs), Number(row.truth.x), Number(row.truth.y), 0, out);
+      placePoint(exactTransform(crs), Number(row.truth.x), Number(row.truth.y), 0, out);
       geodeticToEcef(radians(Number(row.input.lon)), radians(Number(row.input.lat)), 0, want);
       expect(distance(out, want)).toBeLessThanOrEqual(tolerance(row));
     });
     it.each(named(of("TM exact").filter(series)))("%s: refused by name", (_, row) => {
       const crs = resolveCrs({ file: row.name, given: String(row.input.crs) }, lookup);
-      const place = () => toEcef(crs, exactTransform(crs), Number(row.truth.x), Number(row.truth.y), 0, out);
+      const place = () => placePoint(exactTransform(crs), Number(row.truth.x), Number(row.truth.y), 0, out);
       expect(place).toThrow(PlacementError);
       expect(place).toThrow("PLACE_DOMAIN");
     });
@@ -91,7 +91,7 @@ describe.skipIf(missing)(titled("hard cases of place at their own tolerance"), (
     it.each(named(of("LAEA")))("%s", (_, row) => {
       const crs = resolveCrs({ file: row.name, given: String(row.input.crs) }, lookup);
       const [x, y] = row.input.xy as [number, number];
-      toEcef(crs, exactTransform(crs), x, y, 0, out);
+      placePoint(exactTransform(crs), x, y, 0, out);
       geodeticToEcef(radians(Number(row.truth.lon)), radians(Number(row.truth.lat)), 0, want);
       expect(distance(out, want)).toBeLessThanOrEqual(tolerance(row));
     });
@@ -101,7 +101,7 @@ describe.skipIf(missing)(titled("hard cases of place at their own tolerance"), (
     const out = new Float64Array(3);
     it.each(named(of("reprojection").filter((row) => row.input.proj)))("%s", (_, row) => {
       const crs = resolveCrs({ file: row.name, given: String(row.input.proj) });
-      toEcef(crs, exactTransform(crs), ...triple(row.input.xyz), out);
+      placePoint(exactTransform(crs), ...triple(row.input.xyz), out);
       expect(distance(out, triple(row.truth.xyz))).toBeLessThanOrEqual(tolerance(row));
     });
 
@@ -113,7 +113,7 @@ describe.skipIf(missing)(titled("hard cases of place at their own tolerance"), (
       const crs = resolveCrs({ file: row.name, given: String(row.input.crs) }, lookup);
       const metric = { ...crs, verticalUnit: { ...METRE, declared: true } };
       const xyz = triple(row.input.xyz);
-      toEcef(crs, exactTransform(metric, xyz[2]), ...xyz, out);
+      placePoint(exactTransform(metric, xyz[2]), ...xyz, out);
       expect(distance(out, triple(row.truth.xyz))).toBeLessThanOrEqual(tolerance(row));
     });
 

@@ -3,7 +3,7 @@ import type { Crs } from "../crs/crs.js";
 import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import { type Ellipsoid, ellipsoid, WGS84 } from "../ellipsoid/ellipsoid.js";
 import { geodeticToEcef } from "../ellipsoid/geodetic-to-ecef.js";
-import { CrsError, PlacementError } from "../errors.js";
+import { CrsError } from "../errors.js";
 
 /**
  * The map source CRS → ECEF, exactly linear in z for a fixed (x, y), Helmert shifts included:
@@ -156,33 +156,6 @@ function keepingHeight(shape: Ellipsoid, shift: Helmert, vertical: number, middl
       out[offset + axis + 3] = slope * vertical;
     }
   };
-}
-
-/**
- * One point of a CRS in ECEF.
- *
- * @param z in source units, above the height reference that the CRS's ellipsoid stands for
- * @param out receives X, Y, Z in metres
- * @throws PlacementError PLACE_DOMAIN when the CRS has no such place
- */
-export function toEcef(
-  crs: Pick<Crs, "name">,
-  exact: ExactTransform,
-  x: number,
-  y: number,
-  z: number,
-  out: Float64Array,
-): void {
-  const parts = new Float64Array(6);
-  exact(x, y, parts, 0);
-  for (let axis = 0; axis < 3; axis++) out[axis] = parts[axis] + z * parts[axis + 3];
-  if (Number.isFinite(out[0]) && Number.isFinite(out[1]) && Number.isFinite(out[2])) return;
-  throw new PlacementError({
-    code: "PLACE_DOMAIN",
-    file: crs.name,
-    cause: `(${x}, ${y}, ${z}) is no place in this coordinate reference system`,
-    fix: "check the coordinates and their order, easting or longitude first",
-  });
 }
 
 /** EPSG:4978 and its like: x and y are X and Y, z runs along Z. */
