@@ -17,15 +17,15 @@ describe("a broken file gives one error, and no file", () => {
   for (const [name, code] of broken) {
     const { path, missing } = data(`las-variants/${name}`);
     const reason = coreMissing ?? missing;
-    test.skipIf(reason)(titled(`${name}: ${code}`, reason), () => {
-      withFolder((folder) => {
+    test.skipIf(reason)(titled(`${name}: ${code}`, reason), () =>
+      withFolder(async (folder) => {
         copyFileSync(path, join(folder, "in"));
-        const { status, events } = convert([join(folder, "in"), join(folder, "out.copc.laz")]);
+        const { status, events } = await convert([join(folder, "in"), join(folder, "out.copc.laz")]);
         expect(status).toBe(1);
         expect(events.filter((line) => line.event === "error")).toHaveLength(1);
         expect(events.at(-1)).toMatchObject({ event: "error", code });
         expect(filesOf(folder)).toEqual(["in"]);
-      });
-    });
+      }),
+    );
   }
 });

@@ -1,10 +1,15 @@
-"""Compares a COPC file with the inputs it was made of: `compare.py COPC INPUT...`, prints one JSON object.
+"""Compares COPC files with the inputs they were made of.
 
-laspy reads both sides; lazrs decodes every chunk on its own; copclib gives a second opinion on the nodes.
+Standard input: [[COPC file, [input, ...]], ...]; standard output: one object per file, or { "error": text }.
+laspy reads both sides; lazrs decodes every chunk on its own; copclib and laspy's CopcReader give a second and a third
+opinion; `rules.py` has the rules of the format.
 """
 
 import json
 import sys
+import traceback
+from decimal import Decimal
+from fractions import Fraction
 
 import copclib
 import laspy
@@ -12,14 +17,21 @@ import lazrs
 import numpy as np
 from copc_file import CopcFile
 from records import as_format_6_to_8, same_multiset
+from rules import broken_rules
+
+# Up to so many points every reader reads all of them; above, one node and the first chunks stand for the rest.
+ALL_BY_ALL = 100_000
+NODES_AT_A_TIME = 1_000_000
 
 
-def decode(copc, node, vlr):
-    """The records of one node, from nothing but the bytes of its chunk."""
-    chunk = np.frombuffer(copc.bytes, np.uint8, node.size, node.offset)
-    out = np.zeros(node.points * copc.record_length, np.uint8)
-    lazrs.decompress_points_with_chunk_table(chunk, copc.laszip, out, [(node.points, node.size)])
-    return out.reshape(node.points, copc.record_length)
+def decode(copc, nodes):
+    """The records of some nodes, each from nothing but the bytes that the hierarchy gives it."""
+    data = np.frombuffer(b"".join(copc.bytes[n.offset : n.offset + n.size] for n in nodes), np.uint8)
+    count = sum(node.points for node in nodes)
+    out = np.zeros(count * copc.record_length, np.uint8)
+    table = [(node.points, node.size) for node in nodes]
+    lazrs.decompress_points_with_chunk_table(data, copc.laszip, out, table)
+    return out.reshape(count, copc.record_length)
 
 
 def positions(rows, copc):
@@ -28,80 +40,144 @@ def positions(rows, copc):
     return integers * np.array(copc.scale) + np.array(copc.offset)
 
 
-def check_nodes(copc, dtype):
-    """Reads every node by itself; returns all records and counts of what is wrong."""
-    vlr = lazrs.LazVlr(copc.laszip)
-    wrong = {"outsideCube": 0, "orphans": 0, "notContiguous": 0, "empty": 0}
-    keys = {node.key for node in copc.nodes}
-    parts, end = [], copc.points_at + 8
-    for node in sorted(copc.nodes, key=lambda n: n.offset):
-        level, x, y, z = node.key
-        wrong["orphans"] += level > 0 and (level - 1, x >> 1, y >> 1, z >> 1) not in keys
-        wrong["notContiguous"] += node.offset != end
-        wrong["empty"] += node.points <= 0
-        end = node.offset + node.size
-        rows = decode(copc, node, vlr)
-        low, high = copc.cube(node.key)
+def groups(nodes):
+    """Nodes in lists of about a million points."""
+    group, points = [], 0
+    for node in nodes:
+        group.append(node)
+        points += node.points
+        if points >= NODES_AT_A_TIME:
+            yield group
+            group, points = [], 0
+    if group:
+        yield group
+
+
+def check_points(copc):
+    """Reads every node by itself; returns all records, their bounds, and how many lie outside of their node."""
+    parts, outside = [], 0
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for group in groups(copc.chunks()):
+        rows = decode(copc, group)
         xyz = positions(rows, copc)
-        wrong["outsideCube"] += int(((xyz < low) | (xyz > high)).any(axis=1).sum())
+        counts = [node.points for node in group]
+        cubes = np.repeat(np.array([copc.cube(node.key) for node in group]), counts, axis=0)
+        outside += int(((xyz < cubes[:, 0]) | (xyz > cubes[:, 1])).any(axis=1).sum())
+        low, high = np.minimum(low, xyz.min(axis=0)), np.maximum(high, xyz.max(axis=0))
         parts.append(rows)
-    rows = np.concatenate(parts)
-    return rows.reshape(-1).view(dtype), wrong
+    return np.concatenate(parts), tuple(low), tuple(high), outside
 
 
-def second_opinion(path, copc):
-    """What copclib makes of the file."""
+def copclib_agrees(path, copc):
+    """Whether copclib finds the same nodes and in each the same bytes."""
     reader = copclib.FileReader(path)
     nodes = reader.GetAllNodes()
-    ours = {node.key: (node.offset, node.size, node.points) for node in copc.nodes}
-    theirs = {(n.key.d, n.key.x, n.key.y, n.key.z): (n.offset, n.byte_size, n.point_count) for n in nodes}
-    largest = max(nodes, key=lambda n: n.point_count)
-    data = bytes(byte if isinstance(byte, int) else ord(byte) for byte in reader.GetPointData(largest))
-    key = (largest.key.d, largest.key.x, largest.key.y, largest.key.z)
-    mine = next(node for node in copc.nodes if node.key == key)
-    same = data == decode(copc, mine, lazrs.LazVlr(copc.laszip)).tobytes()
-    return {"sameNodes": ours == theirs, "sameLargestNode": same}
+    ours = {node.key: node for node in copc.nodes}
+    if len(nodes) != len(ours):
+        return False
+    for node in nodes:
+        mine = ours.get((node.key.d, node.key.x, node.key.y, node.key.z))
+        if mine is None or (mine.offset, mine.size, mine.points) != (node.offset, node.byte_size, node.point_count):
+            return False
+    wanted = nodes if copc.count <= ALL_BY_ALL else [max(nodes, key=lambda n: n.point_count)]
+    for node in wanted:
+        if node.point_count == 0:
+            continue
+        mine = ours[(node.key.d, node.key.x, node.key.y, node.key.z)]
+        if np.asarray(reader.GetPointData(node)).tobytes() != decode(copc, [mine]).tobytes():
+            return False
+    return True
+
+
+def laspy_agrees(path, in_nodes):
+    """Whether laspy reads the same records, as a LAZ file by its chunk table and as COPC by its hierarchy."""
+    with laspy.open(path) as reader:
+        points = reader.read_points(ALL_BY_ALL) if len(in_nodes) > ALL_BY_ALL else reader.read().points
+        if points.array.tobytes() != in_nodes[: len(points)].tobytes():
+            return False
+    with laspy.CopcReader.open(path) as reader:
+        if len(in_nodes) > ALL_BY_ALL:
+            return len(reader.query(level=0)) > 0
+        return same_multiset(reader.query().array, in_nodes)
+
+
+def rescaled(integers, scale, offset, to_scale, to_offset):
+    """Integers of one scale and offset as those of another, by exact decimals; ValueError where that is not exact."""
+    exact = [Fraction(Decimal(repr(float(v)))) for v in (scale, offset, to_scale, to_offset)]
+    factor, shift = exact[0] / exact[2], (exact[1] - exact[3]) / exact[2]
+    values = [int(v) * factor + shift for v in integers]
+    if any(value.denominator != 1 for value in values):
+        raise ValueError("a coordinate has no exact integer in the output")
+    return np.array([int(value) for value in values], np.int64)
+
+
+def expected_records(las, copc, dtype):
+    """What the output has to hold of one input."""
+    records = as_format_6_to_8(las, dtype)
+    header = las.header
+    if (*header.scales, *header.offsets) == (*copc.scale, *copc.offset):
+        return records
+    records = records.copy()
+    for axis, name in enumerate("XYZ"):
+        form = (header.scales[axis], header.offsets[axis], copc.scale[axis], copc.offset[axis])
+        records[name] = rescaled(records[name], *form)
+    return records
 
 
 def wkt(las):
     """The text of a file's WKT record, or None."""
-    record = next((v for v in las.header.vlrs if (v.user_id, v.record_id) == ("LASF_Projection", 2112)), None)
+    records = [*las.header.vlrs, *(las.evlrs or [])]
+    record = next((v for v in records if (v.user_id, v.record_id) == ("LASF_Projection", 2112)), None)
     return None if record is None else record.record_data_bytes().rstrip(b"\0")
 
 
-def main(path, inputs):
+def no_constant(text):
+    raise ValueError(f"{text} is not JSON")
+
+
+def compare(path, inputs):
     copc = CopcFile(path)
-    output = laspy.read(path)
-    dtype = output.points.array.dtype
+    rules = broken_rules(copc)
+    with laspy.open(path) as reader:
+        dtype = reader.header.point_format.dtype()
+        output_wkt = copc.record("LASF_Projection", 2112)
     sources = [laspy.read(name) for name in inputs]
-    expected = np.concatenate([as_format_6_to_8(las, dtype) for las in sources])
-    in_nodes, wrong = check_nodes(copc, dtype)
-    xyz = positions(in_nodes.view(np.uint8).reshape(len(in_nodes), -1), copc)
+    expected = np.concatenate([expected_records(las, copc, dtype) for las in sources])
+    rows, low, high, outside = check_points(copc)
+    in_nodes = rows.reshape(-1).view(dtype)
     returns = np.bincount(in_nodes["bit_fields"] & 15, minlength=16)[1:]
     first = sources[0].header
-    times = in_nodes["gps_time"]
-    report = {
+    forms = {(*las.header.scales, *las.header.offsets) for las in sources}
+    times = in_nodes["gps_time"][np.isfinite(in_nodes["gps_time"])]
+    source_time = first.global_encoding.gps_time_type.value if first.version.minor >= 2 else 0
+    return {
         "points": copc.count,
         "expectedPoints": len(expected),
-        "hierarchySum": sum(node.points for node in copc.nodes),
         "nodes": len(copc.nodes),
-        "pages": copc.pages,
         "levels": 1 + max(node.key[0] for node in copc.nodes),
         "largestNode": max(node.points for node in copc.nodes),
-        "wrong": wrong,
+        "broken": rules,
+        "outsideCube": outside,
         "sameRecords": same_multiset(in_nodes, expected),
-        "sameRecordsByChunkTable": np.array_equal(output.points.array, in_nodes),
-        "sameScaleAndOffset": (*copc.scale, *copc.offset) == (*first.scales, *first.offsets),
-        "sameBounds": (*copc.min, *copc.max) == (*xyz.min(axis=0), *xyz.max(axis=0)),
+        "sameScaleAndOffset": len(forms) > 1 or (*copc.scale, *copc.offset) in forms,
+        "sameBounds": (*copc.min, *copc.max) == (*low, *high),
         "sameReturns": copc.by_return == tuple(returns.tolist()),
-        "sameGpsTimes": bool(not np.isfinite(times).all() or copc.info.gps_time == (times.min(), times.max())),
-        "sameWkt": wkt(output) == wkt(sources[0]),
-        "copclib": second_opinion(path, copc),
-        "statistics": json.loads(copc.record("groma", 2)),
+        "sameGpsTimes": copc.info.gps_time == ((times.min(), times.max()) if len(times) else (0.0, 0.0)),
+        "sameGpsTimeType": copc.encoding & 1 == source_time,
+        "sameWkt": (None if output_wkt is None else output_wkt.rstrip(b"\0")) == wkt(sources[0]),
+        "copclib": copclib_agrees(path, copc),
+        "laspy": laspy_agrees(path, in_nodes),
+        "statistics": json.loads(copc.record("groma", 2), parse_constant=no_constant),
         "records": [[user, record_id] for user, record_id, _ in copc.vlrs],
     }
-    json.dump(report, sys.stdout)
+
+
+def attempt(job):
+    try:
+        return compare(*job)
+    except Exception:
+        return {"error": traceback.format_exc()}
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2:])
+    json.dump([attempt(job) for job in json.load(sys.stdin)], sys.stdout)

@@ -1,7 +1,7 @@
 import { join } from "node:path";
 import { expect } from "vitest";
 import { pythonMissing, runPython } from "../python.js";
-import { convert, coreMissing, withFolder } from "./core.js";
+import { convert, coreMissing, inPairs, type Outcome } from "./core.js";
 
 /** Why comparisons with the referees are skipped, in the order of what is missing. */
 export const refereesMissing = coreMissing ?? pythonMissing;
@@ -10,34 +10,72 @@ export const refereesMissing = coreMissing ?? pythonMissing;
 export interface Comparison {
   points: number;
   nodes: number;
+  levels: number;
   largestNode: number;
   statistics: { rgbBits: number | null; classes: Record<string, number> };
   records: [user: string, recordId: number][];
+  /** What stopped the comparison; then nothing else is there. */
+  error?: string;
 }
 
-/** Converts scans into one COPC file and lets laspy, lazrs and copclib say whether all is in it. */
-export function expectFaithful(inputs: readonly string[]): Comparison {
-  return withFolder((folder) => {
-    const output = join(folder, "out.copc.laz");
-    const { status, events } = convert([...inputs, output]);
-    expect(events.at(-1)).toMatchObject({ event: "done" });
-    expect(status).toBe(0);
-    const found = runPython<Comparison & Record<string, unknown>>("interop/compare.py", [output, ...inputs]);
-    expect(found).toMatchObject({
-      hierarchySum: found.points,
-      expectedPoints: found.points,
-      wrong: { outsideCube: 0, orphans: 0, notContiguous: 0, empty: 0 },
-      sameRecords: true,
-      sameRecordsByChunkTable: true,
-      sameScaleAndOffset: true,
-      sameBounds: true,
-      sameReturns: true,
-      sameGpsTimes: true,
-      sameWkt: true,
-      copclib: { sameNodes: true, sameLargestNode: true },
-    });
-    return found;
+/** A conversion and what the referees say of it. */
+export interface Converted {
+  outcome: Outcome;
+  /** Undefined where the conversion failed. */
+  found: Comparison | undefined;
+}
+
+/** What each input list becomes. */
+export interface Job {
+  readonly inputs: readonly string[];
+  readonly options?: readonly string[];
+}
+
+/** Compares COPC files with their inputs, all of them in one process of Python. */
+export function compareAll(
+  jobs: readonly (readonly [output: string, inputs: readonly string[]])[],
+): Comparison[] {
+  return jobs.length === 0 ? [] : runPython<Comparison[]>("interop/compare.py", [], JSON.stringify(jobs));
+}
+
+/** Converts every job to a COPC file in the folder, and compares all of them in one go. */
+export async function convertAndCompare(folder: string, jobs: readonly Job[]): Promise<Converted[]> {
+  const output = (index: number) => join(folder, `out-${index}.copc.laz`);
+  const numbered = jobs.map((job, index) => ({ ...job, index }));
+  const outcomes = await inPairs(numbered, ({ inputs, options = [], index }) =>
+    convert([...inputs, output(index), ...options]),
+  );
+  const done = numbered.filter(({ index }) => outcomes[index]!.status === 0);
+  const found = compareAll(done.map(({ inputs, index }) => [output(index), inputs] as const));
+  const byIndex = new Map(done.map(({ index }, place) => [index, found[place]]));
+  return outcomes.map((outcome, index) => ({ outcome, found: byIndex.get(index) }));
+}
+
+/** Expects that the referees found every record once and every rule kept. */
+export function expectFaithful(found: Comparison | undefined, name = ""): Comparison {
+  expect(found?.error, name).toBeUndefined();
+  expect(found, name).toMatchObject({
+    expectedPoints: found?.points,
+    broken: [],
+    outsideCube: 0,
+    sameRecords: true,
+    sameScaleAndOffset: true,
+    sameBounds: true,
+    sameReturns: true,
+    sameGpsTimes: true,
+    sameGpsTimeType: true,
+    sameWkt: true,
+    copclib: true,
+    laspy: true,
   });
+  return found as Comparison;
+}
+
+/** Expects a conversion that succeeded and lost nothing. */
+export function expectConverted({ outcome, found }: Converted, name = ""): Comparison {
+  expect(outcome, name).toMatchObject({ status: 0, signal: null });
+  expect(outcome.events.at(-1), name).toMatchObject({ event: "done" });
+  return expectFaithful(found, name);
 }
 
 /** The name of a test, with the reason where it is skipped. */
