@@ -20,6 +20,7 @@ export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
 export { eastNorthUp, type Frame } from "./ellipsoid/frame.js";
 export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
+export { type DerivedOptions, deriveTransformation } from "./engines/derived.js";
 export { ENGINE, type ExactTransform, exactTransform } from "./engines/exact.js";
 export {
   placePoint,
@@ -42,12 +43,14 @@ export { fitPlacement } from "./georeference/fit.js";
 export { place } from "./georeference/place.js";
 export { placeIntegers } from "./georeference/place-integers.js";
 export type { Domain, Placement, Scheme } from "./georeference/placement.js";
+export { boundsOfPlaces, spread } from "./grid/area.js";
 export { type Bounds, cutWindow, type Grid } from "./grid/window.js";
 export {
   type AccuracyPart,
   accuracyParts,
   EGM96,
   EGM96_ACCURACY,
+  EGM96_NOTE,
   type Placing,
   type StatedAccuracy,
   similarityParts,
@@ -63,6 +66,7 @@ export { localCrs } from "./similarity/local-crs.js";
 export { decodeTransformation } from "./transformation/decode.js";
 export { encodeTransformation } from "./transformation/encode.js";
 export { type CompiledTransformation, compileTransformation } from "./transformation/evaluate.js";
+export { type GivenHeights, withHeights } from "./transformation/given-heights.js";
 export type { PointTransform } from "./transformation/link.js";
 export { fitPatchwork, PATCHWORK_TOLERANCE, type ProjectionSampler } from "./transformation/patchwork.js";
 export { domainOf, type Rectangle } from "./transformation/rectangle.js";
@@ -80,4 +84,14 @@ export type {
   Transformation,
   VerticalShiftStep,
 } from "./transformation/step.js";
+export { decodeEgm96, egm96Grid, egm96Step, egm96Undulation, encodeEgm96 } from "./vertical/egm96.js";
+export { guessHeight, type HeightGuess } from "./vertical/guess.js";
+export {
+  type EpsgRow,
+  type HeightClues,
+  likelySystems,
+  type VerticalSystem,
+  verticalLookup,
+  verticalSystems,
+} from "./vertical/systems.js";
 export { type Undulation, undulationOf } from "./vertical/undulation.js";

@@ -1,6 +1,6 @@
 /**
  * Completes layer/dist after tsc: the worker as one file without bare imports, so that any bundler and any
- * server can load it, and the decoder's WebAssembly beside it.
+ * server can load it, the decoder's WebAssembly beside it, and the tables of height systems.
  */
 import { copyFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -20,3 +20,5 @@ await bundle.write({
   codeSplitting: false,
 });
 await bundle.close();
+
+await import("./height-assets.mjs");

@@ -1,4 +1,11 @@
-export { PointCloud, type PointCloudOptions, type SourceBox, type StreamLimits } from "./cloud/index.js";
+export {
+  guessHeights,
+  type HeightData,
+  PointCloud,
+  type PointCloudOptions,
+  type SourceBox,
+  type StreamLimits,
+} from "./cloud/index.js";
 export { DecodeError, FormatError, SourceError, StyleError } from "./errors/index.js";
 export type { ByteSource, CloudStatistics, HttpOptions, ReadOptions, SourceLike } from "./sources/index.js";
 export {

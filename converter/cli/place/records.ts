@@ -7,6 +7,7 @@ import {
   encodeRecord,
   encodeTransformation,
   type GeoreferenceRecord,
+  guessHeight,
   type OperationReport,
   pointTransform,
   similarityParts,
@@ -15,10 +16,11 @@ import {
 } from "@groma/georef";
 import type { PointBounds } from "../core.js";
 import type { Georeferenced } from "../georeference.js";
-import { guessHeight } from "../proj/egm96.js";
+import { egm96 } from "../proj/egm96.js";
 import { type EngineReport, UNKNOWN_HEIGHT_NOTE } from "../proj/report.js";
 import { type EngineChoice, type EngineSurroundings, engineTransformation } from "./engine.js";
 import { geoidsOf } from "./geoids.js";
+import { heightSystems } from "./height-systems.js";
 
 /** Bound on the drawn position that the page keeps by default, metres. */
 export const TOLERANCE = 0.001;
@@ -64,7 +66,7 @@ export async function makeRecords(
   const { transformation, report } = await engineTransformation(crs, domain, choice, surroundings);
   const bytes = encodeTransformation(transformation);
   const truth = truthOf({ crs, transformation: bytes }, (minZ + maxZ) / 2, surroundings.file);
-  const guess = crs.height.kind === "unknown" ? await guessFor(truth, domain) : undefined;
+  const guess = crs.height.kind === "unknown" ? await guessFor(crs, truth, domain) : undefined;
   const operation = operationReport(report, guess);
   const accuracy = accuracyParts(crs, scale, TOLERANCE + report.fitBound, {
     ...{ operation, geoids: geoidsOf(truth), guess },
@@ -117,6 +119,7 @@ function operationReport(report: EngineReport, guess: string | undefined): Opera
 
 /** What heights of unknown reference may be, in words; nothing where the middle of the data set has no place. */
 async function guessFor(
+  crs: Crs,
   truth: Truth,
   { minX, minY, minZ, maxX, maxY, maxZ }: Domain,
 ): Promise<string | undefined> {
@@ -125,5 +128,5 @@ async function guessFor(
   if (!ecef.every(Number.isFinite)) return undefined;
   const geodetic = new Float64Array(3);
   ecefToGeodetic(ecef[0], ecef[1], ecef[2], geodetic);
-  return (await guessHeight(geodetic[0], geodetic[1])).note;
+  return guessHeight(await egm96(), heightSystems(), crs, geodetic[0], geodetic[1]).note;
 }

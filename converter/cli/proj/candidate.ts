@@ -1,6 +1,13 @@
 import { basename } from "node:path";
-import { type Bounds, type Domain, type GridWindow, GromaError, PlacementError } from "@groma/georef";
-import { boundsOfPlaces, spread } from "./area.js";
+import {
+  type Bounds,
+  boundsOfPlaces,
+  type Domain,
+  type GridWindow,
+  GromaError,
+  PlacementError,
+  spread,
+} from "@groma/georef";
 import { runPipeline, runToRadians } from "./cct.js";
 import type { Proj } from "./find.js";
 import { cutFrom } from "./grids/cut.js";

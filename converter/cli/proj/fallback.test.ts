@@ -1,6 +1,13 @@
-import { type Crs, compileTransformation, type Domain, resolveCrs } from "@groma/georef";
+import {
+  type Crs,
+  compileTransformation,
+  cutWindow,
+  type Domain,
+  guessHeight,
+  resolveCrs,
+} from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { egm96Window, guessHeight } from "./egm96.js";
+import { egm96 } from "./egm96.js";
 import { proj4jsTransformation } from "./fallback.js";
 import { findProj } from "./find.js";
 import { projTransformation } from "./transformation.js";
@@ -66,7 +73,7 @@ describe("without PROJ", () => {
 
 describe("EGM96", () => {
   it("has its nodes where the model has them, across the antimeridian too", async () => {
-    const window = await egm96Window({
+    const window = cutWindow(await egm96(), {
       west: 179.6 * DEGREE,
       east: 180.3 * DEGREE,
       south: -17.2 * DEGREE,
@@ -86,7 +93,13 @@ describe("EGM96", () => {
     [375, 50, 44.8],
     [0, 90, 13.61],
   ])("stands at %d°, %d° by %d m", async (longitude, latitude, expected) => {
-    const { undulation, note } = await guessHeight(longitude * DEGREE, latitude * DEGREE);
+    const { undulation, note } = guessHeight(
+      await egm96(),
+      [],
+      crsOf(OREGON),
+      longitude * DEGREE,
+      latitude * DEGREE,
+    );
     expect(Math.abs(undulation - expected)).toBeLessThan(0.05);
     expect(note).toContain(`${Math.abs(undulation).toFixed(1)} m ${undulation < 0 ? "lower" : "higher"}`);
   });

@@ -1,21 +1,25 @@
 import {
   type Bounds,
+  boundsOfPlaces,
   type Crs,
   CrsError,
   type Domain,
   EGM96,
+  EGM96_NOTE,
   ecefToGeodetic,
+  egm96Step,
   type GromaError,
   PATCHWORK_TOLERANCE,
   PlacementError,
+  spread,
   type Transformation,
 } from "@groma/georef";
-import { boundsOfPlaces, degreeBox, spread } from "./area.js";
+import { degreeBox } from "./area.js";
 import { assemble } from "./assemble.js";
 import { type Choice, choose, type PassedOver } from "./candidate.js";
 import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
-import { EGM96_NOTE, egm96Step } from "./egm96.js";
+import { egm96 } from "./egm96.js";
 import type { Proj } from "./find.js";
 import { type DegreeBox, listOperations, type Operation } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
@@ -182,7 +186,7 @@ function notesFor(crs: Crs, { candidate }: Choice, substitute: boolean): string[
 async function withEgm96(transformation: Transformation, ecef: Float64Array): Promise<Transformation> {
   const bounds = geodeticBounds(ecef);
   const last = transformation.steps[transformation.steps.length - 1];
-  return { steps: [...transformation.steps.slice(0, -1), await egm96Step(bounds), last] };
+  return { steps: [...transformation.steps.slice(0, -1), egm96Step(await egm96(), bounds), last] };
 }
 
 function geodeticBounds(ecef: Float64Array): Bounds {

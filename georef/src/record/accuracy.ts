@@ -42,6 +42,15 @@ export const EGM96 = "EGM96";
  */
 export const EGM96_ACCURACY = 4;
 
+/** Said of heights by EGM96 in a country's height system. */
+export const EGM96_NOTE =
+  `height by the geoid model ${EGM96} instead of the country's own: expect some decimetres, in mountains up to about ` +
+  `${EGM96_ACCURACY} m`;
+
+/** Heights above EGM96 itself (EPSG:5773) lose the rounding of its nodes to a centimetre alone, metres (5.3 mm met). */
+const EGM96_ROUNDING = 0.006;
+const EGM96_HEIGHT = 5773;
+
 /**
  * The parts of a data set's accuracy that follow from its CRS, the LAS scale factors and its placement: quantisation,
  * fit, datum operation, height.
@@ -119,6 +128,9 @@ function heightPart(height: Crs["height"], placing: Placing | undefined): Accura
     return { name, metres: null, note: placing?.guess ?? "reference unknown, drawn as ellipsoidal" };
   }
   if (!placing) return { name, metres: null, note: `${height.model}: drawn without its geoid` };
+  if (placing.geoids.includes(EGM96) && height.epsg === EGM96_HEIGHT) {
+    return { name, metres: EGM96_ROUNDING, note: `${height.model}: nodes rounded to a centimetre` };
+  }
   if (placing.geoids.includes(EGM96)) {
     return { name, metres: EGM96_ACCURACY, note: `${height.model}: by ${EGM96} in place of its own geoid` };
   }

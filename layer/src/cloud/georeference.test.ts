@@ -1,16 +1,22 @@
 import {
   type Crs,
+  EGM96,
+  EGM96_ACCURACY,
   ENGINE,
+  egm96Grid,
   encodeRecord,
   type GeoreferenceRecord,
   placePoint,
   resolveCrs,
+  type VerticalSystem,
 } from "@groma/georef";
 import { beforeAll, describe, expect, it } from "vitest";
+import { SourceError } from "../errors/index.js";
 import { BlobSource, openCopc } from "../sources/index.js";
 import { type TinyCopc, tinyCopc } from "../sources/tiny-copc.fixture.js";
 import { transformationBytes } from "../workers/transformation.fixture.js";
 import { type GeoreferenceOptions, georeferenceOf } from "./georeference.js";
+import type { HeightData } from "./height-data.js";
 
 const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
 const resolved = resolveCrs({ file: "a", given: UTM, givenVertical: "ellipsoidal" });
@@ -51,6 +57,29 @@ const SIMILARITY = {
   matrix: [0, 0, 0.5, 0.5, 0, 0, 0, 0.5, 0],
 } as const;
 
+/** Height systems as a page has them, above a geoid that is as high everywhere. */
+const GLOBAL_UNDULATION = 45.25;
+const system = (code: number, name: string, size = 1, depth = false): VerticalSystem => ({
+  ...{ code, name, depth, unit: { name: size === 1 ? "metre" : "foot", size } },
+  ...{ area: [-180, -90, 180, 90], partners: [] },
+});
+const heightData: HeightData = {
+  systems: async () => [
+    system(5728, "LN02 height"),
+    system(8228, "Foot height", 0.3048),
+    system(5861, "LAT depth", 1, true),
+    system(5773, "EGM96 height"),
+    system(9999, "Flat height"),
+  ],
+  egm96: async () => egm96Grid(() => GLOBAL_UNDULATION),
+};
+/** Data that cannot be had. */
+const noHeightData: HeightData = {
+  systems: () => Promise.reject(new SourceError(OFFLINE)),
+  egm96: () => Promise.reject(new SourceError(OFFLINE)),
+};
+const OFFLINE = { code: "SOURCE_HEIGHTS", file: "egm96.bin", cause: "it cannot be had", fix: "Look" };
+
 let transformation: Uint8Array;
 
 beforeAll(async () => {
@@ -64,7 +93,7 @@ function withRecords(georeference: GeoreferenceRecord, third?: Uint8Array): Tiny
 
 async function open(file: TinyCopc, options: GeoreferenceOptions = {}) {
   const copc = await openCopc(new BlobSource(new Blob([tinyCopc(file).slice()]), "tiny.copc.laz"));
-  return georeferenceOf(copc, options);
+  return georeferenceOf(copc, { heightData, ...options });
 }
 
 function placed({ truth }: Awaited<ReturnType<typeof open>>, x: number, y: number, z: number): number[] {
@@ -99,11 +128,11 @@ describe("georeferenceOf a file with a transformation", () => {
     );
   });
 
-  it.each<[string, GeoreferenceOptions]>([
-    ["a coordinate system", { crs: UTM, vertical: "ellipsoidal" }],
-    ["a height reference", { vertical: "ellipsoidal" }],
-  ])("leaves it where the user gives %s, and says so", async (_, options) => {
-    const georeference = await open(withRecords(record, transformation), options);
+  it("leaves it where the user gives a coordinate system, and says so", async () => {
+    const georeference = await open(withRecords(record, transformation), {
+      crs: UTM,
+      vertical: "ellipsoidal",
+    });
     const ellipsoidal = await open({}, { crs: UTM, vertical: "ellipsoidal" });
     expect(distance(placed(georeference, 30, 70, 5), placed(ellipsoidal, 30, 70, 5))).toBe(0);
     expect(georeference).toMatchObject({
@@ -124,20 +153,69 @@ describe("georeferenceOf a file with a transformation", () => {
     });
   });
 
-  it("takes the unit of a height system that brings its own", async () => {
-    const feet = `VERT_CS["Foot height",VERT_DATUM["Foot datum",2005],UNIT["foot",0.3048],AXIS["Up",UP]]`;
-    const epsg = () => ({ name: "Foot height", wkt: feet, kind: "CRS-VERTCRS" });
-    const { crs: other, accuracy } = await open(withRecords(record, transformation), {
-      vertical: "EPSG:8228",
-      epsg,
-    });
-    expect(other).toMatchObject({ height: { kind: "geoid", epsg: 8228 }, verticalUnit: { size: 0.3048 } });
-    expect(accuracy.total).toBeNull();
+  it.each<[string, string, number, number]>([
+    ["ellipsoidal", "WGS 84 / UTM zone 32N + ellipsoidal height", 0, 1],
+    ["EPSG:5728", "WGS 84 / UTM zone 32N + LN02 height", GLOBAL_UNDULATION, 1],
+    ["EPSG:8228", "WGS 84 / UTM zone 32N + Foot height", GLOBAL_UNDULATION, 0.3048],
+  ])("goes its way in plane and changes heights alone for %s", async (vertical, name, lift, unit) => {
+    const georeference = await open(withRecords(record, transformation), { vertical });
+    const inPlane = await open(withRecords(record, transformation));
+    const expected = placed(inPlane, 30, 70, 5 * unit + lift - UNDULATION);
+    expect(distance(placed(georeference, 30, 70, 5), expected)).toBeLessThan(1e-6);
+    const geoids = lift === 0 ? [] : [EGM96];
+    expect(georeference).toMatchObject({ basis: "given", engine: record.engine, geoids, crs: { name } });
+    expect(georeference.operation).toMatchObject({ name: record.operation?.name, grids: geoids });
+    expect(georeference.operation?.notes.join()).toContain("heights is replaced");
   });
 
-  it("CRS_UNKNOWN for a code without a table of codes", async () => {
-    await expect(open(withRecords(record, transformation), { vertical: "EPSG:5728" })).rejects.toThrow(
-      expect.objectContaining({ code: "CRS_UNKNOWN" }),
+  it("stands as it is where the user gives what it has", async () => {
+    const georeference = await open(withRecords(record, transformation), { vertical: "EPSG:9999" });
+    expect(georeference).toMatchObject({
+      basis: "record",
+      geoids: ["flat.tif"],
+      operation: record.operation,
+    });
+    expect(georeference.accuracy.total).toBeCloseTo(0.046, 12);
+  });
+
+  it("says what EGM96 is worth in place of another geoid, and what of its own", async () => {
+    const part = async (vertical: string) =>
+      (await open(withRecords(record, transformation), { vertical })).accuracy.parts.find(
+        ({ name }) => name === "height",
+      );
+    expect(await part("EPSG:5728")).toEqual({
+      name: "height",
+      metres: EGM96_ACCURACY,
+      note: "LN02 height: by EGM96 in place of its own geoid; given by the user",
+    });
+    expect(await part("EPSG:5773")).toMatchObject({ metres: 0.006 });
+  });
+
+  it("takes the table of the application before its own", async () => {
+    const feet = `VERT_CS["Foot height",VERT_DATUM["Foot datum",2005],UNIT["foot",0.3048],AXIS["Up",UP]]`;
+    const epsg = () => ({ name: "Foot height", wkt: feet, kind: "CRS-VERTCRS" });
+    const { crs: other } = await open(withRecords(record, transformation), { vertical: "EPSG:5728", epsg });
+    expect(other).toMatchObject({ height: { kind: "geoid", epsg: 5728 }, verticalUnit: { size: 0.3048 } });
+  });
+
+  it.each([
+    ["CRS_UNKNOWN", "EPSG:2056", /EPSG:2056 is none of the height systems/],
+    ["CRS_UNKNOWN", "EPSG:1", /EPSG:1 is none of the height systems/],
+    ["CRS_UNKNOWN", "NAP", /"NAP" is no height reference/],
+    ["CRS_UNKNOWN", "EPSG:2056+5728", /is no height reference/],
+    ["CRS_UNSUPPORTED", "EPSG:5861", /"LAT depth" counts depths, not heights/],
+  ])("%s for %s", async (code, vertical, cause) => {
+    for (const file of [withRecords(record, transformation), {}]) {
+      await expect(
+        open(file, { crs: undefined, vertical, ...("records" in file ? {} : { crs: UTM }) }),
+      ).rejects.toThrow(expect.objectContaining({ code, cause: expect.stringMatching(cause) }));
+    }
+  });
+
+  it("SOURCE_HEIGHTS where the data of height systems cannot be had", async () => {
+    const options = { vertical: "EPSG:5728", heightData: noHeightData };
+    await expect(open(withRecords(record, transformation), options)).rejects.toThrow(
+      expect.objectContaining({ code: "SOURCE_HEIGHTS" }),
     );
   });
 
@@ -162,6 +240,37 @@ describe("georeferenceOf a file with a transformation", () => {
     await expect(open({ records: [["groma", 3, transformation]] })).rejects.toThrow(
       expect.objectContaining({ code: "CRS_MISSING" }),
     );
+  });
+});
+
+describe("georeferenceOf a file without a transformation", () => {
+  const VERTICAL = `VERT_CS["LN02 height",VERT_DATUM["Landesnivellement 1902",2005],UNIT["metre",1],AXIS["Up",UP]]`;
+  const epsg = () => ({ name: "LN02 height", wkt: VERTICAL, kind: "CRS-VERTCRS" });
+  const lift = async (options: GeoreferenceOptions, scale = 1) => {
+    const ellipsoidal = placed(await open({}, { crs: UTM, vertical: "ellipsoidal" }), 30, 70, 5 * scale);
+    return distance(placed(await open({}, { crs: UTM, ...options }), 30, 70, 5), ellipsoidal);
+  };
+
+  it("lifts heights of the system given by EGM96", async () => {
+    expect(await lift({ vertical: "EPSG:5728" })).toBeCloseTo(GLOBAL_UNDULATION, 5);
+    expect(await lift({ vertical: "EPSG:8228" }, 0.3048)).toBeCloseTo(GLOBAL_UNDULATION, 5);
+    expect(await lift({ vertical: "EPSG:5728", epsg })).toBeCloseTo(GLOBAL_UNDULATION, 5);
+    const { accuracy, geoids, basis } = await open({}, { crs: UTM, vertical: "EPSG:5728" });
+    expect([geoids, basis]).toEqual([[EGM96], "given"]);
+    expect(accuracy.parts).toContainEqual(
+      expect.objectContaining({ name: "height", metres: EGM96_ACCURACY }),
+    );
+  });
+
+  it("lifts heights that its own words declare, or draws them as they are and says why", async () => {
+    const text = `COMPD_CS["UTM + LN02",PROJCS["WGS 84 / UTM zone 32N",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",9],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]],${VERTICAL}]`;
+    expect(await lift({ crs: text })).toBeCloseTo(GLOBAL_UNDULATION, 5);
+    expect(await lift({ crs: text, heightData: noHeightData })).toBeLessThan(1e-6);
+    const { accuracy } = await open({}, { crs: text, heightData: noHeightData });
+    expect(accuracy.parts.find(({ name }) => name === "height")).toEqual({
+      ...{ name: "height", metres: null },
+      note: "LN02 height: drawn without its geoid; it cannot be had",
+    });
   });
 });
 

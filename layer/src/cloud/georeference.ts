@@ -7,6 +7,7 @@ import {
   type EpsgLookup,
   fitPlacement,
   type GeoreferenceRecord,
+  GromaError,
   type OperationReport,
   PlacementError,
   RecordError,
@@ -18,19 +19,30 @@ import {
   truthOf,
 } from "@groma/georef";
 import type { CopcFile } from "../sources/index.js";
-import { withHeights } from "./heights.js";
+import { type HeightData, packagedHeights } from "./height-data.js";
+import {
+  crsWithHeights,
+  derivedByEgm96,
+  lookupFor,
+  operationRegiven,
+  regiven,
+  sameHeights,
+} from "./heights.js";
 
 /** What an application says about a data set's coordinates; it goes before what the file says. */
 export interface GeoreferenceOptions {
   /** Coordinate system: `EPSG:2056`, `EPSG:2056+5728`, a PROJ string, WKT or PROJJSON. */
   readonly crs?: string | undefined;
   /**
-   * Height reference: `EPSG:5728` or `ellipsoidal`. A page has no geoids: where this replaces what the conversion
-   * found, heights above one are drawn as if they were ellipsoidal, and the accuracy says so.
+   * Height reference: `EPSG:5728` or `ellipsoidal`. Where the conversion settled the same one it stands as it is. Else
+   * heights above a geoid are placed by EGM96 in place of a country's own model, and the accuracy says what that is
+   * worth; in plane the conversion's way stays.
    */
   readonly vertical?: string | undefined;
-  /** Table of EPSG codes, where `crs` or `vertical` names one that needs it. Default: none. */
+  /** Table of EPSG codes, where `crs` names one. Vertical codes need none. Default: none. */
   readonly epsg?: EpsgLookup | undefined;
+  /** Where height systems and the geoid come from. Default: the files beside this library, fetched when needed. */
+  readonly heightData?: HeightData | undefined;
   /** Greatest distance of a drawn point from its exact place, metres. Default: 0.001. */
   readonly tolerance?: number | undefined;
 }
@@ -63,26 +75,93 @@ const LOST = "the transformation of the conversion is no longer in the file; der
  * Settles the coordinate system of a file.
  * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED
  * @throws RecordError where the file's georeference record or its transformation is damaged
+ * @throws SourceError SOURCE_HEIGHTS where a height reference is given that needs data which cannot be had
  */
-export function georeferenceOf(copc: CopcFile, options: GeoreferenceOptions): Georeference {
+export async function georeferenceOf(copc: CopcFile, options: GeoreferenceOptions): Promise<Georeference> {
   const record = copc.georeference && decodeRecord(copc.georeference, copc.source.name);
-  const given = options.crs !== undefined || options.vertical !== undefined;
-  if (record && !given) return recorded(record, copc, options);
-  const { header, source, wkt, geoTiff, transformation } = copc;
-  const { crs: named, vertical, epsg, tolerance = 0.001 } = options;
-  const crs =
-    record && vertical !== undefined && named === undefined
-      ? withHeights(record, vertical, source.name, epsg)
-      : resolveCrs({ file: source.name, given: named, givenVertical: vertical, wkt, geoTiff }, epsg);
+  const { crs: named, vertical, heightData = packagedHeights } = options;
+  if (record && named === undefined && vertical === undefined) return recorded(record, copc, options);
+  const { source, wkt, geoTiff } = copc;
+  const epsg =
+    vertical === undefined ? options.epsg : await lookupFor(vertical, source.name, options.epsg, heightData);
+  if (record && named === undefined && vertical !== undefined) {
+    const crs = crsWithHeights(record, vertical, source.name, epsg);
+    if (copc.transformation && sameHeights(crs, record.crs)) return recorded(record, copc, options);
+    if (copc.transformation) return withOtherHeights(record, copc.transformation, crs, copc, options);
+    return fromCrs(crs, copc, options);
+  }
+  return fromCrs(
+    resolveCrs({ file: source.name, given: named, givenVertical: vertical, wkt, geoTiff }, epsg),
+    copc,
+    options,
+  );
+}
+
+/** As the conversion settled it in plane, with the heights that the application gives. */
+async function withOtherHeights(
+  { engine, operation }: GeoreferenceRecord,
+  bytes: Uint8Array,
+  crs: Crs,
+  copc: CopcFile,
+  { tolerance = 0.001, heightData = packagedHeights }: GeoreferenceOptions,
+): Promise<Georeference> {
+  const egm96 = crs.height.kind === "geoid" ? await heightData.egm96() : undefined;
+  const map = derived({ crs, transformation: regiven(bytes, crs, copc, egm96) }, copc);
+  const report = operation && operationRegiven(operation, map.truth, crs);
+  const placing = { operation: report ?? UNSTATED, geoids: map.geoids };
+  const bound = greatestBound(map.truth, copc, tolerance);
+  const parts = accuracyParts(crs, copc.header.scale, bound, placing);
+  return {
+    ...map,
+    ...{ crs, basis: "given", engine, operation: report, tolerance },
+    accuracy: statedAccuracy(remarked(parts, "height", GIVEN)),
+  };
+}
+
+const UNSTATED = { name: "not stated", accuracy: null, ballpark: false };
+const GIVEN = "given by the user";
+
+/** By proj4js in the page, heights above a geoid by EGM96. */
+async function fromCrs(crs: Crs, copc: CopcFile, options: GeoreferenceOptions): Promise<Georeference> {
+  const { crs: named, vertical, tolerance = 0.001 } = options;
+  const given = named !== undefined || vertical !== undefined;
+  const overruled = copc.georeference && copc.transformation;
   const whose = given ? "for the system given by the user" : "derived in the page from the file";
-  const remark = record && transformation ? `${whose}; ${OVERRULED}` : whose;
-  const map = derived({ crs }, copc);
-  const parts = accuracyParts(crs, header.scale, greatestBound(map.truth, copc, tolerance));
+  const by = await transformationByEgm96(crs, copc, options);
+  const map = derived({ crs, ...(by.transformation && { transformation: by.transformation }) }, copc);
+  const placing = by.transformation && {
+    operation: {
+      name: crs.datum?.operation ?? UNSTATED.name,
+      accuracy: crs.datum?.accuracy ?? null,
+      ballpark: false,
+    },
+    geoids: map.geoids,
+  };
+  const parts = accuracyParts(crs, copc.header.scale, greatestBound(map.truth, copc, tolerance), placing);
+  const told = remarked(parts, "datum operation", overruled ? `${whose}; ${OVERRULED}` : whose);
   return {
     ...map,
     ...{ crs, basis: given ? "given" : "file", engine: ENGINE, operation: undefined, tolerance },
-    accuracy: statedAccuracy(remarked(parts, remark)),
+    accuracy: statedAccuracy(by.lack === undefined ? told : remarked(told, "height", by.lack)),
   };
+}
+
+/**
+ * The way to ECEF of heights above a geoid; none for others. What a file only declares is drawn without its geoid where
+ * the geoid cannot be had; what the application gives is not.
+ */
+async function transformationByEgm96(
+  crs: Crs,
+  copc: CopcFile,
+  { vertical, heightData = packagedHeights }: GeoreferenceOptions,
+): Promise<{ transformation?: Uint8Array; lack?: string }> {
+  if (crs.height.kind !== "geoid") return {};
+  try {
+    return { transformation: await derivedByEgm96(crs, copc, await heightData.egm96()) };
+  } catch (thrown) {
+    if (vertical !== undefined || !(thrown instanceof GromaError)) throw thrown;
+    return { lack: thrown.cause };
+  }
 }
 
 /** As the conversion settled it. */
@@ -99,7 +178,7 @@ function recorded(
   const bound = greatestBound(map.truth, copc, tolerance);
   const lost = !transformation && !similarity && (engine.name === "PROJ" || operation !== undefined);
   if (lost) {
-    const parts = remarked(accuracyParts(crs, header.scale, bound), LOST);
+    const parts = remarked(accuracyParts(crs, header.scale, bound), "datum operation", LOST);
     return { ...common, engine: ENGINE, operation: undefined, accuracy: statedAccuracy(parts) };
   }
   // The record's own fit is the converter's default; what holds here is the tolerance of this page.
@@ -135,10 +214,10 @@ function derived(
   return { sources, truth, geoids };
 }
 
-/** Says with the datum operation, the least certain part, that no converter has settled it. */
-function remarked(parts: readonly AccuracyPart[], remark: string): AccuracyPart[] {
+/** Adds to what is said of one part. */
+function remarked(parts: readonly AccuracyPart[], name: string, remark: string): AccuracyPart[] {
   return parts.map((part) => {
-    if (part.name !== "datum operation") return part;
+    if (part.name !== name) return part;
     return { ...part, note: part.note ? `${part.note}; ${remark}` : remark };
   });
 }

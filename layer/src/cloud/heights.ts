@@ -1,4 +1,57 @@
-import { type Crs, CrsError, type EpsgLookup, type GeoreferenceRecord, resolveCrs } from "@groma/georef";
+import {
+  boundsOfPlaces,
+  type Crs,
+  CrsError,
+  compileTransformation,
+  type Domain,
+  decodeTransformation,
+  deriveTransformation,
+  EGM96,
+  EGM96_NOTE,
+  type EpsgLookup,
+  ecefToGeodetic,
+  egm96Step,
+  encodeTransformation,
+  type GeoreferenceRecord,
+  type Grid,
+  type OperationReport,
+  PlacementError,
+  resolveCrs,
+  spread,
+  type Transformation,
+  type Truth,
+  verticalLookup,
+  withHeights,
+} from "@groma/georef";
+import type { CopcFile } from "../sources/index.js";
+import type { HeightData } from "./height-data.js";
+
+const CODE = /^\s*EPSG:(\d{1,6})\s*$/i;
+
+/**
+ * A table that knows a height reference: the application's own, else the one that comes with this library.
+ *
+ * @param vertical `EPSG:5728` or `ellipsoidal`
+ * @throws CrsError CRS_UNKNOWN for a code that neither has
+ * @throws SourceError SOURCE_HEIGHTS
+ */
+export async function lookupFor(
+  vertical: string,
+  file: string,
+  epsg: EpsgLookup | undefined,
+  data: HeightData,
+): Promise<EpsgLookup | undefined> {
+  const code = Number(CODE.exec(vertical)?.[1] ?? Number.NaN);
+  if (Number.isNaN(code) || epsg?.(code)) return epsg;
+  const own = verticalLookup(await data.systems());
+  if (own(code)) return (asked) => epsg?.(asked) ?? own(asked);
+  throw new CrsError({
+    code: "CRS_UNKNOWN",
+    file,
+    cause: `EPSG:${code} is none of the height systems of EPSG`,
+    fix: "give the code of a vertical coordinate system, such as EPSG:5728, or ellipsoidal",
+  });
+}
 
 /**
  * The coordinate system of a record with another height reference. The horizontal part stays as the conversion settled
@@ -7,7 +60,7 @@ import { type Crs, CrsError, type EpsgLookup, type GeoreferenceRecord, resolveCr
  * @param vertical `EPSG:5728` or `ellipsoidal`
  * @throws CrsError CRS_UNKNOWN; CRS_UNSUPPORTED for a data set without a coordinate system
  */
-export function withHeights(
+export function crsWithHeights(
   { crs, similarity }: Pick<GeoreferenceRecord, "crs" | "similarity">,
   vertical: string,
   file: string,
@@ -16,7 +69,7 @@ export function withHeights(
   if (similarity) throw placedAsBody(file);
   const resolved = resolveCrs({ file, given: crs.proj4, givenVertical: vertical }, epsg);
   const { height } = resolved;
-  const { code, ...rest } = crs;
+  const { code, wkt: _, ...rest } = crs;
   // Names and codes of compound systems are those of their parts, joined by a plus.
   const [horizontalCode] = code?.split("+") ?? [];
   const [horizontalName] = crs.name.split(" + ");
@@ -28,6 +81,89 @@ export function withHeights(
     height,
     verticalUnit: height.kind === "geoid" ? resolved.verticalUnit : crs.verticalUnit,
   };
+}
+
+/** Whether two systems measure heights from the same zero, in the same unit. */
+export function sameHeights(a: Crs, b: Crs): boolean {
+  if (a.verticalUnit.size !== b.verticalUnit.size) return false;
+  if (a.height.kind !== "geoid" || b.height.kind !== "geoid") return a.height.kind === b.height.kind;
+  return a.height.epsg !== undefined && a.height.epsg === b.height.epsg;
+}
+
+/**
+ * The way of a conversion in plane, with the heights of another reference: above a geoid by EGM96, else as they are.
+ *
+ * @param bytes the transformation of the conversion
+ * @throws RecordError where it is damaged
+ */
+export function regiven(bytes: Uint8Array, crs: Crs, copc: CopcFile, egm96: Grid | undefined): Uint8Array {
+  const transformation = decodeTransformation(bytes, copc.source.name);
+  const geoid = egm96 && egm96Step(egm96, boundsOf(transformation, copc));
+  return encodeTransformation(withHeights(transformation, { metresPerUnit: crs.verticalUnit.size, geoid }));
+}
+
+/** What the conversion said of its operation, as far as it holds with other heights. */
+export function operationRegiven(
+  { grids, notes, ...rest }: OperationReport,
+  truth: Truth,
+  crs: Crs,
+): OperationReport {
+  const steps = typeof truth === "function" ? [] : truth.transformation.steps;
+  const inPlane = steps.flatMap((step) => (step.kind === "horizontalShift" ? [step.window.grid] : []));
+  const geoid = crs.height.kind === "geoid";
+  const told = notes.filter((note) => !/^height/.test(note));
+  const replaced = "what the operation does to heights is replaced by the height reference given";
+  return {
+    ...rest,
+    grids: [...grids.filter((grid) => inPlane.includes(grid)), ...(geoid ? [EGM96] : [])],
+    notes: [...told, replaced, ...(geoid ? [EGM96_NOTE] : [])],
+  };
+}
+
+/**
+ * The way to ECEF of a file without a transformation of its own whose heights are above a geoid: proj4js in plane,
+ * EGM96 for the heights.
+ *
+ * @throws PlacementError PLACE_POLE, PLACE_ANTIMERIDIAN, PLACE_DOMAIN, PLACE_PATCHWORK
+ */
+export async function derivedByEgm96(crs: Crs, copc: CopcFile, egm96: Grid): Promise<Uint8Array> {
+  const file = copc.source.name;
+  return encodeTransformation(await deriveTransformation(crs, domainOf(copc), { egm96, file }));
+}
+
+/** The bounds of the points, and one step of their integers around. */
+function domainOf({ header: { min, max, scale } }: CopcFile): Domain {
+  const [minX, minY, minZ] = min.map((least, axis) => least - scale[axis]);
+  const [maxX, maxY, maxZ] = max.map((greatest, axis) => greatest + scale[axis]);
+  return { minX, minY, minZ, maxX, maxY, maxZ };
+}
+
+/** Where the data set lies on the earth. */
+function boundsOf(transformation: Transformation, copc: CopcFile) {
+  const { evaluate } = compileTransformation(transformation, copc.source.name);
+  const [min, max] = [copc.header.min, copc.header.max];
+  const points = spread({
+    minX: min[0],
+    minY: min[1],
+    minZ: min[2],
+    maxX: max[0],
+    maxY: max[1],
+    maxZ: max[2],
+  });
+  const places = new Float64Array(points.length);
+  const ecef = new Float64Array(3);
+  for (let i = 0; i < points.length; i += 3) {
+    evaluate(points[i], points[i + 1], points[i + 2], ecef, 0);
+    ecefToGeodetic(ecef[0], ecef[1], ecef[2], places, i);
+  }
+  const bounds = boundsOfPlaces(places);
+  if (bounds) return bounds;
+  throw new PlacementError({
+    code: "PLACE_DOMAIN",
+    file: copc.source.name,
+    cause: "its coordinates lie outside what the transformation in its georeference record covers",
+    fix: "convert the scan again, or give its coordinate system with the option crs",
+  });
 }
 
 function placedAsBody(file: string): CrsError {

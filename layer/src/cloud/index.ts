@@ -1,3 +1,5 @@
 export type { GeoreferenceOptions } from "./georeference.js";
+export type { HeightData } from "./height-data.js";
+export { guessHeights } from "./height-guess.js";
 export { NodeStream, type StreamLimits, type StreamListener, type StreamProgress } from "./node-stream.js";
 export { PointCloud, type PointCloudOptions, type SourceBox } from "./point-cloud.js";

@@ -147,7 +147,7 @@ export class PointCloud {
   static async fromUrl(from: SourceLike, options: PointCloudOptions = {}): Promise<PointCloud> {
     const source = await openSource(from, options);
     const copc = await openCopc(source, { signal: options.signal });
-    const cloud = new PointCloud(copc, georeferenceOf(copc, options), options);
+    const cloud = new PointCloud(copc, await georeferenceOf(copc, options), options);
     try {
       await cloud.#openRoot(options.signal);
     } catch (thrown) {

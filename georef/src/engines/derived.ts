@@ -1,0 +1,107 @@
+import type { Crs } from "../crs/crs.js";
+import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
+import { WGS84 } from "../ellipsoid/ellipsoid.js";
+import { CrsError } from "../errors.js";
+import type { Domain } from "../georeference/placement.js";
+import { boundsOfPlaces, spread } from "../grid/area.js";
+import type { Bounds, Grid } from "../grid/window.js";
+import { fitPatchwork, PATCHWORK_TOLERANCE } from "../transformation/patchwork.js";
+import type { DatumShiftStep, Step, Transformation } from "../transformation/step.js";
+import { egm96Step } from "../vertical/egm96.js";
+import { exactTransform } from "./exact.js";
+
+/** How a transformation is derived. */
+export interface DerivedOptions {
+  /** For heights above a geoid, whichever it is: EGM96. Without it such heights are taken as they are. */
+  readonly egm96?: Grid | undefined;
+  /** Metres that the fit of the projection may be off. Default: {@link PATCHWORK_TOLERANCE}. */
+  readonly tolerance?: number | undefined;
+  /** For error messages. */
+  readonly file?: string | undefined;
+}
+
+const TOWGS84 = /\s\+towgs84=(\S+)/;
+const ARC_SECOND = Math.PI / 648_000;
+
+/**
+ * The way from source coordinates to ECEF as far as `crs.proj4` knows it: proj4js's projection, the seven parameters of
+ * the datum, EGM96 for heights above a geoid. As PROJ does for a CRS without heights of its own, the datum shift leaves
+ * heights alone.
+ *
+ * @param domain source units
+ * @throws CrsError CRS_UNSUPPORTED
+ * @throws PlacementError PLACE_DOMAIN, PLACE_POLE, PLACE_ANTIMERIDIAN, PLACE_PATCHWORK
+ */
+export async function deriveTransformation(
+  crs: Crs,
+  domain: Domain,
+  { egm96, tolerance = PATCHWORK_TOLERANCE, file = crs.name }: DerivedOptions = {},
+): Promise<Transformation> {
+  if (/\+proj=geocent\b/.test(crs.proj4)) throw inSpace(file);
+  const sample = sampler(crs);
+  const patchwork = await fitPatchwork(async (points) => sample(points), domain, tolerance, undefined, file);
+  const steps: Step[] = [{ kind: "projection", patchwork }];
+  if (crs.verticalUnit.size !== 1) steps.push({ kind: "height", metresPerUnit: crs.verticalUnit.size });
+  const shift = datumShift(crs.proj4);
+  if (shift) steps.push(shift);
+  if (egm96 && crs.height.kind === "geoid") steps.push(egm96Step(egm96, boundsOf(sample, domain)));
+  steps.push({ kind: "geocentric", ellipsoid: { a: WGS84.a, f: WGS84.f } });
+  return { steps };
+}
+
+/** x, y pairs to longitude, latitude pairs (radians) of the CRS's own datum. */
+function sampler(crs: Crs): (points: Float64Array) => Float64Array {
+  // Without a shift the geodetic coordinates count as those of WGS 84, so that they come back unchanged.
+  const exact = exactTransform({ ...crs, proj4: crs.proj4.replace(TOWGS84, "") });
+  const parts = new Float64Array(6);
+  const place = new Float64Array(3);
+  return (points) => {
+    const out = new Float64Array(points.length);
+    for (let i = 0; i < points.length; i += 2) {
+      exact(points[i], points[i + 1], parts, 0);
+      ecefToGeodetic(parts[0], parts[1], parts[2], place, 0);
+      out.set(place.subarray(0, 2), i);
+    }
+    return out;
+  };
+}
+
+/** The shift of a PROJ string: position vector rotations in arc-seconds, taken for their sines, as PROJ's `+towgs84`. */
+function datumShift(text: string): DatumShiftStep | undefined {
+  const given = (TOWGS84.exec(text)?.[1] ?? "").split(",").map(Number);
+  if (given.every((value) => value === 0)) return undefined;
+  const [x, y, z] = given;
+  const [rx, ry, rz] = [3, 4, 5].map((i) => (given[i] ?? 0) * ARC_SECOND);
+  const scale = 1 + (given[6] ?? 0) * 1e-6;
+  const number = (key: string) => Number(new RegExp(`\\+${key}=(\\S+)`).exec(text)?.[1] ?? Number.NaN);
+  const a = number("a");
+  const rf = number("rf");
+  const f = Number.isFinite(rf) && rf !== 0 ? 1 / rf : Number.isFinite(number("b")) ? 1 - number("b") / a : 0;
+  return {
+    kind: "datumShift",
+    from: { a, f },
+    to: { a: WGS84.a, f: WGS84.f },
+    translation: [x, y, z],
+    matrix: [1, -rz, ry, rz, 1, -rx, -ry, rx, 1].map((value) => scale * value),
+    keepHeight: true,
+  };
+}
+
+function boundsOf(sample: (points: Float64Array) => Float64Array, domain: Domain): Bounds {
+  const points = spread(domain);
+  const places = new Float64Array(points.length);
+  for (let i = 0; i < points.length; i += 3) places.set(sample(points.slice(i, i + 2)), i);
+  const bounds = boundsOfPlaces(places);
+  // The fit has found a place for every point before.
+  if (!bounds) throw new RangeError("no place to cut the geoid for");
+  return bounds;
+}
+
+function inSpace(file: string): CrsError {
+  return new CrsError({
+    code: "CRS_UNSUPPORTED",
+    file,
+    cause: "its coordinates are geocentric, and have no height of their own",
+    fix: "leave the height reference out",
+  });
+}

@@ -1,0 +1,68 @@
+import type { Domain } from "../georeference/placement.js";
+import type { Bounds } from "./window.js";
+
+/** Points along each side; between two of them a side bends by less than the margin for anything that is a scan. */
+const SIDE = 17;
+/** Radians; about 12 m. */
+const MARGIN = 2e-6;
+/** Share of the extent. */
+const RELATIVE_MARGIN = 0.01;
+
+const TURN = 2 * Math.PI;
+
+/** x, y, z on a raster over a domain, edges included, at its lowest and highest z. */
+export function spread({ minX, minY, minZ, maxX, maxY, maxZ }: Domain): Float64Array {
+  const points = new Float64Array(3 * 2 * SIDE * SIDE);
+  let at = 0;
+  for (const z of [minZ, maxZ]) {
+    for (let i = 0; i < SIDE; i++) {
+      for (let j = 0; j < SIDE; j++) {
+        points[at++] = between(minX, maxX, i / (SIDE - 1));
+        points[at++] = between(minY, maxY, j / (SIDE - 1));
+        points[at++] = z;
+      }
+    }
+  }
+  return points;
+}
+
+function between(from: number, to: number, share: number): number {
+  return from * (1 - share) + to * share;
+}
+
+/**
+ * Bounds of longitude, latitude, height triples (radians), points that are not finite left out; widened by a margin.
+ * Longitudes are taken on the turn nearest to the middle point's.
+ *
+ * @returns nothing when no point is finite
+ */
+export function boundsOfPlaces(places: Float64Array): Bounds | undefined {
+  const middle = middleLongitude(places);
+  if (middle === undefined) return undefined;
+  let [west, south, east, north] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < places.length; i += 3) {
+    if (!Number.isFinite(places[i]) || !Number.isFinite(places[i + 1])) continue;
+    const longitude = places[i] - TURN * Math.round((places[i] - middle) / TURN);
+    west = Math.min(west, longitude);
+    east = Math.max(east, longitude);
+    south = Math.min(south, places[i + 1]);
+    north = Math.max(north, places[i + 1]);
+  }
+  const x = MARGIN / Math.max(0.01, Math.cos((south + north) / 2)) + RELATIVE_MARGIN * (east - west);
+  const y = MARGIN + RELATIVE_MARGIN * (north - south);
+  return {
+    west: west - x,
+    south: Math.max(-Math.PI / 2, south - y),
+    east: east + x,
+    north: Math.min(Math.PI / 2, north + y),
+  };
+}
+
+function middleLongitude(places: Float64Array): number | undefined {
+  const count = places.length / 3;
+  for (let i = 0; i < count; i++) {
+    const longitude = places[3 * ((i + Math.floor(count / 4)) % count)];
+    if (Number.isFinite(longitude)) return longitude;
+  }
+  return undefined;
+}
