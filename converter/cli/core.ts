@@ -1,12 +1,6 @@
-import { type ChildProcess, type ChildProcessByStdio, spawn } from "node:child_process";
-import { existsSync } from "node:fs";
-import { createInterface } from "node:readline";
-import type { Readable, Writable } from "node:stream";
-import { fileURLToPath } from "node:url";
-import { type Fault, GromaError } from "@groma/georef";
+import { coreFailed, runCore } from "./core-process.js";
 
-/** The converter core, the file system or the points made a command fail; the code says which. */
-export class CoreError extends GromaError {}
+export { CoreError, coreProgram } from "./core-process.js";
 
 /** What `groma-core scan` tells of a file: its header and records as they stand, nothing interpreted. */
 export interface Scan {
@@ -70,34 +64,53 @@ export type RecordMaker = (bounds: PointBounds, signal: AbortSignal) => Promise<
 export interface Conversion {
   readonly points: number;
   readonly nodes: number;
+  /** Levels of the octree. */
+  readonly levels?: number;
   readonly bytes: number;
   readonly seconds: number;
+}
+
+/** What a conversion would do, from the headers of its inputs. */
+export interface Plan {
+  readonly inputs: number;
+  readonly points: number;
+  /** Bytes of a record of the output. */
+  readonly recordLength: number;
+  /** Estimate. */
+  readonly levels: number;
+  /** Cells of the coarse level that the points are distributed to. */
+  readonly cells: number;
+  /** Bytes that are used at most. */
+  readonly memory: number;
+  /** Bytes of temporary files in the worst case. */
+  readonly tempBytes: number;
+  readonly tempDir: string;
+  /** Bytes free there. */
+  readonly tempFree: number;
+  /** Estimate, bytes. */
+  readonly outputBytes: number;
+  readonly sampling: string;
 }
 
 type Line =
   | CoreEvent
   | ({ event: "bounds" } & PointBounds)
   | ({ event: "done" } & Conversion)
-  | ({ event: "error" } & Fault);
-
-const program = fileURLToPath(
-  new URL(`../target/release/groma-core${process.platform === "win32" ? ".exe" : ""}`, import.meta.url),
-);
-
-/** Path of the converter core; what an older one made is made again. */
-export const coreProgram = program;
+  | ({ event: "plan" } & Plan);
 
 /**
  * Header and records of a LAS or LAZ file.
  *
  * @throws CoreError INPUT_* when it is no such file
  */
-export async function scanFile(file: string): Promise<Scan> {
+export async function scanFile(file: string, signal?: AbortSignal): Promise<Scan> {
   let scan: Scan | undefined;
-  await run(["scan", file], (line) => {
-    scan = line as unknown as Scan;
-  });
-  if (scan === undefined) throw broken("it said nothing of the file");
+  const onLine = (line: Scan & { readonly event?: string }) => {
+    scan = line;
+    return undefined;
+  };
+  await runCore(["scan", file], onLine, signal);
+  if (scan === undefined) throw coreFailed("it said nothing of the file");
   return scan;
 }
 
@@ -105,108 +118,44 @@ export async function scanFile(file: string): Promise<Scan> {
  * Runs a conversion to its end. Where the records cannot be made, the core is stopped and leaves nothing behind.
  *
  * @param args arguments of `groma-core convert`
- * @throws CoreError INPUT_*, OUTPUT_*, OPTION_*, and whatever `makeRecords` throws
+ * @throws CoreError INPUT_*, OUTPUT_*, OPTION_*, TEMP_*, INTERRUPTED, and whatever `makeRecords` throws
  */
 export async function convertFiles(
   args: readonly string[],
   onEvent: (event: CoreEvent) => void,
   makeRecords: RecordMaker,
+  signal?: AbortSignal,
 ): Promise<Conversion> {
   let done: Conversion | undefined;
-  const onLine = (line: Line) => {
+  const onLine = (line: Line, ended: AbortSignal) => {
+    if (line.event === "bounds") return makeRecords(line, ended).then((files) => JSON.stringify(files));
     if (line.event === "done") done = line;
     else if (line.event === "progress" || line.event === "warning") onEvent(line);
+    return undefined;
   };
-  await run(["convert", ...args, "--wait-for-record"], onLine, makeRecords);
-  if (done === undefined) throw broken("it ended without a result");
+  await runCore(["convert", "--wait-for-record", ...args], onLine, signal);
+  if (done === undefined) throw coreFailed("it ended without a result");
   return done;
 }
 
-/** Runs the core, giving each JSON line of its standard output to `onLine`, and an answer to its bounds. */
-async function run(
+/**
+ * What a conversion with these arguments would do; nothing is written.
+ *
+ * @param args arguments of `groma-core convert`
+ * @throws CoreError as a conversion does before it reads points
+ */
+export async function planFiles(
   args: readonly string[],
-  onLine: (line: Line) => void,
-  makeRecords?: RecordMaker,
-): Promise<void> {
-  if (!existsSync(program)) {
-    throw new CoreError({
-      ...{ code: "CORE_MISSING", file: program, cause: "the converter core is not built" },
-      fix: "run npm run setup",
-    });
-  }
-  const child = spawn(program, args, { stdio: ["pipe", "pipe", "pipe"] });
-  // The core may have ended by itself; then its own error tells why.
-  child.stdin.on("error", () => undefined);
-  let fault: Fault | undefined;
-  let complaint = "";
-  child.stderr.on("data", (chunk: Buffer) => {
-    complaint = (complaint + chunk.toString()).slice(-4096);
-  });
-  const release = passSignals(child);
-  const closed = new Promise<number | null>((resolve, reject) => {
-    child.on("error", reject);
-    child.on("close", resolve);
-  });
-  // A process that is stopped ends its output; whoever reads must not wait for more.
-  closed.catch(() => undefined);
-  const answer = answerer(child, makeRecords);
-  for await (const text of createInterface({ input: child.stdout })) {
-    const line = JSON.parse(text) as Line;
-    if (line.event === "error") fault = line;
-    else if (line.event === "bounds") answer.begin(line);
-    else onLine(line);
-  }
-  const code = await closed;
-  release();
-  await answer.end();
-  if (fault) throw new CoreError(fault);
-  if (code !== 0) throw broken(complaint.trim().split("\n").at(-1) || `it ended with ${code}`);
-}
-
-/** Answers the core when the records are made, and stops it when they cannot be. */
-function answerer(child: ChildProcessByStdio<Writable, Readable, Readable>, makeRecords?: RecordMaker) {
-  const controller = new AbortController();
-  let ended = false;
-  let failure: { readonly error: unknown } | undefined;
-  let work: Promise<void> | undefined;
-  return {
-    begin(bounds: PointBounds): void {
-      work = makeRecords?.(bounds, controller.signal).then(
-        (files) => {
-          child.stdin.end(`${JSON.stringify(files)}\n`);
-        },
-        (error: unknown) => {
-          if (ended) return;
-          failure = { error };
-          child.kill("SIGTERM");
-        },
-      );
-    },
-    /** @throws what the records failed with, unless the core had failed before */
-    async end(): Promise<void> {
-      ended = true;
-      controller.abort();
-      await work;
-      if (failure) throw failure.error;
-    },
+  onEvent: (event: CoreEvent) => void,
+  signal?: AbortSignal,
+): Promise<Plan> {
+  let plan: Plan | undefined;
+  const onLine = (line: Line) => {
+    if (line.event === "plan") plan = line;
+    else if (line.event === "warning") onEvent(line);
+    return undefined;
   };
-}
-
-/** The core hears of SIGINT and SIGTERM and tidies up; this process then ends by the core's error. */
-function passSignals(child: ChildProcess): () => void {
-  const handlers = (["SIGINT", "SIGTERM"] as const).map((signal) => {
-    const handler = () => child.kill(signal);
-    process.on(signal, handler);
-    return () => process.off(signal, handler);
-  });
-  return () => {
-    for (const off of handlers) off();
-  };
-}
-
-function broken(cause: string): CoreError {
-  return new CoreError({
-    ...{ code: "CORE_FAILED", file: program, cause: `the converter core failed: ${cause}` },
-    fix: "report this with the command and, if possible, the file",
-  });
+  await runCore(["convert", "--dry-run", ...args], onLine, signal);
+  if (plan === undefined) throw coreFailed("it ended without a plan");
+  return plan;
 }

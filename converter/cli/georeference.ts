@@ -25,6 +25,9 @@ export interface Georeferenced {
   readonly local?: LocalPlace;
 }
 
+/** What a file says of its coordinates. */
+export type Named = Pick<Scan, "file" | "wkt" | "geoTiff" | "groma">;
+
 /** `--crs none`. */
 const NONE = "none";
 
@@ -34,7 +37,7 @@ const NONE = "none";
  * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED, CRS_TWICE
  * @throws OptionError, RowsError, ControlError
  */
-export async function georeference(scan: Scan, given: Given): Promise<Georeferenced> {
+export async function georeference(scan: Named, given: Given): Promise<Georeferenced> {
   if (isPlaced(given)) {
     refuseSecondPlace(scan, given);
     const local = await localPlace(given);
@@ -49,7 +52,7 @@ export async function georeference(scan: Scan, given: Given): Promise<Georeferen
 }
 
 /** The georeference record of a file that has one, unless it is damaged: a conversion makes it anew. */
-function readable(scan: Scan): GeoreferenceRecord | undefined {
+function readable(scan: Named): GeoreferenceRecord | undefined {
   try {
     return georeferenceRecord(scan);
   } catch (error) {
@@ -59,13 +62,13 @@ function readable(scan: Scan): GeoreferenceRecord | undefined {
 }
 
 /** @throws RecordError RECORD_* */
-export function georeferenceRecord({ file, groma }: Scan): GeoreferenceRecord | undefined {
+export function georeferenceRecord({ file, groma }: Named): GeoreferenceRecord | undefined {
   const record = groma?.["1"];
   return record === undefined ? undefined : decodeRecord(Buffer.from(record, "base64"), file);
 }
 
 /** The coordinate reference system that the user or the file names. */
-function named(scan: Scan, given: Given): Georeferenced {
+function named(scan: Named, given: Given): Georeferenced {
   const geoTiff = scan.geoTiff && {
     directory: Uint16Array.from(scan.geoTiff.directory),
     doubles: Float64Array.from(scan.geoTiff.doubles),
@@ -83,7 +86,7 @@ function named(scan: Scan, given: Given): Georeferenced {
 }
 
 /** The WKT of a file, unless it only says that the coordinates are local. */
-function wktOnEarth({ wkt }: Scan): string | undefined {
+function wktOnEarth({ wkt }: Named): string | undefined {
   const text = wkt?.trim();
   return text && !/^(LOCAL_CS|ENGCRS|ENGINEERINGCRS)\s*[[(]/i.test(text) ? text : undefined;
 }
@@ -95,7 +98,7 @@ function missing(file: string, cause: string): CrsError {
   });
 }
 
-function refuseSecondPlace(scan: Scan, { crs, vertical }: Given): void {
+function refuseSecondPlace(scan: Named, { crs, vertical }: Given): void {
   const file = scan.file;
   const fix = "leave one of them out; --crs none passes over what the file says";
   const cause = "has a place of its own, and --anchor or --control gives another";
@@ -112,7 +115,7 @@ function refuseSecondPlace(scan: Scan, { crs, vertical }: Given): void {
  *
  * @throws CrsError CRS_MIXED with the list when they differ; as {@link georeference}
  */
-export async function commonGeoreference(scans: readonly Scan[], given: Given): Promise<Georeferenced> {
+export async function commonGeoreference(scans: readonly Named[], given: Given): Promise<Georeferenced> {
   const all: Georeferenced[] = [];
   for (const scan of scans) all.push(await georeference(scan, given));
   const meaning = ({ crs, local }: Georeferenced) =>

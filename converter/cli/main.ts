@@ -1,14 +1,11 @@
 #!/usr/bin/env node
+// What a command needs is loaded when it is run, so that help and refused options come at once.
 import { Command, CommanderError, InvalidArgumentError, Option } from "commander";
-import { runConvert } from "./commands/convert.js";
-import { runInfo } from "./commands/info.js";
-import { runLocate } from "./commands/locate.js";
-import { runServe } from "./commands/serve.js";
-import { runView } from "./commands/view.js";
-import { OptionError } from "./option-error.js";
+import { PROGRESS_KINDS, SAMPLINGS } from "./choices.js";
 import { fail } from "./output.js";
-import { ENGINES } from "./place/engine.js";
-import { PROGRESS_KINDS } from "./progress.js";
+import type { EngineChoice } from "./place/engine.js";
+
+const ENGINES: readonly NonNullable<EngineChoice["engine"]>[] = ["proj", "proj4js"];
 
 /** What may be said of the coordinates and of who places them, in the commands that convert. */
 const placing = () => [
@@ -37,6 +34,28 @@ const host = () => new Option("--host <address>", "address to listen on").defaul
 const port = () =>
   new Option("--port <number>", "first port to try, 0 for any").default(8080).argParser(portNumber);
 
+/** What may be said of inputs that PDAL reads. */
+const reading = () => [
+  new Option("--pipeline <FILE>", "PDAL pipeline that the inputs go through; it may name them itself"),
+  new Option("--pdal <PATH>", "program of PDAL, if it is not on PATH"),
+  new Option(
+    "--scale <STEP>",
+    "step of the stored integers for inputs that PDAL reads, in their own units",
+  ).argParser(positive),
+];
+
+function positive(text: string): number {
+  const number = Number(text);
+  if (Number.isFinite(number) && number > 0) return number;
+  throw new InvalidArgumentError("a step is a number greater than 0");
+}
+
+function threadCount(text: string): number {
+  const number = Number(text);
+  if (Number.isInteger(number) && number >= 1 && number <= 1024) return number;
+  throw new InvalidArgumentError("a number of threads is a whole number from 1 to 1024");
+}
+
 function portNumber(text: string): number {
   const number = Number(text);
   if (Number.isInteger(number) && number >= 0 && number <= 65535) return number;
@@ -51,24 +70,35 @@ const program = new Command("groma")
 
 const convert = program
   .command("convert")
-  .description("convert LAS and LAZ files into one COPC file with its georeference")
-  .argument("<files...>", "one or more inputs, then the output")
-  .addOption(new Option("--sampling <S>", "how the points of a node are chosen").choices(["grid"]))
+  .description(
+    "convert scans into one COPC file with its georeference; LAS and LAZ by itself, others through PDAL",
+  )
+  .argument("<paths...>", "files, patterns or folders, then the output")
+  .addOption(new Option("--sampling <S>", "how the points of a node are chosen").choices(SAMPLINGS))
+  .option("--average-colors", "let points of coarse levels have the mean colour of those that they stand for")
+  .addOption(new Option("--threads <N>", "cores to use, all by default").argParser(threadCount))
   .option("--memory <SIZE>", "most memory to use, e.g. 2GB")
-  .option("--temp-dir <DIR>", "folder for scratch files")
+  .option("--temp-dir <DIR>", "folder for temporary files, by default that of the output")
+  .option("--dry-run", "print the plan and write nothing")
+  .option("--json", "with --dry-run: for machines")
   .addOption(progress())
   .option("--overwrite", "replace an output that is there already")
-  .action((files: string[], options, command: Command) => {
-    if (files.length < 2) command.error("error: inputs and an output are needed");
-    return runConvert(files, options);
+  .action(async (paths: string[], options, command: Command) => {
+    const least = options.pipeline === undefined ? 2 : 1;
+    if (paths.length < least) command.error("error: inputs and an output are needed");
+    if (options.json && !options.dryRun) {
+      command.error("error: --json goes with --dry-run; a conversion has --progress json");
+    }
+    const { runConvert } = await import("./commands/convert.js");
+    return runConvert(paths, options);
   });
 
 program
   .command("info")
-  .description("tell what a LAS, LAZ or COPC file is, where it is, and what that is worth")
+  .description("tell what a LAS, LAZ or COPC file is, what is in it, where it is, and what that is worth")
   .argument("<file>")
   .option("--json", "for machines")
-  .action(runInfo);
+  .action(async (file: string, options) => (await import("./commands/info.js")).runInfo(file, options));
 
 program
   .command("locate")
@@ -76,7 +106,7 @@ program
   .argument("<file>")
   .requiredOption("--points <FILE>", "one x y z per line in the file's own coordinates; - for standard input")
   .option("--json", "for machines")
-  .action(runLocate);
+  .action(async (file: string, options) => (await import("./commands/locate.js")).runLocate(file, options));
 
 program
   .command("serve")
@@ -84,7 +114,7 @@ program
   .argument("<folder>")
   .addOption(host())
   .addOption(port())
-  .action(runServe);
+  .action(async (folder: string, options) => (await import("./commands/serve.js")).runServe(folder, options));
 
 const view = program
   .command("view")
@@ -93,9 +123,11 @@ const view = program
   .addOption(progress())
   .addOption(host())
   .addOption(port())
-  .action(runView);
+  .action(async (file: string, options) => (await import("./commands/view.js")).runView(file, options));
 
-for (const command of [convert, view]) for (const option of placing()) command.addOption(option);
+for (const command of [convert, view]) {
+  for (const option of [...placing(), ...reading()]) command.addOption(option);
+}
 for (const command of program.commands) command.copyInheritedSettings(program);
 
 try {
@@ -103,7 +135,16 @@ try {
 } catch (error) {
   if (!(error instanceof CommanderError)) fail(error);
   else if (error.exitCode !== 0) {
-    const cause = error.message.replace(/^error: /, "").replace(/\.$/, "") || "a command is needed";
-    fail(new OptionError({ code: "OPTION_INVALID", file: "groma", cause, fix: "run groma --help" }));
+    const cause = error.message
+      .replace(/^error: /, "")
+      .replace(/\.$/, "")
+      .replace(/\s*\n\s*/g, " ");
+    refuse(cause || "a command is needed");
   }
+}
+
+/** An error like all others, told without what they need. */
+function refuse(cause: string): void {
+  process.exitCode = 1;
+  process.stderr.write(`OPTION_INVALID: groma: ${cause}. Run groma --help.\n`);
 }

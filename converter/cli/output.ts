@@ -1,9 +1,18 @@
-import { GromaError } from "@groma/georef";
+/** What every error of Groma has; told by its members, so that nothing has to be loaded to tell it. */
+interface Told {
+  readonly code: string;
+  readonly fix: string;
+  readonly message: string;
+}
+
+function isTold(error: unknown): error is Told {
+  return error instanceof Error && "code" in error && "fix" in error;
+}
 
 /** Prints an error as `CODE: file: cause. fix.` on standard error; the exit code becomes 1. */
 export function fail(error: unknown): void {
   process.exitCode = 1;
-  if (error instanceof GromaError) {
+  if (isTold(error)) {
     process.stderr.write(`${error.message}\n`);
     return;
   }

@@ -1,9 +1,7 @@
-import { SingleBar } from "cli-progress";
+import type { ProgressKind } from "./choices.js";
 import type { CoreEvent } from "./core.js";
-
-/** How progress is shown: a bar on a terminal, a line now and then, or JSON lines for machines. */
-export const PROGRESS_KINDS = ["bar", "plain", "json"] as const;
-export type ProgressKind = (typeof PROGRESS_KINDS)[number];
+import { count } from "./output.js";
+import { createPace, type Pace } from "./pace.js";
 
 /** Shows the events of a conversion; `stop` leaves the terminal tidy, however it ended. */
 export interface Progress {
@@ -16,48 +14,55 @@ export function defaultProgress(): ProgressKind {
   return process.stderr.isTTY ? "bar" : "plain";
 }
 
-export function createProgress(kind: ProgressKind): Progress {
+export async function createProgress(kind: ProgressKind): Promise<Progress> {
   return { bar, plain, json }[kind]();
 }
 
-/** Share of the whole that each stage takes, by experience, so that one bar runs through. */
-const STAGES: readonly { readonly stage: string; readonly share: number }[] = [
-  { stage: "read", share: 0.4 },
-  { stage: "build", share: 0.15 },
-  { stage: "write", share: 0.45 },
-];
-
-/** Share of the whole conversion that is done, 0 to 1. */
-export function overall(stage: string, done: number, total: number): number {
-  let before = 0;
-  for (const step of STAGES) {
-    if (step.stage === stage) return before + step.share * (total > 0 ? Math.min(1, done / total) : 1);
-    before += step.share;
-  }
-  return 0;
+/** `1,234,567 points/s, 12 s left`; stages that do not count points have no rate. */
+function paceInWords(stage: string, { rate, eta }: Pace): string {
+  const parts = [
+    ...(rate === 0 || stage === "inspect" ? [] : [`${count(rate)} points/s`]),
+    ...(eta === null ? [] : [`${duration(eta)} left`]),
+  ];
+  return parts.join(", ");
 }
 
-function bar(): Progress {
+/** `12 s`, `3 min 20 s`, `2 h 5 min`. */
+function duration(seconds: number): string {
+  if (seconds < 60) return `${seconds} s`;
+  if (seconds < 3600) return `${Math.floor(seconds / 60)} min ${seconds % 60} s`;
+  return `${Math.floor(seconds / 3600)} h ${Math.floor((seconds % 3600) / 60)} min`;
+}
+
+async function bar(): Promise<Progress> {
+  const { SingleBar } = await import("cli-progress");
   const line = new SingleBar({
-    format: "convert  {bar} {percentage} %  {duration_formatted}  {stage}",
+    format: "convert  {bar} {percentage} %  {stage}  {pace}",
     barCompleteChar: "█",
     barIncompleteChar: "░",
     hideCursor: true,
+    clearOnComplete: true,
     stream: process.stderr,
   });
-  line.start(1000, 0, { stage: "" });
+  const pace = createPace();
+  line.start(1000, 0, { stage: "", pace: "" });
   return {
     show(event) {
-      if (event.event === "warning") process.stderr.write(`\nwarning: ${event.text}\n`);
-      else
-        line.update(Math.round(1000 * overall(event.stage, event.done, event.total)), { stage: event.stage });
+      if (event.event === "warning") {
+        process.stderr.write(`\r\x1b[Kwarning: ${event.text}\n`);
+        return;
+      }
+      const { stage, done, total } = event;
+      const now = pace.advance(stage, done, total);
+      line.update(Math.round(1000 * now.overall), { stage, pace: paceInWords(stage, now) });
     },
     stop: () => line.stop(),
   };
 }
 
 /** A line per stage and tenth. */
-function plain(): Progress {
+async function plain(): Promise<Progress> {
+  const pace = createPace();
   let last = "";
   return {
     show(event) {
@@ -65,33 +70,29 @@ function plain(): Progress {
         process.stderr.write(`warning: ${event.text}\n`);
         return;
       }
-      const tenth = event.total > 0 ? Math.floor((10 * event.done) / event.total) : 10;
-      const text = `${event.stage} ${10 * tenth} %`;
-      if (text !== last) process.stderr.write(`${text}\n`);
+      const { stage, done, total } = event;
+      const now = pace.advance(stage, done, total);
+      const tenth = total > 0 ? Math.floor((10 * done) / total) : 10;
+      const text = `${stage} ${10 * tenth} %`;
+      if (text !== last) process.stderr.write(`${`${text}  ${paceInWords(stage, now)}`.trimEnd()}\n`);
       last = text;
     },
     stop: () => undefined,
   };
 }
 
-/** `{ event, stage, done, total, rate, eta }` on standard output: rate in points per second, eta in seconds. */
-function json(): Progress {
-  let stage = "";
-  let began = performance.now();
+/** `{ event, stage, done, total, rate, eta }` on standard output: points per second, seconds to the end of the whole. */
+async function json(): Promise<Progress> {
+  const pace = createPace();
+  const print = (line: object) => process.stdout.write(`${JSON.stringify(line)}\n`);
   return {
     show(event) {
       if (event.event === "warning") {
-        process.stdout.write(`${JSON.stringify(event)}\n`);
+        print(event);
         return;
       }
-      if (event.stage !== stage) {
-        stage = event.stage;
-        began = performance.now();
-      }
-      const seconds = (performance.now() - began) / 1000;
-      const rate = seconds > 0 ? Math.round(event.done / seconds) : 0;
-      const eta = rate > 0 ? Math.max(0, Math.round((event.total - event.done) / rate)) : null;
-      process.stdout.write(`${JSON.stringify({ ...event, rate, eta })}\n`);
+      const { rate, eta } = pace.advance(event.stage, event.done, event.total);
+      print({ ...event, rate, eta });
     },
     stop: () => undefined,
   };

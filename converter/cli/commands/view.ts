@@ -3,20 +3,23 @@ import { existsSync, mkdirSync, statSync } from "node:fs";
 import { homedir } from "node:os";
 import { basename, join, parse, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { convert } from "../conversion/convert.js";
+import type { ConvertOptions } from "../conversion/options.js";
+import { isLas } from "../conversion/sources.js";
+import { placeSummary } from "../conversion/summary.js";
 import { coreProgram, type Scan, scanFile } from "../core.js";
 import { crsInWords, heightInWords } from "../describe.js";
-import { type Given, georeference } from "../georeference.js";
+import { georeference } from "../georeference.js";
+import { interruptible } from "../interruption.js";
 import { count } from "../output.js";
-import { chosenProj, type EngineChoice } from "../place/engine.js";
+import { chosenProj } from "../place/engine.js";
 import { placed } from "../placed.js";
-import type { ProgressKind } from "../progress.js";
+import { createProgress, defaultProgress } from "../progress.js";
 import { mountFile, ServerError, serve } from "../server.js";
-import { convert, placeSummary } from "./convert.js";
 import type { ServeOptions } from "./serve.js";
 
-export interface ViewOptions extends Given, EngineChoice, ServeOptions {
-  readonly progress?: ProgressKind;
-}
+/** Of the options of a conversion, those that `view` takes too say how the file is read and where it is. */
+export interface ViewOptions extends ConvertOptions, ServeOptions {}
 
 /** The built page; served as files, not imported. */
 const page = fileURLToPath(new URL("../../../demo/dist", import.meta.url));
@@ -25,34 +28,39 @@ const page = fileURLToPath(new URL("../../../demo/dist", import.meta.url));
  * The `view` command: converts the file if it is no COPC, serves it with the page, prints the address and goes on
  * serving until the process is stopped.
  *
- * @throws CrsError, PlacementError, ProjError, CoreError, ServerError
+ * @throws CrsError, PlacementError, ProjError, CoreError, PdalError, ServerError
  */
 export async function runView(file: string, options: ViewOptions): Promise<void> {
-  const scan = await scanFile(file);
+  const scan = options.pipeline === undefined && (await isLas(file)) ? await scanFile(file) : undefined;
   if (!existsSync(join(page, "index.html"))) {
     throw new ServerError({
       ...{ code: "SERVER_PAGE", file: page, cause: "the page is not built" },
       fix: "run npm run setup",
     });
   }
-  const title = (name: string, height: string) =>
-    `${basename(file)}  ${count(scan.points)} points  ${name}  height: ${height}\n`;
-  let copc = resolve(file);
-  if (isReady(scan, options)) {
-    const { crs, geoids } = await placed(scan);
-    process.stdout.write(title(crsInWords(crs), heightInWords(crs, geoids)));
-  } else {
+  const ready = scan && isReady(scan, options);
+  if (scan && !ready) {
     const { crs } = await georeference(scan, options);
-    process.stdout.write(title(crsInWords(crs), heightInWords(crs)));
-    copc = await cached(file, options);
+    tell(file, scan, crsInWords(crs), heightInWords(crs));
+  }
+  const copc = ready ? resolve(file) : await cached(file, options);
+  if (!scan || ready) {
+    const shown = scan ?? (await scanFile(copc));
+    const { crs, geoids } = await placed(shown);
+    tell(file, shown, crsInWords(crs), heightInWords(crs, geoids));
   }
   const { address } = await serve([mountFile("/data/", copc), { path: "/", folder: page }], options);
   process.stdout.write(`globe    ${address}?cloud=${encodeURIComponent(`/data/${basename(copc)}`)}\n`);
 }
 
-/** What the user says of coordinates and engine: it makes a conversion necessary, and another one when it changes. */
-function wishes({ crs, vertical, anchor, anchorAt, control, engine, proj, grids }: ViewOptions) {
-  return { crs, vertical, anchor, anchorAt, control, engine, proj, grids };
+function tell(file: string, { points }: Scan, name: string, height: string): void {
+  process.stdout.write(`${basename(file)}  ${count(points)} points  ${name}  height: ${height}\n`);
+}
+
+/** What the user says of reading, coordinates and engine: it makes a conversion necessary, and another when it changes. */
+function wishes(options: ViewOptions) {
+  const { crs, vertical, anchor, anchorAt, control, engine, proj, grids, pipeline, pdal, scale } = options;
+  return { crs, vertical, anchor, anchorAt, control, engine, proj, grids, pipeline, pdal, scale };
 }
 
 /** A COPC is shown as it is, unless the user says something else of its coordinates or the way they are placed. */
@@ -65,10 +73,11 @@ function isReady(scan: Scan, options: ViewOptions): boolean {
  * with its grids has changed.
  */
 async function cached(file: string, options: ViewOptions): Promise<string> {
-  const { control } = options;
+  const { control, pipeline } = options;
+  const besides = [control, pipeline].filter((path) => path !== undefined && path !== "-");
   const proj = await chosenProj(options);
   const identity = [
-    ...[file, coreProgram, ...(control === undefined || control === "-" ? [] : [control])].map(stateOf),
+    ...[file, coreProgram, ...besides].map((path) => stateOf(path!)),
     wishes(options),
     proj && [proj.version, proj.directories.map(stateOf)],
   ];
@@ -77,7 +86,10 @@ async function cached(file: string, options: ViewOptions): Promise<string> {
   const copc = join(folder, `${parse(file).name}.copc.laz`);
   if (existsSync(copc)) return copc;
   mkdirSync(folder, { recursive: true });
-  const converted = await convert([file], copc, { ...options, overwrite: true });
+  const progress = await createProgress(options.progress ?? defaultProgress());
+  const converted = await interruptible((signal) =>
+    convert([file], copc, { ...options, overwrite: true }, (event) => progress.show(event), signal),
+  ).finally(() => progress.stop());
   process.stdout.write(`convert  ${copc}  ${converted.seconds.toFixed(1)} s\n${placeSummary(converted)}`);
   return copc;
 }

@@ -1,0 +1,37 @@
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import type { ConvertOptions } from "./options.js";
+
+/** Inputs that go onto the command line; more of them might not fit. */
+const FEW = 64;
+
+/**
+ * The arguments of `groma-core convert`.
+ *
+ * @param scratch folder for the list of the inputs
+ * @param wkt file of the WKT for an output whose inputs have none
+ */
+export async function coreArguments(
+  inputs: readonly string[],
+  output: string,
+  options: ConvertOptions,
+  scratch: string,
+  wkt?: string,
+): Promise<string[]> {
+  const args: string[] = [];
+  const add = (name: string, value: string | number | undefined) => {
+    if (value !== undefined) args.push(name, String(value));
+  };
+  add("--wkt", wkt);
+  add("--sampling", options.sampling);
+  add("--threads", options.threads);
+  add("--memory", options.memory);
+  add("--temp-dir", options.tempDir);
+  if (options.averageColors) args.push("--average-colors");
+  if (options.overwrite) args.push("--overwrite");
+  const onLine = inputs.length <= FEW || inputs.some((input) => input.includes("\n"));
+  if (onLine) return [...args, "--", ...inputs, output];
+  const list = join(scratch, "inputs.txt");
+  await writeFile(list, inputs.map((input) => `${input}\n`).join(""));
+  return [...args, "--list", list, "--", output];
+}

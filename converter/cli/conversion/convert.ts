@@ -1,0 +1,121 @@
+import { writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { type Conversion, type CoreEvent, convertFiles, type RecordMaker, scanFile } from "../core.js";
+import { type Georeferenced, wktOf } from "../georeference.js";
+import type { Planned } from "../pdal/bring.js";
+import { type PdalReport, pdalReport } from "../pdal/report.js";
+import { type GeoreferenceRecords, makeRecords } from "../place/records.js";
+import { withScratch } from "../scratch.js";
+import { coreArguments } from "./arguments.js";
+import type { ConvertOptions } from "./options.js";
+import { type Preparation, prepare } from "./prepare.js";
+
+/** What a conversion made, and where that stands on the earth. */
+export interface Converted extends Conversion {
+  readonly output: string;
+  readonly georeferenced: Georeferenced;
+  readonly records: GeoreferenceRecords;
+  /** 8 where no colour exceeds 255 in its 16-bit field, null where there is no colour. */
+  readonly rgbBits: 8 | 16 | null;
+  readonly pdal: readonly PdalReport[];
+}
+
+/**
+ * Scans into one COPC file with its georeference records. The output stands whole or not at all.
+ *
+ * @param args files, patterns, folders, addresses
+ * @param signal stops it; nothing is left behind
+ * @throws InputError, CoreError, PdalError, ScratchError, OutputError, CrsError, PlacementError, ProjError
+ */
+export async function convert(
+  args: readonly string[],
+  output: string,
+  options: ConvertOptions,
+  onEvent: (event: CoreEvent) => void,
+  signal?: AbortSignal,
+): Promise<Converted> {
+  const preparation = await prepare(args, output, options, onEvent, signal);
+  // What PDAL writes is as large as the points and belongs where the user has room; records are small.
+  const parent = preparation.pdal ? (options.tempDir ?? dirname(output)) : tmpdir();
+  return withScratch(parent, (scratch) =>
+    convertPrepared(preparation, output, options, scratch, onEvent, signal),
+  );
+}
+
+async function convertPrepared(
+  preparation: Preparation,
+  output: string,
+  options: ConvertOptions,
+  scratch: string,
+  onEvent: (event: CoreEvent) => void,
+  signal?: AbortSignal,
+): Promise<Converted> {
+  const { georeferenced } = preparation;
+  const files = await filesOf(preparation, scratch, onEvent, signal);
+  const { file, scale } = firstOf(preparation);
+  let records: GeoreferenceRecords | undefined;
+  const recordsFor: RecordMaker = async (bounds, ended) => {
+    const surroundings = { text: projString(options.crs), file, signal: ended };
+    records = await makeRecords(georeferenced, bounds, scale, options, surroundings);
+    const record = join(scratch, "georeference.json");
+    await writeFile(record, records.record);
+    if (!records.transformation) return { record };
+    const transformation = join(scratch, "transformation.bin");
+    await writeFile(transformation, records.transformation);
+    return { record, transformation };
+  };
+  const wkt = await wktFile(preparation, options, scratch);
+  const coreArgs = await coreArguments(files, output, options, scratch, wkt);
+  const conversion = await convertFiles(coreArgs, onEvent, recordsFor, signal);
+  if (!records) throw new Error("the converter core has not asked for the records");
+  const { groma } = await scanFile(output);
+  const pdal = plannedOf(preparation).map((planned) => pdalReport(preparation.pdal!, planned));
+  return { ...conversion, output, georeferenced, records, rgbBits: groma?.["2"]?.rgbBits ?? null, pdal };
+}
+
+/** What the core reads: the inputs themselves, and files of PDAL in place of the others. */
+async function filesOf(
+  preparation: Preparation,
+  scratch: string,
+  onEvent: (event: CoreEvent) => void,
+  signal?: AbortSignal,
+): Promise<string[]> {
+  const planned = plannedOf(preparation);
+  if (planned.length === 0)
+    return preparation.inputs.flatMap((input) => ("file" in input ? [input.file] : []));
+  const { write } = await import("../pdal/bring.js");
+  const written = await write(preparation.pdal!, planned, scratch, { onEvent, signal });
+  return preparation.inputs.map((input) =>
+    input.reader === "core" ? input.file : written[planned.indexOf(input.planned)]!,
+  );
+}
+
+function plannedOf({ inputs }: Preparation): Planned[] {
+  return inputs.flatMap((input) => (input.reader === "pdal" ? [input.planned] : []));
+}
+
+/** Name and scale of the first input, as the user knows it. */
+function firstOf({ inputs: [first] }: Preparation): { file: string; scale: readonly number[] } {
+  if (first!.reader === "core") return { file: first!.file, scale: first!.scan.scale };
+  return { file: first!.planned.probe.job.name, scale: first!.planned.form.scale };
+}
+
+/** File of the WKT that the output carries where its inputs' own does not do. */
+async function wktFile(
+  { hasWkt, georeferenced }: Preparation,
+  { crs }: ConvertOptions,
+  scratch: string,
+): Promise<string | undefined> {
+  const replaced = crs !== undefined || georeferenced.local !== undefined;
+  const wkt = hasWkt && !replaced ? undefined : wktOf(georeferenced);
+  if (wkt === undefined) return undefined;
+  const file = join(scratch, "crs.wkt");
+  await writeFile(file, wkt);
+  return file;
+}
+
+/** A PROJ string says more to PROJ than what was read from it: its grids above all. */
+function projString(crs: string | undefined): string | undefined {
+  return crs?.trim().startsWith("+") ? crs : undefined;
+}

@@ -1,0 +1,101 @@
+import { tmpdir } from "node:os";
+import { dirname, resolve } from "node:path";
+import { type CoreEvent, type Plan, planFiles } from "../core.js";
+import { crsInWords, heightInWords } from "../describe.js";
+import type { Georeferenced } from "../georeference.js";
+import { count, size } from "../output.js";
+import { type PdalReport, pdalInWords, pdalReport } from "../pdal/report.js";
+import { freeBytes, withScratch } from "../scratch.js";
+import { coreArguments } from "./arguments.js";
+import type { ConvertOptions } from "./options.js";
+import { prepare } from "./prepare.js";
+
+/** What a conversion would do. */
+export interface DryRun {
+  readonly output: string;
+  /** Number of files and jobs of PDAL. */
+  readonly inputs: number;
+  readonly points: number;
+  readonly georeferenced: Georeferenced;
+  /** What the core would do; undefined where inputs have to go through PDAL first. */
+  readonly core: Plan | undefined;
+  readonly pdal: readonly PdalReport[];
+  /** Folder of PDAL's temporary files and the bytes free there; undefined without PDAL. */
+  readonly pdalTemp: { readonly folder: string; readonly bytes: number; readonly free: number } | undefined;
+}
+
+/**
+ * Does everything of a conversion that comes before its points; PDAL passes over the points that only it can read.
+ *
+ * @throws as a conversion does until then
+ */
+export async function dryRun(
+  args: readonly string[],
+  output: string,
+  options: ConvertOptions,
+  onEvent: (event: CoreEvent) => void,
+  signal?: AbortSignal,
+): Promise<DryRun> {
+  const preparation = await prepare(args, output, options, onEvent, signal);
+  const { inputs, georeferenced } = preparation;
+  const files = inputs.flatMap((input) => (input.reader === "core" ? [input.file] : []));
+  const points = inputs.reduce(
+    (sum, input) => sum + (input.reader === "core" ? input.scan.points : input.planned.probe.points),
+    0,
+  );
+  const pdal = inputs.flatMap((input) =>
+    input.reader === "pdal" ? [pdalReport(preparation.pdal!, input.planned)] : [],
+  );
+  const folder = resolve(options.tempDir ?? dirname(output));
+  const pdalTemp =
+    pdal.length > 0
+      ? { folder, bytes: pdal.reduce((sum, one) => sum + one.tempBytes, 0), free: await freeBytes(folder) }
+      : undefined;
+  const core = pdalTemp
+    ? undefined
+    : await withScratch(tmpdir(), async (scratch) =>
+        planFiles(await coreArguments(files, output, options, scratch), onEvent, signal),
+      );
+  return { output, inputs: inputs.length, points, georeferenced, core, pdal, pdalTemp };
+}
+
+/** The plan as one JSON object. */
+export function planForMachines({ georeferenced, core, ...rest }: DryRun) {
+  const { name, code, height } = georeferenced.crs;
+  const known = core ?? {
+    recordLength: null,
+    levels: null,
+    memory: null,
+    tempBytes: null,
+    outputBytes: null,
+  };
+  return { event: "plan", ...known, ...rest, crs: { name, code, height }, crsFrom: georeferenced.basis };
+}
+
+/** The plan, a line for each thing. */
+export function planInWords({ output, inputs, points, georeferenced, core, pdal, pdalTemp }: DryRun): string {
+  const { crs, basis } = georeferenced;
+  const rows: [string, string][] = [
+    ["inputs", `${count(inputs)}, ${count(points)} points`],
+    ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
+    ["place", `${crsInWords(crs)} (${basis})`],
+    ["height", heightInWords(crs)],
+  ];
+  if (core) {
+    rows.push(
+      [
+        "octree",
+        `about ${core.levels} levels, ${core.recordLength} bytes a point, sampling ${core.sampling}`,
+      ],
+      ["memory", `at most ${size(core.memory)}`],
+      ["temp", `at most ${size(core.tempBytes)} in ${core.tempDir}, ${size(core.tempFree)} free`],
+      ["output", `${output}, about ${size(core.outputBytes)}`],
+    );
+  } else if (pdalTemp) {
+    rows.push(
+      ["temp", `${size(pdalTemp.bytes)} for PDAL in ${pdalTemp.folder}, ${size(pdalTemp.free)} free`],
+      ["output", `${output}; the octree is planned when PDAL has read the inputs`],
+    );
+  }
+  return rows.map(([label, text]) => `${label.padEnd(8)} ${text}\n`).join("");
+}

@@ -1,0 +1,20 @@
+import type { ProgressKind, Sampling } from "../choices.js";
+import type { Given } from "../georeference.js";
+import type { EngineChoice } from "../place/engine.js";
+
+/** What a conversion is told. */
+export interface ConvertOptions extends Given, EngineChoice {
+  readonly sampling?: Sampling;
+  readonly averageColors?: boolean;
+  readonly threads?: number;
+  readonly memory?: string;
+  readonly tempDir?: string;
+  readonly overwrite?: boolean;
+  /** File of a PDAL pipeline that the inputs go through. */
+  readonly pipeline?: string;
+  /** Program of PDAL, or its folder. */
+  readonly pdal?: string;
+  /** Step of the integers for inputs that PDAL reads. */
+  readonly scale?: number;
+  readonly progress?: ProgressKind;
+}

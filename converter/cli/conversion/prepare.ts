@@ -1,0 +1,96 @@
+import { existsSync, statSync } from "node:fs";
+import { dirname } from "node:path";
+import { GromaError } from "@groma/georef";
+import type { CoreEvent, Scan } from "../core.js";
+import { commonGeoreference, type Georeferenced, type Named } from "../georeference.js";
+import type { Planned } from "../pdal/bring.js";
+import type { Pdal } from "../pdal/find.js";
+import type { Job } from "../pdal/pipeline.js";
+import { chosenProj } from "../place/engine.js";
+import { expandInputs } from "./inputs.js";
+import type { ConvertOptions } from "./options.js";
+import { scanAll, sourcesOf } from "./sources.js";
+
+/** The output cannot be written. Codes: OUTPUT_EXISTS, OUTPUT_WRITE, as the core has them. */
+export class OutputError extends GromaError {}
+
+/** An input, and what is known of it before its points are converted. */
+export type Prepared =
+  | { readonly reader: "core"; readonly file: string; readonly scan: Scan }
+  | { readonly reader: "pdal"; readonly planned: Planned };
+
+/** Everything that can be known and refused before points are converted. */
+export interface Preparation {
+  /** At least one. */
+  readonly inputs: readonly Prepared[];
+  readonly georeferenced: Georeferenced;
+  /** Whether an input says its own coordinate reference system as WKT. */
+  readonly hasWkt: boolean;
+  /** Where one of the inputs needs it. */
+  readonly pdal?: Pdal;
+}
+
+/**
+ * Finds the inputs, reads their headers, lets PDAL pass over what only it can read, and settles the coordinate reference
+ * system.
+ *
+ * @param args files, patterns, folders, addresses
+ * @throws InputError, CoreError, PdalError, OutputError, CrsError, ProjError, OptionError
+ */
+export async function prepare(
+  args: readonly string[],
+  output: string,
+  options: ConvertOptions,
+  onEvent: (event: CoreEvent) => void,
+  signal?: AbortSignal,
+): Promise<Preparation> {
+  const sources = await sourcesOf(await expandInputs(args, output), options.pipeline);
+  const files = sources.flatMap((source) => (source.reader === "core" ? [source.file] : []));
+  const jobs = sources.flatMap((source) => (source.reader === "pdal" ? [source.job] : []));
+  // PDAL may take an hour; what the core would refuse after it is refused now.
+  if (jobs.length > 0) requireTarget(output, options.overwrite ?? false);
+  const scans = await scanAll(files, signal);
+  const brought = jobs.length > 0 ? await bring(jobs, options, onEvent, signal) : undefined;
+
+  const inputs = sources.map((source): Prepared => {
+    if (source.reader === "core") return { ...source, scan: scans[files.indexOf(source.file)]! };
+    return { reader: "pdal", planned: brought!.planned[jobs.indexOf(source.job)]! };
+  });
+  const named = inputs.map(namedBy);
+  const georeferenced = await commonGeoreference(named, options);
+  // What is wrong with the choice of the engine is said before the points are read.
+  if (!georeferenced.local) await chosenProj(options);
+  const hasWkt = named.some(({ wkt }) => wkt);
+  return { inputs, georeferenced, hasWkt, ...(brought && { pdal: brought.pdal }) };
+}
+
+function namedBy(input: Prepared): Named {
+  if (input.reader === "core") return input.scan;
+  const { job, wkt } = input.planned.probe;
+  return { file: job.name, ...(wkt && { wkt }) };
+}
+
+async function bring(
+  jobs: readonly Job[],
+  { pdal: given, scale }: ConvertOptions,
+  onEvent: (event: CoreEvent) => void,
+  signal?: AbortSignal,
+): Promise<{ pdal: Pdal; planned: Planned[] }> {
+  const [{ findPdal }, { plan }] = await Promise.all([import("../pdal/find.js"), import("../pdal/bring.js")]);
+  const pdal = await findPdal(given, jobs[0]!.name);
+  return { pdal, planned: await plan(pdal, jobs, { scale, onEvent, signal }) };
+}
+
+function requireTarget(output: string, overwrite: boolean): void {
+  const refuse = (code: string, cause: string, fix: string) =>
+    new OutputError({ code, file: output, cause, fix });
+  if (statSync(output, { throwIfNoEntry: false })?.isDirectory()) {
+    throw refuse("OUTPUT_WRITE", "this is a folder", "name the file that is to be written");
+  }
+  if (!existsSync(dirname(output))) {
+    throw refuse("OUTPUT_WRITE", "its folder is not there", "make the folder, or name another");
+  }
+  if (existsSync(output) && !overwrite) {
+    throw refuse("OUTPUT_EXISTS", "the file is there already", "give --overwrite, or another name");
+  }
+}

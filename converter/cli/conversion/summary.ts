@@ -1,0 +1,58 @@
+import { basename } from "node:path";
+import { statedAccuracy } from "@groma/georef";
+import { placeInWords, remarks } from "../describe.js";
+import { count, length, size } from "../output.js";
+import { pdalInWords } from "../pdal/report.js";
+import type { Converted } from "./convert.js";
+
+/** What a conversion made, for machines: the last of its JSON lines. */
+export function summaryForMachines({ georeferenced, records, ...summary }: Converted) {
+  const { crs, engine, operation, accuracy } = records.georeference;
+  return {
+    event: "done",
+    ...summary,
+    crs: { name: crs.name, code: crs.code, height: crs.height },
+    engine,
+    operation: operation ?? null,
+    residuals: georeferenced.local?.fitted?.residuals ?? null,
+    accuracy: statedAccuracy(accuracy),
+    recordBytes: records.record.length,
+    transformationBytes: records.transformation?.length ?? 0,
+  };
+}
+
+/** What a conversion made, for people. */
+export function summaryInWords(converted: Converted): string {
+  const { output, points, nodes, levels, bytes, seconds } = converted;
+  const octree = `${count(nodes)} nodes${levels === undefined ? "" : ` on ${levels} levels`}`;
+  const each = `${(bytes / points).toPrecision(2)} bytes a point`;
+  const rate = seconds > 0 ? `, ${count(Math.round(points / seconds))} points/s` : "";
+  const first = `${basename(output)}  ${count(points)} points in ${octree}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}\n`;
+  return `${first}${placeSummary(converted)}`;
+}
+
+/** Where the points are, what that is worth, and what has to be known of it, a line each. */
+export function placeSummary({ georeferenced, records, rgbBits, pdal }: Converted): string {
+  const { crs, engine, operation, accuracy } = records.georeference;
+  const lines: [string, string][] = [
+    ["place", placeInWords({ crs, engine, operation, accuracy, fitBound: records.fitBound })],
+    ["accuracy", accuracyInWords(accuracy)],
+    ...remarks(operation).map((text): [string, string] => ["note", text]),
+    ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
+  ];
+  for (const [index, residual] of (georeferenced.local?.fitted?.residuals ?? []).entries()) {
+    lines.push(["control", `point ${index + 1}: ${length(residual)} off`]);
+  }
+  if (rgbBits === 8) {
+    lines.push(["colours", "8 bits in fields of 16: kept as they are, and recorded so that viewers see it"]);
+  }
+  return lines.map(([label, text]) => `${label.padEnd(8)} ${text}\n`).join("");
+}
+
+/** The sum, or what it lacks. */
+function accuracyInWords(parts: Parameters<typeof statedAccuracy>[0]): string {
+  const { total } = statedAccuracy(parts);
+  if (total !== null) return `${length(total)} in all`;
+  const unknown = parts.filter(({ metres }) => metres === null).map(({ name }) => name);
+  return `not known as a whole, for want of: ${unknown.join(", ")}`;
+}

@@ -1,0 +1,59 @@
+/** The stages of a conversion in their order, and the share of its time that each takes, by experience. */
+const STAGES: readonly { readonly stage: string; readonly share: number; readonly ofPdal?: true }[] = [
+  { stage: "inspect", share: 0.4, ofPdal: true },
+  { stage: "pdal", share: 0.6, ofPdal: true },
+  { stage: "read", share: 0.4 },
+  { stage: "build", share: 0.5 },
+  { stage: "write", share: 0.1 },
+];
+
+/** Shares of the whole after which a forecast is more than a guess. */
+const FORECAST_FROM = 0.02;
+
+/** How fast a conversion is, and how long it will take. */
+export interface Pace {
+  /** Points per second of the stage; 0 as long as none is done. */
+  readonly rate: number;
+  /** Seconds to the end of the whole; null as long as nothing can be said. */
+  readonly eta: number | null;
+  /** Share of the whole that is done, 0 to 1. */
+  readonly overall: number;
+}
+
+/** Follows the stages of one conversion. */
+export function createPace(now: () => number = () => performance.now()): {
+  advance(stage: string, done: number, total: number): Pace;
+} {
+  const began = now();
+  let stage = "";
+  let stageBegan = began;
+  let withPdal = false;
+  return {
+    advance(current, done, total) {
+      if (current !== stage) {
+        stage = current;
+        stageBegan = now();
+      }
+      withPdal ||= STAGES.some((step) => step.stage === current && step.ofPdal);
+      const seconds = (now() - stageBegan) / 1000;
+      const rate = seconds > 0 ? Math.round(done / seconds) : 0;
+      const share = overall(current, done, total, withPdal);
+      const elapsed = (now() - began) / 1000;
+      const eta = share >= FORECAST_FROM ? Math.max(0, Math.round((elapsed * (1 - share)) / share)) : null;
+      return { rate, eta, overall: share };
+    },
+  };
+}
+
+/** Share of the whole conversion that is done, 0 to 1. */
+function overall(stage: string, done: number, total: number, withPdal: boolean): number {
+  const stages = STAGES.filter((step) => withPdal || !step.ofPdal);
+  const whole = stages.reduce((sum, { share }) => sum + share, 0);
+  let before = 0;
+  for (const step of stages) {
+    if (step.stage === stage)
+      return (before + step.share * (total > 0 ? Math.min(1, done / total) : 1)) / whole;
+    before += step.share;
+  }
+  return 0;
+}
