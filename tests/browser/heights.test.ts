@@ -1,6 +1,7 @@
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
+import { decodeEgm96, ecefToGeodetic, egm96Undulation } from "@groma/georef";
 import type { Cartesian3 } from "cesium";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
@@ -14,10 +15,15 @@ const folder = join(projectRoot, "tests/artifacts/zones");
 /** Middle of the scan that zones.py makes, degrees and metres above the ellipsoid. */
 const MIDDLE = [6, 52, 50] as const;
 
+const DEGREE = Math.PI / 180;
+const egm96 = decodeEgm96(readFileSync(join(projectRoot, "layer/dist/cloud/egm96.bin")), "egm96.bin");
+
 /** Places of RD New + NAP by PROJ with the grids of the Netherlands: x, y, z and ECEF. */
 const truth = data("truth/grid_rd_nap.json");
 const grids = data("grids");
 const projMissing = spawnSync("projinfo", ["--version"]).error && "PROJ's programs are not on PATH";
+const autzen = data("autzen.laz");
+const autzenMissing = autzen.missing ?? data("grids/us_nga_egm96_15.tif").missing ?? projMissing;
 const geoidMissing = truth.missing ?? grids.missing ?? projMissing;
 
 /** What the layer tells of its first node, its accuracy and its places. */
@@ -33,6 +39,45 @@ function told(page: Page) {
     };
   });
 }
+
+/** Degrees and metres above the ellipsoid of the corners of the scan and of its first node, and what heights are worth. */
+async function placed(page: Page) {
+  const { points, accuracy } = await page.evaluate(async () => {
+    const { cloud } = window.groma.layer;
+    const { min, max } = cloud.boundingBox;
+    const { frame } = await cloud.loadNode("0-0-0-0");
+    return {
+      points: [[...cloud.place(...min)], [...cloud.place(...max)], [...frame.origin]],
+      accuracy: cloud.accuracy.parts.find(({ name }) => name === "height")?.metres,
+    };
+  });
+  const places = points.map(([x, y, z]) => {
+    const place = new Float64Array(3);
+    ecefToGeodetic(x!, y!, z!, place);
+    return [place[0]! / DEGREE, place[1]! / DEGREE, place[2]!];
+  });
+  return { places, accuracy };
+}
+
+/** Ellipsoidal height that PROJ makes of one above EGM96. */
+function raisedByProj([longitude, latitude, height]: readonly number[]): number {
+  const grid = `+grids=${data("grids/us_nga_egm96_15.tif").path}`;
+  const args = ["-d", "6", "+proj=vgridshift", grid, "+multiplier=1"];
+  const output = execFileSync("cct", args, {
+    input: `${longitude} ${latitude} ${height} 0\n`,
+    encoding: "utf8",
+  });
+  return Number(output.trim().split(/\s+/)[2]);
+}
+
+/** Names of what a page has fetched. */
+const loaded = (page: Page) =>
+  page.evaluate(() =>
+    performance
+      .getEntriesByType("resource")
+      .map(({ name }) => name)
+      .join(" "),
+  );
 
 /** Looks north at the scan alone from its height, 700 m to the south, and waits until it is drawn. */
 async function lookNorth(page: Page): Promise<void> {
@@ -176,6 +221,80 @@ describe.skipIf(pythonMissing)(
       },
     );
 
+    it("raises the picture by the geoid for the height system that the reader gives", {
+      timeout: 240_000,
+    }, async () => {
+      const { page, watch } = await openPage(browser, { width: 960, height: 600 });
+      await page.goto(`${server.address}&fly=0&size=4&color=elevation&vertical=ellipsoidal`);
+      await settle(page);
+      await lookNorth(page);
+      const before = await rowOfCloud(page, "heights-ellipsoidal");
+      expect(before.pixels).toBeGreaterThan(500);
+      expect(await loaded(page)).not.toContain("egm96");
+
+      await page.selectOption("#height", "code");
+      await page.fill("#height-code", "5709");
+      await page.press("#height-code", "Enter");
+      await page.waitForFunction(() => window.groma.layer?.cloud.height.kind === "geoid");
+      await settle(page);
+      const after = await rowOfCloud(page, "heights-by-egm96");
+      const undulation = egm96Undulation(egm96, MIDDLE[0] * DEGREE, MIDDLE[1] * DEGREE);
+      const [middle, higher] = [
+        await pixelOf(page, ecef(...MIDDLE)),
+        await pixelOf(page, ecef(MIDDLE[0], MIDDLE[1], MIDDLE[2] + undulation)),
+      ];
+      const expected = middle.y - higher.y;
+      expect(expected).toBeGreaterThan(20);
+      expect(Math.abs(before.row - after.row - expected)).toBeLessThan(0.05 * expected);
+      const facts = await page.textContent("#facts");
+      expect(facts).toContain("above NAP");
+      expect(facts).toContain("EGM96 in place of its own");
+      expect(new URL(page.url()).searchParams.get("vertical")).toBe("EPSG:5709");
+      expect([watch.errors, watch.foreign]).toEqual([[], []]);
+      await page.context().close();
+    });
+
+    it.skipIf(autzenMissing)(
+      `offers NAVD88 for Autzen and lowers it by as much as PROJ does${autzenMissing ? ` (skipped: ${autzenMissing})` : ""}`,
+      { timeout: 240_000 },
+      async () => {
+        const own = await view(converted(autzen.path));
+        try {
+          const { page, watch } = await openPage(browser, { width: 640, height: 480 });
+          await page.goto(`${own.address}&fly=0`);
+          await settle(page);
+          await page.waitForFunction(() =>
+            /metres|ellipsoidal/.test(document.querySelector("#height-note")?.textContent ?? ""),
+          );
+          expect(await page.textContent("#height-note")).toMatch(
+            /NAVD88 height \(ft\) \(EPSG:8228\).* 22\.\d m lower/,
+          );
+          const before = await placed(page);
+          await page.click("#height-note button");
+          await page.waitForFunction(() => window.groma.layer?.cloud.height.kind === "geoid");
+          await settle(page);
+          const after = await placed(page);
+          for (const [i, [longitude, latitude, height]] of before.places.entries()) {
+            const moved = raisedByProj([longitude!, latitude!, height!]);
+            const to = after.places[i]!;
+            expect(Math.abs(to[2]! - moved)).toBeLessThan(0.006);
+            expect(Math.hypot(to[0]! - longitude!, to[1]! - latitude!)).toBeLessThan(1e-9);
+          }
+          expect(after.accuracy).toBe(4);
+          expect(await page.textContent("#facts")).toContain("EGM96 in place of its own");
+
+          // The address alone says the same.
+          await page.goto(`${own.address}&fly=0&vertical=EPSG:8228`);
+          await settle(page);
+          expect((await placed(page)).places).toEqual(after.places);
+          expect([watch.errors, watch.foreign]).toEqual([[], []]);
+          await page.context().close();
+        } finally {
+          await own.stop();
+        }
+      },
+    );
+
     it("says what heights are, and takes the reader's word where it can", { timeout: 240_000 }, async () => {
       const { page, watch } = await openPage(browser, { width: 960, height: 600 });
       await page.goto(`${server.address}&fly=0`);
@@ -192,13 +311,14 @@ describe.skipIf(pythonMissing)(
       expect(await facts()).toContain("above the ellipsoid");
       expect(new URL(page.url()).searchParams.get("vertical")).toBe("ellipsoidal");
 
-      // Heights above a geoid are for a conversion; the page says so and stays as it is.
+      // What is no height system is told by name, and the page stays as it is.
       await page.selectOption("#height", "code");
-      await page.fill("#height-code", "5709");
+      await page.fill("#height-code", "2056");
       await page.press("#height-code", "Enter");
-      await page.waitForFunction(() => document.querySelector("#height-note")?.textContent !== "");
-      expect(await page.textContent("#height-note")).toMatch(/groma convert .* --vertical EPSG:5709/);
+      await page.waitForFunction(() => document.querySelector("#message")?.textContent !== "");
+      expect(await page.textContent("#message")).toContain("EPSG:2056 is none of the height systems");
       expect(await height()).toBe("ellipsoidal");
+      expect(await page.inputValue("#height")).toBe("ellipsoidal");
 
       await page.selectOption("#height", "declared");
       await page.waitForFunction(() => window.groma.layer?.cloud.height.kind === "unknown");

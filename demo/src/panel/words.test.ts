@@ -90,6 +90,9 @@ describe("a cloud in words", () => {
       note: "geoid applied: nl_nsgi_nlgeo2018.tif",
     });
     expect(heightWords(nap, { geoids: [] }).note).toMatch(/^geoid not applied/);
+    expect(heightWords(nap, { geoids: ["EGM96"] }).note).toMatch(/EGM96 in place of its own.* 4 m/);
+    const global = crs({ kind: "geoid", model: "EGM96 height", epsg: 5773 });
+    expect(heightWords(global, { geoids: ["EGM96"] }).note).toBe("geoid applied: EGM96");
     expect(heightWords(crs({ kind: "geoid", model: "NAVD88" }), { geoids: [] }).text).toBe("above NAVD88");
   });
 

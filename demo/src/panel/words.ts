@@ -1,4 +1,4 @@
-import type { Crs, OperationReport, StatedAccuracy } from "@groma/georef";
+import { type Crs, EGM96, EGM96_ACCURACY, type OperationReport, type StatedAccuracy } from "@groma/georef";
 import type { PointCloud } from "@groma/layer/cesium";
 
 /** A fact and, where there is one, a remark to it. */
@@ -55,9 +55,11 @@ export function heightWords(
     return noted("unknown", [said ?? "drawn as ellipsoidal", ...unit]);
   }
   const code = height.epsg === undefined ? "" : ` (EPSG:${height.epsg})`;
+  const substitute = geoids.includes(EGM96) && !height.model.startsWith(EGM96);
+  const worth = substitute ? ` in place of its own, which may be up to ${EGM96_ACCURACY} m away` : "";
   const geoid =
     geoids.length > 0
-      ? `geoid applied: ${geoids.join(", ")}`
+      ? `geoid applied: ${geoids.join(", ")}${worth}`
       : "geoid not applied: drawn as if above the ellipsoid";
   return noted(`above ${height.model.replace(/ height$/i, "")}${code}`, [geoid, ...unit]);
 }

@@ -3,6 +3,7 @@ import {
   accuracyParts,
   type Crs,
   decodeRecord,
+  decodeTransformation,
   ENGINE,
   type EpsgLookup,
   fitPlacement,
@@ -106,8 +107,9 @@ async function withOtherHeights(
   { tolerance = 0.001, heightData = packagedHeights }: GeoreferenceOptions,
 ): Promise<Georeference> {
   const egm96 = crs.height.kind === "geoid" ? await heightData.egm96() : undefined;
-  const map = derived({ crs, transformation: regiven(bytes, crs, copc, egm96) }, copc);
-  const report = operation && operationRegiven(operation, map.truth, crs);
+  const own = decodeTransformation(bytes, copc.source.name);
+  const map = derived({ crs, transformation: regiven(own, crs, copc, egm96) }, copc);
+  const report = operation && operationRegiven(operation, own, crs);
   const placing = { operation: report ?? UNSTATED, geoids: map.geoids };
   const bound = greatestBound(map.truth, copc, tolerance);
   const parts = accuracyParts(crs, copc.header.scale, bound, placing);

@@ -4,7 +4,6 @@ import {
   CrsError,
   compileTransformation,
   type Domain,
-  decodeTransformation,
   deriveTransformation,
   EGM96,
   EGM96_NOTE,
@@ -19,7 +18,6 @@ import {
   resolveCrs,
   spread,
   type Transformation,
-  type Truth,
   verticalLookup,
   withHeights,
 } from "@groma/georef";
@@ -93,11 +91,14 @@ export function sameHeights(a: Crs, b: Crs): boolean {
 /**
  * The way of a conversion in plane, with the heights of another reference: above a geoid by EGM96, else as they are.
  *
- * @param bytes the transformation of the conversion
- * @throws RecordError where it is damaged
+ * @param transformation of the conversion
  */
-export function regiven(bytes: Uint8Array, crs: Crs, copc: CopcFile, egm96: Grid | undefined): Uint8Array {
-  const transformation = decodeTransformation(bytes, copc.source.name);
+export function regiven(
+  transformation: Transformation,
+  crs: Crs,
+  copc: CopcFile,
+  egm96: Grid | undefined,
+): Uint8Array {
   const geoid = egm96 && egm96Step(egm96, boundsOf(transformation, copc));
   return encodeTransformation(withHeights(transformation, { metresPerUnit: crs.verticalUnit.size, geoid }));
 }
@@ -105,18 +106,19 @@ export function regiven(bytes: Uint8Array, crs: Crs, copc: CopcFile, egm96: Grid
 /** What the conversion said of its operation, as far as it holds with other heights. */
 export function operationRegiven(
   { grids, notes, ...rest }: OperationReport,
-  truth: Truth,
+  { steps }: Transformation,
   crs: Crs,
 ): OperationReport {
-  const steps = typeof truth === "function" ? [] : truth.transformation.steps;
   const inPlane = steps.flatMap((step) => (step.kind === "horizontalShift" ? [step.window.grid] : []));
   const geoid = crs.height.kind === "geoid";
   const told = notes.filter((note) => !/^height/.test(note));
-  const replaced = "what the operation does to heights is replaced by the height reference given";
+  const replaced = steps.some(({ kind }) => kind === "verticalShift")
+    ? ["what the operation does to heights is replaced by the height reference given"]
+    : [];
   return {
     ...rest,
     grids: [...grids.filter((grid) => inPlane.includes(grid)), ...(geoid ? [EGM96] : [])],
-    notes: [...told, replaced, ...(geoid ? [EGM96_NOTE] : [])],
+    notes: [...told, ...replaced, ...(geoid ? [EGM96_NOTE] : [])],
   };
 }
 
