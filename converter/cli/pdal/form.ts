@@ -3,6 +3,8 @@ import type { Dimension, Probe, Stored } from "./probe.js";
 
 /** The form of the LAS 1.4 file that PDAL writes for the core. */
 export interface Form extends Stored {
+  /** Whether coordinates stay the integers that they are in the LAS files that PDAL reads. */
+  readonly asStored: boolean;
   /** 6, 7 or 8: the one that has room for colours and near infrared. */
   readonly pointFormat: 6 | 7 | 8;
   /** Dimensions whose values LAS's field cannot hold: kept in an extra attribute, the field is zero. */
@@ -51,7 +53,7 @@ export const asideName = (dimension: string): string => `${dimension}AsRead`;
  *
  * @param stored scale and offset; see {@link commonScale}
  */
-export function formOf({ dimensions }: Probe, stored: Stored): Form {
+export function formOf({ dimensions, stored: before }: Probe, stored: Stored): Form {
   const has = (name: string) => dimensions.some((dimension) => dimension.name === name);
   const pointFormat = has("Infrared") ? 8 : ["Red", "Green", "Blue"].some(has) ? 7 : 6;
   const keptAside = dimensions.filter(isTooMuch).map(({ name }) => name);
@@ -61,7 +63,9 @@ export function formOf({ dimensions }: Probe, stored: Stored): Form {
   const extra = dimensions.filter(({ name }) => !(name in FIELDS) && !AS_THEY_ARE.has(name));
   const extraBytes = extra.reduce((sum, { size }) => sum + size, 0);
   const recordLength = BASE_LENGTH[pointFormat] + extraBytes + 8 * keptAside.length;
-  return { ...stored, pointFormat, keptAside, rounded, recordLength };
+  const { scale, offset } = stored;
+  const asStored = JSON.stringify(before) === JSON.stringify({ scale, offset });
+  return { scale, offset, asStored, pointFormat, keptAside, rounded, recordLength };
 }
 
 function isTooMuch({ name, type, min, max }: Dimension): boolean {

@@ -12,6 +12,8 @@ export interface PdalReport {
   readonly streamed: boolean;
   readonly scale: readonly [number, number, number];
   readonly offset: readonly [number, number, number];
+  /** Whether coordinates are the integers that they were; else they are rounded to the nearest step. */
+  readonly asStored: boolean;
   /** Attributes that keep what LAS's own fields cannot hold. */
   readonly keptAside: readonly string[];
   /** Dimensions that became whole numbers. */
@@ -21,7 +23,7 @@ export interface PdalReport {
 
 export function pdalReport({ version }: Pdal, { probe, form, bytes }: Planned): PdalReport {
   const { points, readers, streamed, job } = probe;
-  const { scale, offset, rounded } = form;
+  const { scale, offset, asStored, rounded } = form;
   const keptAside = form.keptAside.map(asideName);
   return {
     input: job.name,
@@ -31,6 +33,7 @@ export function pdalReport({ version }: Pdal, { probe, form, bytes }: Planned): 
     streamed,
     scale,
     offset,
+    asStored,
     keptAside,
     rounded,
     tempBytes: bytes,
@@ -39,17 +42,21 @@ export function pdalReport({ version }: Pdal, { probe, form, bytes }: Planned): 
 
 /** A line for people, and one for each thing that has to be known. */
 export function pdalInWords(report: PdalReport): string[] {
-  const { input, points, version, readers, scale, keptAside, rounded } = report;
-  const [x, , z] = scale;
+  const { input, points, version, readers, keptAside, rounded } = report;
+  const by = `${count(points)} points by PDAL ${version} (${readers.join(", ")})`;
+  const lines = [`${input}: ${by}, coordinates ${coordinatesInWords(report)}`];
+  if (keptAside.length > 0) {
+    lines.push(`${input}: values that LAS's own fields cannot hold are in ${keptAside.join(", ")}`);
+  }
+  if (rounded.length > 0) {
+    lines.push(`${input}: floating-point ${rounded.join(", ")} rounded to the whole numbers of LAS`);
+  }
+  return lines;
+}
+
+function coordinatesInWords({ scale: [x, , z], asStored }: PdalReport): string {
   const steps = x === z ? `${x}` : `${x} in plane and ${z} in height`;
+  if (asStored) return `as they are stored, in steps of ${steps}`;
   const half = x === z ? `${x / 2}` : `${x / 2} and ${z / 2}`;
-  return [
-    `${input}: ${count(points)} points by PDAL ${version} (${readers.join(", ")}), coordinates in steps of ${steps}: rounded by at most ${half}`,
-    ...(keptAside.length > 0
-      ? [`${input}: values that LAS's own fields cannot hold are in ${keptAside.join(", ")}`]
-      : []),
-    ...(rounded.length > 0
-      ? [`${input}: floating-point ${rounded.join(", ")} rounded to the whole numbers of LAS`]
-      : []),
-  ];
+  return `in steps of ${steps}: rounded by at most ${half}`;
 }
