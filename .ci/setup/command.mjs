@@ -45,3 +45,22 @@ export async function available(program, args = ["--version"]) {
     child.on("close", (code) => resolve(code === 0));
   });
 }
+
+/**
+ * Runs a program that set-up can do without.
+ *
+ * @param {string} program
+ * @param {string[]} args
+ * @returns {Promise<{ code: number, said: string }>} its exit code and the last line of what it said on standard error
+ */
+export async function attempt(program, args) {
+  return new Promise((resolve) => {
+    const child = spawn(program, args, { stdio: ["ignore", "ignore", "pipe"] });
+    let errors = "";
+    child.stderr.on("data", (chunk) => {
+      errors += chunk;
+    });
+    child.on("error", () => resolve({ code: 1, said: `${program} was not found` }));
+    child.on("close", (code) => resolve({ code: code ?? 1, said: errors.trim().split("\n").at(-1) ?? "" }));
+  });
+}

@@ -1,6 +1,6 @@
 import { existsSync } from "node:fs";
 import { join } from "node:path";
-import { available, command, SetupError } from "./command.mjs";
+import { attempt, available, command, SetupError } from "./command.mjs";
 import { digest, isDone, markDone } from "./stamp.mjs";
 import { ensurePrograms } from "./system.mjs";
 
@@ -123,8 +123,21 @@ const referees = {
   },
 };
 
+/** Reads formats other than LAS; its tests say that they skip where it cannot be had. @type {Step} */
+const pdal = {
+  name: "PDAL",
+  async run(root) {
+    const script = join(root, "converter/scripts/install-pdal");
+    const shell = process.platform === "win32" ? "bash" : "sh";
+    const { code, said } = await attempt(shell, [script]);
+    return code === 0
+      ? said.replace(/^.*install-pdal: /s, "")
+      : `not there (${said.replace("install-pdal: ", "")})`;
+  },
+};
+
 /** What `npm start` needs: the libraries, the converter, the page, and PROJ where it can be had. */
 export const forStart = [node, packages, core, typescript, proj];
 
-/** What `npm test` needs besides: a browser and readers of LAS and COPC that nobody here wrote. */
-export const forTest = [...forStart, browser, referees];
+/** What `npm test` needs besides: a browser, and readers of LAS and COPC that nobody here wrote. */
+export const forTest = [...forStart, browser, referees, pdal];
