@@ -25,6 +25,11 @@ export function count(value: number): string {
   return value.toLocaleString("en-US");
 }
 
+/** `1 node`, `778 nodes`. */
+export function counted(value: number, noun: string): string {
+  return `${count(value)} ${noun}${value === 1 ? "" : "s"}`;
+}
+
 /** Metres as people say them: `0.02 mm`, `4.3 cm`, `1.25 m`, `23.4 km`. */
 export function length(metres: number): string {
   const size = Math.abs(metres);

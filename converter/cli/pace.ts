@@ -2,9 +2,9 @@
 const STAGES: readonly { readonly stage: string; readonly share: number; readonly ofPdal?: true }[] = [
   { stage: "inspect", share: 0.4, ofPdal: true },
   { stage: "pdal", share: 0.6, ofPdal: true },
-  { stage: "read", share: 0.4 },
-  { stage: "build", share: 0.5 },
-  { stage: "write", share: 0.1 },
+  { stage: "read", share: 0.55 },
+  { stage: "build", share: 0.4 },
+  { stage: "write", share: 0.05 },
 ];
 
 /** Shares of the whole after which a forecast is more than a guess. */

@@ -88,7 +88,7 @@ export function planInWords({ output, inputs, points, georeferenced, core, pdal,
         `about ${core.levels} levels, ${core.recordLength} bytes a point, sampling ${core.sampling}`,
       ],
       ["memory", `at most ${size(core.memory)}`],
-      ["temp", `at most ${size(core.tempBytes)} in ${core.tempDir}, ${size(core.tempFree)} free`],
+      ["temp", tempInWords(core)],
       ["output", `${output}, about ${size(core.outputBytes)}`],
     );
   } else if (pdalTemp) {
@@ -98,4 +98,9 @@ export function planInWords({ output, inputs, points, georeferenced, core, pdal,
     );
   }
   return rows.map(([label, text]) => `${label.padEnd(8)} ${text}\n`).join("");
+}
+
+function tempInWords({ tempBytes, tempDir, tempFree }: Plan): string {
+  if (tempBytes === 0) return "none, the points have room in memory";
+  return `at most ${size(tempBytes)} in ${resolve(tempDir)}, ${size(tempFree)} free`;
 }

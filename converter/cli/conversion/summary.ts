@@ -1,7 +1,7 @@
 import { basename } from "node:path";
 import { statedAccuracy } from "@groma/georef";
 import { placeInWords, remarks } from "../describe.js";
-import { count, length, size } from "../output.js";
+import { count, counted, length, size } from "../output.js";
 import { pdalInWords } from "../pdal/report.js";
 import type { Converted } from "./convert.js";
 
@@ -24,10 +24,10 @@ export function summaryForMachines({ georeferenced, records, ...summary }: Conve
 /** What a conversion made, for people. */
 export function summaryInWords(converted: Converted): string {
   const { output, points, nodes, levels, bytes, seconds } = converted;
-  const octree = `${count(nodes)} nodes${levels === undefined ? "" : ` on ${levels} levels`}`;
+  const octree = `${counted(nodes, "node")}${levels === undefined ? "" : ` on ${counted(levels, "level")}`}`;
   const each = `${(bytes / points).toPrecision(2)} bytes a point`;
   const rate = seconds > 0 ? `, ${count(Math.round(points / seconds))} points/s` : "";
-  const first = `${basename(output)}  ${count(points)} points in ${octree}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}\n`;
+  const first = `${basename(output)}  ${counted(points, "point")} in ${octree}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}\n`;
   return `${first}${placeSummary(converted)}`;
 }
 

@@ -1,0 +1,43 @@
+import { create } from "laz-perf/lib/node/index.js";
+import type { Scan } from "../core.js";
+
+/** The part of laz-perf's module that is used; its own types lean on a package that is not there. */
+interface LazPerf {
+  readonly HEAPU8: Uint8Array;
+  _malloc(length: number): number;
+  _free(pointer: number): void;
+  readonly ChunkDecoder: new () => {
+    open(pointFormat: number, recordLength: number, chunk: number): void;
+    getPoint(record: number): void;
+    delete(): void;
+  };
+}
+
+/** Point formats that laz-perf decodes. */
+const DECODABLE = new Set([0, 1, 2, 3, 6, 7, 8]);
+
+/**
+ * The first records of a LAZ chunk, uncompressed, `count · recordLength` bytes. The decoder has a memory of its own, in
+ * which damaged data can do no harm.
+ *
+ * @throws Error where laz-perf gives up, or does not know the point format
+ */
+export async function decodeChunk(
+  chunk: Uint8Array,
+  { pointFormat, recordLength }: Pick<Scan, "pointFormat" | "recordLength">,
+  count: number,
+): Promise<Uint8Array> {
+  if (!DECODABLE.has(pointFormat)) throw new Error(`point format ${pointFormat} cannot be decoded`);
+  const module = (await create()) as unknown as LazPerf;
+  const input = module._malloc(chunk.length);
+  const output = module._malloc(recordLength);
+  module.HEAPU8.set(chunk, input);
+  const decoder = new module.ChunkDecoder();
+  decoder.open(pointFormat, recordLength, input);
+  const records = new Uint8Array(count * recordLength);
+  for (let index = 0; index < count; index++) {
+    decoder.getPoint(output);
+    records.set(module.HEAPU8.subarray(output, output + recordLength), index * recordLength);
+  }
+  return records;
+}

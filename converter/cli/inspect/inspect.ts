@@ -1,0 +1,81 @@
+import { type AccuracyPart, CrsError } from "@groma/georef";
+import { type Scan, type ScanStatistics, scanFile } from "../core.js";
+import { type GeodeticBounds, geodeticBounds } from "../describe.js";
+import { type Placed, placed } from "../placed.js";
+import { FileSource } from "./file-source.js";
+import { type GpsSpan, gpsSpan } from "./gps-time.js";
+import { type HeaderDetails, headerDetails } from "./header.js";
+import type { Octree } from "./octree.js";
+import { sample } from "./sample.js";
+
+/** What `groma info` knows of a file. */
+export interface Inspection {
+  readonly scan: Scan;
+  readonly header: HeaderDetails;
+  /** Undefined where the file says nothing, `problem` then tells. */
+  readonly place: Placed | undefined;
+  readonly problem: CrsError | undefined;
+  readonly bounds: GeodeticBounds | undefined;
+  readonly accuracy: readonly AccuracyPart[];
+  /** Of all points, from the file's record, or of a sample; undefined where neither can be had. */
+  readonly statistics: ScanStatistics | undefined;
+  /** Which points the statistics are of, in words; undefined where they are of all of them. */
+  readonly sampled: string | undefined;
+  readonly gps: GpsSpan | undefined;
+  /** Undefined for a file without octree, and for one whose octree is damaged. */
+  readonly octree: Octree | undefined;
+  /** What is wrong with the octree. */
+  readonly octreeProblem: string | undefined;
+}
+
+/**
+ * Reads header, records, octree and, where the file has no statistics of its own, some of the points: a bounded amount,
+ * whatever the size of the file.
+ *
+ * @throws CoreError INPUT_*; RecordError
+ */
+export async function inspect(file: string): Promise<Inspection> {
+  const scan = await scanFile(file);
+  const source = await FileSource.open(file);
+  try {
+    const header = await headerDetails(source);
+    const { octree, octreeProblem } = scan.copc ? await octreeOf(source) : noOctree;
+    const whole = scan.groma?.["2"];
+    const taken = whole ? undefined : await sample(source, scan, header, octree?.nodes ?? []);
+    const statistics = whole ?? taken?.statistics;
+    const time = statistics?.attributes.find(({ name }) => name === "gpsTime");
+    return {
+      ...{ scan, header, octree, octreeProblem, statistics, sampled: taken?.of },
+      gps: gpsSpan(header.gpsTime, time),
+      ...(await placeOf(scan)),
+    };
+  } finally {
+    await source.close();
+  }
+}
+
+const noOctree = { octree: undefined, octreeProblem: undefined } as const;
+
+async function octreeOf(source: FileSource): Promise<Pick<Inspection, "octree" | "octreeProblem">> {
+  const [{ openCopc }, { octree }] = await Promise.all([
+    import("@groma/layer/sources"),
+    import("./octree.js"),
+  ]);
+  try {
+    return { octree: await octree(await openCopc(source)), octreeProblem: undefined };
+  } catch (error) {
+    // Everything else that is known of the file is worth telling all the same.
+    return { octree: undefined, octreeProblem: error instanceof Error ? error.message : String(error) };
+  }
+}
+
+async function placeOf(scan: Scan): Promise<Pick<Inspection, "place" | "problem" | "bounds" | "accuracy">> {
+  try {
+    const place = await placed(scan);
+    const bounds = geodeticBounds(scan, place.truth);
+    return { place, problem: undefined, bounds, accuracy: place.accuracy };
+  } catch (error) {
+    if (!(error instanceof CrsError)) throw error;
+    return { place: undefined, problem: error, bounds: undefined, accuracy: [] };
+  }
+}

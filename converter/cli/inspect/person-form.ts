@@ -1,0 +1,178 @@
+import { statedAccuracy } from "@groma/georef";
+import type { Scan, ScanStatistics } from "../core.js";
+import { density, type GeodeticBounds, heightInWords, placeInWords, remarks } from "../describe.js";
+import { count, counted, length, size } from "../output.js";
+import { className } from "./classes.js";
+import { gpsSpanInWords } from "./gps-time.js";
+import type { HeaderDetails } from "./header.js";
+import type { Inspection } from "./inspect.js";
+import type { Octree } from "./octree.js";
+
+type Row = readonly [label: string, text: string];
+
+/** What is known of a file, a line for each thing. */
+export function personForm(inspection: Inspection): string {
+  const { scan, header, statistics, sampled, gps, octree, octreeProblem } = inspection;
+  const rows: Row[] = [
+    ...fileRows(scan),
+    ...placeRows(inspection),
+    ...boundsRows(inspection),
+    ...contentRows(scan, header, statistics, sampled),
+    ...(gps ? [["gps time", gpsSpanInWords(gps)] as const] : []),
+    ...(octree ? octreeRows(octree, scan.points) : []),
+    ...(octreeProblem ? [["octree", octreeProblem] as const] : []),
+    ...headed("records", header.records.map(recordInWords)),
+    ...scan.warnings.map((text) => ["warning", text] as const),
+  ];
+  const width = Math.max(...rows.map(([label]) => label.length));
+  return rows.map(([label, text]) => `${label.padEnd(width)}  ${text}\n`).join("");
+}
+
+/** The first row has the label, the others stand below it. */
+function headed(label: string, texts: readonly string[]): Row[] {
+  return texts.map((text, index) => [index === 0 ? label : "", text]);
+}
+
+function fileRows(scan: Scan): Row[] {
+  const kind = scan.copc ? "COPC" : scan.compressed ? "LAZ" : "LAS";
+  const each = scan.points > 0 ? `, ${(scan.fileSize / scan.points).toPrecision(3)} bytes a point` : "";
+  const written = [scan.generatingSoftware, scan.systemIdentifier, scan.creation].filter(Boolean).join(", ");
+  return [
+    ["file", `${scan.file}  ${size(scan.fileSize)}${each}`],
+    ["points", count(scan.points)],
+    [
+      "format",
+      `${kind} ${scan.version}, point format ${scan.pointFormat}, ${scan.recordLength} bytes a record`,
+    ],
+    ["written", written || "not said"],
+  ];
+}
+
+function placeRows({ place, problem, accuracy }: Inspection): Row[] {
+  if (!place) return [["place", problem?.message ?? "unknown"]];
+  const { crs, basis, operation } = place;
+  const { horizontalUnit, verticalUnit } = crs;
+  const { total } = statedAccuracy(accuracy);
+  const assumed = verticalUnit.declared ? "" : " (assumed)";
+  return [
+    ["place", placeInWords(place)],
+    ["from", basis],
+    ...(operation ? [["operation", operation.name] as const] : []),
+    ...remarks(operation).map((text) => ["note", text] as const),
+    ["units", `${horizontalUnit.name} in plane, ${verticalUnit.name} in height${assumed}`],
+    ["height", heightInWords(crs, place.geoids)],
+    ["accuracy", total === null ? "not known as a whole" : length(total)],
+    ...accuracy.map(({ name, metres, note }): Row => {
+      const worth = metres === null ? "unknown" : length(metres);
+      return [`  ${name}`, `${worth}${note ? `  ${note}` : ""}`];
+    }),
+  ];
+}
+
+const axes = ["x", "y", "z"] as const;
+
+function boundsRows({ scan, place, bounds }: Inspection): Row[] {
+  const perArea = place && density(scan, place.crs);
+  const range = (axis: number) =>
+    [scan.min, scan.max].map((corner) => rounded(corner[axis]!, scan.scale[axis]!)).join(" … ");
+  return [
+    ["bounds", axes.map((name, axis) => `${name} ${range(axis)}`).join("   ")],
+    ...(place
+      ? [["on earth", bounds ? onEarth(bounds) : "no corner of the bounds has a place"] as const]
+      : []),
+    ["step", `${scan.scale.join(", ")} source units`],
+    ...(perArea === undefined
+      ? []
+      : [
+          [
+            "density",
+            `${perArea.toPrecision(3)} points per m², ${length(1 / Math.sqrt(perArea))} apart, over the whole rectangle`,
+          ] as const,
+        ]),
+  ];
+}
+
+function onEarth({ west, east, south, north, lowest, highest }: GeodeticBounds): string {
+  const range = (from: number, to: number) => `${from.toFixed(6)} … ${to.toFixed(6)}°`;
+  const height = `${lowest.toFixed(2)} … ${highest.toFixed(2)} m`;
+  return `longitude ${range(west, east)}   latitude ${range(south, north)}   height ${height}`;
+}
+
+/** A coordinate with the digits that its step has: more of them are noise of binary fractions. */
+function rounded(value: number, step: number): string {
+  const digits = Math.min(12, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)));
+  return Number.isFinite(value) && Number.isFinite(digits) ? value.toFixed(digits) : String(value);
+}
+
+function contentRows(
+  scan: Scan,
+  { returns }: HeaderDetails,
+  statistics: ScanStatistics | undefined,
+  sampled: string | undefined,
+): Row[] {
+  const numbered = returns.flatMap((points, index) => (points > 0 ? [[index + 1, points] as const] : []));
+  const extra = scan.extraBytes.map(({ name, type }) => `${name} (${type})`).join(", ");
+  return [
+    ...(numbered.length > 0 ? [["returns", countsInWords(numbered)] as const] : []),
+    ...(extra ? [["extra", extra] as const] : []),
+    ...(statistics ? statisticsRows(scan, statistics) : []),
+    ...(statistics && sampled
+      ? [["", `these and the times are of ${count(statistics.points)} points, ${sampled}`] as const]
+      : []),
+  ];
+}
+
+function statisticsRows(scan: Scan, { classes, rgbBits, attributes }: ScanStatistics): Row[] {
+  const coloured = attributes.some(({ name }) => name === "red");
+  const depth = rgbBits === 8 ? "8 bits a channel, in fields of 16" : "16 bits a channel";
+  // Where the points are is told already, and in more digits.
+  const told = attributes.filter(({ name }) => !["x", "y", "z"].includes(name));
+  return [
+    ...headed(
+      "classes",
+      Object.entries(classes).map(
+        ([code, points]) => `${code} ${className(Number(code), scan.pointFormat)}: ${count(points)}`,
+      ),
+    ),
+    ["colours", coloured ? (rgbBits === null ? "all black" : depth) : "none"],
+    ...headed(
+      "attributes",
+      told.map(({ name, min, max, mean }) => `${name} ${short(min)} … ${short(max)}, mean ${short(mean, 6)}`),
+    ),
+  ];
+}
+
+/** A number without the noise of binary fractions. */
+function short(value: number, digits = 12): string {
+  return String(Number(value.toPrecision(digits)));
+}
+
+function countsInWords(counts: readonly (readonly [number, number])[]): string {
+  return counts.map(([key, points]) => `${key}: ${count(points)}`).join("   ");
+}
+
+function octreeRows({ levels, whole }: Octree, expected: number): Row[] {
+  const nodes = levels.reduce((sum, level) => sum + level.nodes, 0);
+  const points = levels.reduce((sum, level) => sum + level.points, 0);
+  const missing = whole && points !== expected ? `, though the header announces ${count(expected)}` : "";
+  const rest = whole ? "" : "; the rest of its hierarchy is not read";
+  const rows = levels.map(
+    (one) =>
+      `level ${one.level}: ${counted(one.nodes, "node")}, ${counted(one.points, "point")}, ${short(one.spacing, 3)} source units apart`,
+  );
+  return headed("octree", [
+    `${counted(nodes, "node")} with ${counted(points, "point")}${missing}${rest}`,
+    ...rows,
+  ]);
+}
+
+function recordInWords({
+  userId,
+  recordId,
+  description,
+  bytes,
+  extended,
+}: HeaderDetails["records"][number]): string {
+  const text = description ? `, ${description}` : "";
+  return `${userId} ${recordId}: ${size(bytes)}${extended ? ", behind the points" : ""}${text}`;
+}
