@@ -7,8 +7,8 @@ const STAGES: readonly { readonly stage: string; readonly share: number; readonl
   { stage: "write", share: 0.05 },
 ];
 
-/** Shares of the whole after which a forecast is more than a guess. */
-const FORECAST_FROM = 0.02;
+/** Share of the whole, and seconds, after which a forecast is more than a guess. */
+const FORECAST_FROM = { share: 0.02, seconds: 1 };
 
 /** How fast a conversion is, and how long it will take. */
 export interface Pace {
@@ -39,7 +39,8 @@ export function createPace(now: () => number = () => performance.now()): {
       const rate = seconds > 0 ? Math.round(done / seconds) : 0;
       const share = overall(current, done, total, withPdal);
       const elapsed = (now() - began) / 1000;
-      const eta = share >= FORECAST_FROM ? Math.max(0, Math.round((elapsed * (1 - share)) / share)) : null;
+      const known = share >= FORECAST_FROM.share && elapsed >= FORECAST_FROM.seconds;
+      const eta = known ? Math.max(0, Math.round((elapsed * (1 - share)) / share)) : null;
       return { rate, eta, overall: share };
     },
   };
