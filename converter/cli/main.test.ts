@@ -1,5 +1,13 @@
 import { execFile } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import {
+  copyFileSync,
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  rmSync,
+  writeFileSync,
+} from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -119,6 +127,28 @@ describe("groma convert", () => {
     expect((await groma("convert", sample, "a.copc.laz", "--overwrite")).code).toBe(0);
   });
 
+  it("takes a folder and a pattern, and leaves the output out", async () => {
+    const tiles = join(folder, "tiles");
+    mkdirSync(tiles);
+    for (const name of ["a.las", "b.las"]) copyFileSync(sample, join(tiles, name));
+    const { points } = JSON.parse((await groma("info", "--json", sample)).stdout);
+    const last = (stdout: string) => JSON.parse(stdout.trimEnd().split("\n").at(-1)!);
+    const whole = await groma("convert", "tiles", "tiles/all.copc.laz", "--progress", "json");
+    expect(last(whole.stdout)).toMatchObject({ event: "done", points: 2 * points });
+    const again = await groma(
+      ...["convert", "tiles/*.la?", "tiles/all.copc.laz", "--overwrite", "--progress", "json"],
+    );
+    expect(last(again.stdout)).toMatchObject({ event: "done", points: 2 * points });
+  });
+
+  it("ends with one line that tells what it made, its place and its worth", async () => {
+    const { stdout } = await groma("convert", sample, "summary.copc.laz");
+    expect(stdout).toMatch(
+      /^summary\.copc\.laz {2}[\d,]+ points in [\d,]+ nodes?.* {2}[\d.]+ kB \([\d.]+ bytes a point\) {2}[\d.]+ s, [\d,]+ points\/s\n/,
+    );
+    expect(stdout).toMatch(/^accuracy .* (in all|for want of: .*)$/m);
+  });
+
   it("tells its progress as JSON lines, the result last", async () => {
     const { stdout, code } = await groma("convert", sample, "json.copc.laz", "--progress", "json");
     const lines = stdout
@@ -200,6 +230,14 @@ describe("the command line", () => {
     [["convert", sample, "out3.copc.laz", "--engine", "proj4js", "--grids", "."], "OPTION_ENGINE"],
     [["view", sample, "--engine", "guess"], "OPTION_INVALID"],
     [["view", "nowhere.laz"], "INPUT_NOT_FOUND"],
+    [["convert", "nothing-*.laz", "out3.copc.laz"], "INPUT_NOT_FOUND"],
+    [["convert", sample, "out3.copc.laz", "--json"], "OPTION_INVALID"],
+    [["convert", sample, "out3.copc.laz", "--threads", "0"], "OPTION_INVALID"],
+    [["convert", sample, "out3.copc.laz", "--sampling", "best"], "OPTION_INVALID"],
+    [["convert", sample, "out3.copc.laz", "--sampler", "grid"], "OPTION_INVALID"],
+    [["convert", sample, "out3.copc.laz", "--scale", "0"], "OPTION_INVALID"],
+    [["convert", sample, "out3.copc.laz", "--pipeline", "nowhere.json"], "PDAL_PIPELINE"],
+    [["convert", "--pipeline", "nowhere.json"], "OPTION_INVALID"],
     [["serve", "nowhere"], "SERVER_FOLDER"],
     [["convert", sample, "out2.copc.laz", "--crs", "EPSG:999999"], "CRS_UNKNOWN"],
   ])("%j ends with exit code 1 and %s", async (args, code) => {
@@ -207,6 +245,24 @@ describe("the command line", () => {
     expect(outcome.code).toBe(1);
     expect(outcome.stderr).toMatch(new RegExp(`^${code}: [^\\n]+\\.\\n$`));
     expect(outcome.stdout).toBe("");
+  });
+
+  it("is loaded piece by piece: help and refused options wait for nothing but the parser", () => {
+    const folder = join(main, "..");
+    const imports = (file: string) =>
+      [...readFileSync(join(folder, file), "utf8").matchAll(/^(?:import|export) .*?from "([^"]+)"/gm)].map(
+        ([, from]) => from!,
+      );
+    const loaded = new Set<string>();
+    const follow = (file: string) => {
+      for (const from of imports(file)) {
+        if (loaded.has(from)) continue;
+        loaded.add(from);
+        if (from.startsWith("./")) follow(from.slice(2));
+      }
+    };
+    follow("main.js");
+    expect([...loaded].sort()).toEqual(["./choices.js", "./output.js", "commander"]);
   });
 
   it("helps with exit code 0", async () => {
