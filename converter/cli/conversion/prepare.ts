@@ -50,35 +50,40 @@ export async function prepare(
   // PDAL may take an hour; what the core would refuse after it is refused now.
   if (jobs.length > 0) requireTarget(output, options.overwrite ?? false);
   const scans = await scanAll(files, signal);
-  const brought = jobs.length > 0 ? await bring(jobs, options, onEvent, signal) : undefined;
+  const read = jobs.length > 0 ? await throughPdal(jobs, options, onEvent, signal) : undefined;
 
-  const inputs = sources.map((source): Prepared => {
-    if (source.reader === "core") return { ...source, scan: scans[files.indexOf(source.file)]! };
-    return { reader: "pdal", planned: brought!.planned[jobs.indexOf(source.job)]! };
+  const scanOf = new Map(files.map((file, index) => [file, scans[index]!]));
+  const named = sources.map((source): Named => {
+    if (source.reader === "core") return scanOf.get(source.file)!;
+    const { wkt } = read!.probes[jobs.indexOf(source.job)]!;
+    return { file: source.job.name, ...(wkt && { wkt }) };
   });
-  const named = inputs.map(namedBy);
   const georeferenced = await commonGeoreference(named, options);
   // What is wrong with the choice of the engine is said before the points are read.
   if (!georeferenced.local) await chosenProj(options);
+  const geographic = georeferenced.crs.horizontalUnit.kind === "angular";
+  const planned = read?.plan(read.probes, geographic, options.scale);
+  const inputs = sources.map((source): Prepared => {
+    if (source.reader === "core") return { ...source, scan: scanOf.get(source.file)! };
+    return { reader: "pdal", planned: planned![jobs.indexOf(source.job)]! };
+  });
   const hasWkt = named.some(({ wkt }) => wkt);
-  return { inputs, georeferenced, hasWkt, ...(brought && { pdal: brought.pdal }) };
+  return { inputs, georeferenced, hasWkt, ...(read && { pdal: read.pdal }) };
 }
 
-function namedBy(input: Prepared): Named {
-  if (input.reader === "core") return input.scan;
-  const { job, wkt } = input.planned.probe;
-  return { file: job.name, ...(wkt && { wkt }) };
-}
-
-async function bring(
+/** PDAL, what it finds in the jobs, and what settles how that is written; loaded only where it is needed. */
+async function throughPdal(
   jobs: readonly Job[],
-  { pdal: given, scale }: ConvertOptions,
+  { pdal: given }: ConvertOptions,
   onEvent: (event: CoreEvent) => void,
   signal?: AbortSignal,
-): Promise<{ pdal: Pdal; planned: Planned[] }> {
-  const [{ findPdal }, { plan }] = await Promise.all([import("../pdal/find.js"), import("../pdal/bring.js")]);
+) {
+  const [{ findPdal }, { plan, probeAll }] = await Promise.all([
+    import("../pdal/find.js"),
+    import("../pdal/bring.js"),
+  ]);
   const pdal = await findPdal(given, jobs[0]!.name);
-  return { pdal, planned: await plan(pdal, jobs, { scale, onEvent, signal }) };
+  return { pdal, plan, probes: await probeAll(pdal, jobs, { onEvent, signal }) };
 }
 
 function requireTarget(output: string, overwrite: boolean): void {

@@ -16,10 +16,8 @@ export interface Planned {
   readonly bytes: number;
 }
 
-/** What PDAL has to be told of the scale, and who hears how far it is. */
+/** Who hears how far PDAL is, and who stops it. */
 export interface Surroundings {
-  /** Step of the integers that the user wants. */
-  readonly scale?: number | undefined;
   readonly onEvent: (event: CoreEvent) => void;
   readonly signal?: AbortSignal | undefined;
 }
@@ -31,29 +29,38 @@ const HEADER_BYTES = 1 << 20;
 const LOOK_EVERY = 200;
 
 /**
- * Passes over the points of all jobs once, and settles how they are written.
+ * Passes over the points of all jobs.
  *
- * @throws PdalError PDAL_FAILED, PDAL_EMPTY, PDAL_COORDINATES, PDAL_SCALE
+ * @throws PdalError PDAL_FAILED, PDAL_EMPTY, PDAL_COORDINATES
  */
-export async function plan(
+export async function probeAll(
   pdal: Pdal,
   jobs: readonly Job[],
-  { scale, onEvent, signal }: Surroundings,
-): Promise<Planned[]> {
+  { onEvent, signal }: Surroundings,
+): Promise<Probe[]> {
   const probes: Probe[] = [];
   for (const [index, job] of jobs.entries()) {
     onEvent({ event: "progress", stage: "inspect", done: index, total: jobs.length });
     const found = await probe(pdal, job, signal);
     if (!found.streamed) {
-      onEvent({
-        event: "warning",
-        text: `${job.name}: PDAL holds all its points in memory, --memory does not bind it`,
-      });
+      const text = `${job.name}: PDAL holds all its points in memory, --memory does not bind it`;
+      onEvent({ event: "warning", text });
     }
     probes.push(found);
   }
   onEvent({ event: "progress", stage: "inspect", done: jobs.length, total: jobs.length });
-  const stored = commonScale(probes, scale);
+  return probes;
+}
+
+/**
+ * Settles how the points of all jobs are written.
+ *
+ * @param geographic whether x and y are degrees
+ * @param step of the integers that the user wants
+ * @throws PdalError PDAL_SCALE
+ */
+export function plan(probes: readonly Probe[], geographic: boolean, step?: number): Planned[] {
+  const stored = commonScale(probes, geographic, step);
   return probes.map((found) => {
     const form = formOf(found, stored);
     return { probe: found, form, bytes: found.points * form.recordLength + HEADER_BYTES };

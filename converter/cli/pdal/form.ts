@@ -91,18 +91,18 @@ const MOST_STEPS = 2 ** 31 - 1024;
  * LAS that is stored alike and leave coordinates alone, it stays as it is. Else the step is a power of ten: a tenth of a
  * millimetre, finer for small objects, coarser only where the integers of LAS would not suffice.
  *
- * @param wish the step that the user wants, all axes
+ * @param geographic whether x and y are degrees
+ * @param wish the step that the user wants, of degrees in plane only
  * @throws PdalError PDAL_SCALE when the integers do not suffice for it
  */
-export function commonScale(probes: readonly Probe[], wish?: number): Stored {
+export function commonScale(probes: readonly Probe[], geographic: boolean, wish?: number): Stored {
   const min = [0, 1, 2].map((axis) => Math.min(...probes.map((one) => one.min[axis]!)));
   const max = [0, 1, 2].map((axis) => Math.max(...probes.map((one) => one.max[axis]!)));
   const kept = wish === undefined ? storedOfAll(probes) : undefined;
   if (kept && fits(kept, min, max)) return kept;
   const offset = min.map(Math.floor) as [number, number, number];
-  const geographic = probes.some((one) => one.geographic);
   const plane = wish ?? stepFor(Math.max(max[0]! - offset[0]!, max[1]! - offset[1]!), geographic);
-  const height = wish ?? stepFor(max[2]! - offset[2]!, false);
+  const height = (geographic ? undefined : wish) ?? stepFor(max[2]! - offset[2]!, false);
   const stored = { scale: [plane, plane, height] as const, offset };
   if (fits(stored, min, max)) return stored;
   const extent = Math.max(...min.map((least, axis) => max[axis]! - least));

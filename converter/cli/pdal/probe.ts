@@ -23,8 +23,6 @@ export interface Probe {
   readonly dimensions: readonly Dimension[];
   /** Empty where PDAL knows no coordinate reference system. */
   readonly wkt: string;
-  /** Whether x and y are degrees. */
-  readonly geographic: boolean;
   /** Whether PDAL passes the points through, or holds all of them in memory. */
   readonly streamed: boolean;
   /** Types of the readers, e.g. `readers.e57`. */
@@ -53,7 +51,7 @@ interface Metadata {
       readonly schema: {
         readonly dimensions: readonly { name: string; type: Dimension["type"]; size: number }[];
       };
-      readonly srs: { readonly compoundwkt?: string; readonly wkt?: string; readonly isgeographic?: boolean };
+      readonly srs: { readonly compoundwkt?: string; readonly wkt?: string };
     };
     readonly [stage: string]: unknown;
   };
@@ -123,7 +121,6 @@ function described(job: Job, { stages }: Metadata, streamed: boolean): Probe {
       return { name, type, size, min: minimum, max: maximum };
     }),
     wkt: (srs.compoundwkt || srs.wkt || "").trim(),
-    geographic: srs.isgeographic === true,
     stored: keepsCoordinates(job) ? storedAlike(stages, readers) : undefined,
   };
 }

@@ -55,8 +55,13 @@ export function pdalInWords(report: PdalReport): string[] {
 }
 
 function coordinatesInWords({ scale: [x, , z], asStored }: PdalReport): string {
-  const steps = x === z ? `${x}` : `${x} in plane and ${z} in height`;
-  if (asStored) return `as they are stored, in steps of ${steps}`;
-  const half = x === z ? `${x / 2}` : `${x / 2} and ${z / 2}`;
-  return `in steps of ${steps}: rounded by at most ${half}`;
+  const inWords = (factor: number) =>
+    x === z ? decimal(factor * x) : `${decimal(factor * x)} in plane and ${decimal(factor * z)} in height`;
+  if (asStored) return `as they are stored, in steps of ${inWords(1)}`;
+  return `in steps of ${inWords(1)}: rounded by at most ${inWords(0.5)}`;
+}
+
+/** 5e-7 → `0.0000005` */
+function decimal(value: number): string {
+  return value.toFixed(12).replace(/\.?0+$/, "");
 }
