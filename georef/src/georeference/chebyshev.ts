@@ -96,6 +96,25 @@ export function expand(exact: ExactTransform, domain: Domain, file: string): Exp
   return { box, frame, coefficients: chebyshevCoefficients(values, 6) };
 }
 
+/** The expansion with a quadratic polynomial added to P: axis by axis the terms 1, u, v, u², uv, v² in its frame, metres. */
+export function plusQuadratic(expansion: Expansion, terms: Float64Array): Expansion {
+  const coefficients = expansion.coefficients.slice();
+  for (let axis = 0; axis < 3; axis++) {
+    const [one, u, v, uu, uv, vv] = terms.subarray(6 * axis, 6 * axis + 6);
+    const add = (k: number, l: number, value: number) => {
+      coefficients[(k * NODES + l) * 6 + axis] += value;
+    };
+    // u² = (T_2(u) + 1) / 2.
+    add(0, 0, one + (uu + vv) / 2);
+    add(1, 0, u);
+    add(0, 1, v);
+    add(2, 0, uu / 2);
+    add(1, 1, uv);
+    add(0, 2, vv / 2);
+  }
+  return { ...expansion, coefficients };
+}
+
 function isBox({ minX, minY, minZ, maxX, maxY, maxZ }: Domain): boolean {
   const finite = [minX, minY, minZ, maxX, maxY, maxZ].every(Number.isFinite);
   return finite && minX <= maxX && minY <= maxY && minZ <= maxZ;

@@ -3,15 +3,19 @@ import type { ExactTransform } from "../engines/exact.js";
 import { PlacementError } from "../errors.js";
 import type { CompiledTransformation } from "../transformation/evaluate.js";
 import { fitBound, storageBound, tailBound } from "./certificate.js";
-import { type Expansion, expand } from "./chebyshev.js";
+import { type Expansion, expand, plusQuadratic } from "./chebyshev.js";
+import { QUADRATIC_TERMS, turnedCreases, turnedTerms } from "./creases.js";
 import { turned } from "./grid-remainder.js";
-import { type NodeTransform, nodeTransform } from "./node-transform.js";
+import { type NodeTransform, nodeTransform, ROUNDING } from "./node-transform.js";
 import type { Domain, Placement } from "./placement.js";
+import { reliefOf } from "./relief.js";
 import {
   COSTS,
+  CREASES_COST,
   FITTED_SCHEMES,
   type FittedScheme,
   keeps,
+  RELIEF_COST,
   REMAINDER_COST,
   termCount,
   termIndex,
@@ -46,29 +50,27 @@ export function fitPlacement(
     });
   }
   const node = typeof truth === "function" ? withoutGrids(truth) : nodeTransform(truth, domain);
-  const expansion = expand(node.smooth, domain, file);
-  const tail = tailBound(expansion);
-  const { frame } = expansion;
+  const smooth = expand(node.smooth, domain, file);
+  const tail = tailBound(smooth);
+  const { frame } = smooth;
 
-  const fits = FITTED_SCHEMES.map((scheme) => fitBound(expansion, scheme, tail));
   let cheapest: { placement: Placement; cost: number } | undefined;
-  for (const { remainders, reach, bound } of node.corrections) {
+  for (const { expansion, added, extra, reach, bound } of ways(node, smooth)) {
     const storage = storageBound(expansion, tail + reach);
     const allowed = storage < toleranceMetres ? toleranceMetres - storage : toleranceMetres;
-    for (const [i, scheme] of FITTED_SCHEMES.entries()) {
-      const cost = COSTS[scheme] + remainders.length * REMAINDER_COST;
-      const fit = fits[i] + bound;
-      if (!(fit <= allowed) || (cheapest && cost >= cheapest.cost)) continue;
+    for (const scheme of FITTED_SCHEMES) {
+      const cost = COSTS[scheme] + extra;
+      if (cheapest && cost >= cheapest.cost) break;
+      const fit = fitBound(expansion, scheme, tail) + bound;
+      if (!(fit <= allowed)) continue;
       const bounds = { bound: fit + storage, fitBound: fit, storageBound: storage };
       const coefficients = powerBasis(expansion, scheme);
-      cheapest = { cost, placement: { scheme, ...bounds, frame, coefficients, domain, remainders } };
+      cheapest = { cost, placement: { scheme, ...bounds, frame, coefficients, domain, ...added } };
+      break;
     }
   }
-  if (cheapest) {
-    const { placement } = cheapest;
-    return { ...placement, remainders: placement.remainders.map((part) => turned(part, frame.rotation)) };
-  }
-  const storage = storageBound(expansion, tail);
+  if (cheapest) return cheapest.placement;
+  const storage = storageBound(smooth, tail);
   return {
     ...{
       scheme: "exact",
@@ -78,6 +80,44 @@ export function fitPlacement(
     },
     ...{ frame, coefficients: new Float64Array(0), domain, remainders: [], exact: node.truth },
   };
+}
+
+/** A way to make up for what the smooth part leaves to the grids, in the node's frame. */
+interface Way {
+  readonly expansion: Expansion;
+  readonly added: Pick<Placement, "remainders" | "creases" | "relief">;
+  /** What it takes per point beside the scheme. */
+  readonly extra: number;
+  /** Greatest length of what is added, and how far the sum may be off before any fit, metres. */
+  readonly reach: number;
+  readonly bound: number;
+}
+
+/** The corrections of a node, each as it is looked up in cells and in the cheaper forms that it has. */
+function ways({ corrections }: NodeTransform, smooth: Expansion): Way[] {
+  const { rotation } = smooth.frame;
+  return corrections.flatMap(({ remainders, unfolded, reach, bound }) => {
+    const cells = remainders.map((part) => turned(part, rotation));
+    const found: Way[] = [
+      { expansion: smooth, added: { remainders: cells }, extra: cells.length * REMAINDER_COST, reach, bound },
+    ];
+    if (cells.length === 1) {
+      const { relief, error } = reliefOf(cells[0]);
+      const added = { remainders: [], relief };
+      found.push({ expansion: smooth, added, extra: RELIEF_COST, reach, bound: bound + error });
+    }
+    if (unfolded) {
+      const { polynomial, creases } = unfolded;
+      found.push({
+        expansion: plusQuadratic(smooth, turnedTerms(polynomial, QUADRATIC_TERMS, rotation)),
+        added: { remainders: [], creases: turnedCreases(creases, rotation) },
+        extra: CREASES_COST,
+        reach: unfolded.reach,
+        bound: bound + unfolded.error + unfolded.reach * ROUNDING,
+      });
+    }
+    return found;
+  });
 }
 
 function withoutGrids(exact: ExactTransform): NodeTransform {

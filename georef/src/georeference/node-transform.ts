@@ -7,6 +7,7 @@ import { holds } from "../transformation/projection.js";
 import { patchworkOf } from "../transformation/rectangle.js";
 import type { Transformation } from "../transformation/step.js";
 import { boxOf } from "./chebyshev.js";
+import { type Unfolded, unfoldAll } from "./creases.js";
 import type { GridRemainder } from "./grid-remainder.js";
 import { NodeSamples } from "./node-samples.js";
 import type { Domain } from "./placement.js";
@@ -24,8 +25,10 @@ export interface NodeTransform {
 }
 
 export interface Correction {
-  /** What is added to the smooth part, in axes of ECEF; small ones may be left out. */
+  /** What is added to the smooth part, in axes of ECEF, as it is looked up in cells; small ones may be left out. */
   readonly remainders: readonly GridRemainder[];
+  /** The same in closed form, where few lines cross the node; what that costs is not part of `bound`. */
+  readonly unfolded?: Unfolded | undefined;
   /** Metres: the greatest length of all that is added. */
   readonly reach: number;
   /** Metres: how far the sum can be from the projection with its grids, before any fit. */
@@ -35,7 +38,7 @@ export interface Correction {
 /** Metres: the smallest radius of curvature that a surface of constant height has, for terms of second order. */
 const RADIUS = 6.3e6;
 /** √3 · 2⁻²⁴: what storing a correction as three float32 costs before the polynomials are added to it. */
-const ROUNDING = Math.sqrt(3) * 2 ** -24;
+export const ROUNDING = Math.sqrt(3) * 2 ** -24;
 /** Between the deviations at the samples and the greatest one. */
 const BETWEEN_SAMPLES = 1.25;
 
@@ -93,8 +96,10 @@ function correctionsOf(parts: readonly GridPart[], links: readonly Link[], befor
   return Array.from({ length: finished.length + 1 }, (_, count) => {
     const [kept, leftOut] = [finished.slice(0, count), finished.slice(count)];
     const reach = sum(kept, "length");
+    const remainders = kept.map(({ remainder }) => remainder);
     return {
-      remainders: kept.map(({ remainder }) => remainder),
+      remainders,
+      ...(count > 0 && { unfolded: unfoldAll(remainders) }),
       reach,
       bound: before + secondOrder + sum(leftOut, "length") + sum(kept, "error") + count * reach * ROUNDING,
     };

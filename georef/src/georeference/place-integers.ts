@@ -1,6 +1,8 @@
 import { boxOf } from "./chebyshev.js";
+import type { Creases } from "./creases.js";
 import type { GridRemainder } from "./grid-remainder.js";
 import type { Placement } from "./placement.js";
+import type { Relief } from "./relief.js";
 
 /**
  * Input of a kernel: u = xyz[3i] · scaleU + offsetU and so on run from −1 to 1 over the placement's domain, so that
@@ -50,9 +52,49 @@ export function placeIntegers(
     offsetV: (offset[1] - box.y) / box.halfY,
     offsetW: (offset[2] - box.z) / box.halfZ,
   };
-  out.fill(0, 0, 3 * count);
-  for (const remainder of placement.remainders) addRemainders(integers, remainder, out);
-  KERNELS[scheme](integers, coefficients, out);
+  const { creases, relief, remainders } = placement;
+  if (scheme === "quadratic" && relief) quadraticOnRelief(integers, coefficients, relief, out);
+  else if (scheme === "quadratic" && creases) quadraticWithCreases(integers, coefficients, creases, out);
+  else {
+    out.fill(0, 0, 3 * count);
+    for (const remainder of remainders) addRemainders(integers, remainder, out);
+    if (relief) addReliefOfEach(integers, relief, out);
+    if (creases) addCreasesOfEach(integers, creases, out);
+    KERNELS[scheme](integers, coefficients, out);
+  }
+}
+
+/** What the cells of a relief add, per point, as `addRelief`; before the kernels, as remainders. */
+function addReliefOfEach(integers: Integers, { columns, position, cells }: Relief, out: Float32Array): void {
+  const { xyz, count, scaleU, scaleV, offsetU, offsetV } = integers;
+  const [x0, xu, xv, y0, yu, yv] = position;
+  const stride = columns + 1;
+  const mask = cells.length - 1;
+  for (let i = 0, end = 3 * count; i < end; i += 3) {
+    const u = xyz[i] * scaleU + offsetU;
+    const v = xyz[i + 1] * scaleV + offsetV;
+    const x = x0 + u * xu + v * xv;
+    const y = y0 + u * yu + v * yv;
+    // Truncation is floor here, but for the sliver below zero that belongs to cell 0 anyway.
+    const at = ((Math.imul(y | 0, stride) + (x | 0)) << 2) & mask;
+    out[i + 2] += cells[at] + x * cells[at + 1] + y * (cells[at + 2] + x * cells[at + 3]);
+  }
+}
+
+/** What the lines of grids add, per point, as `addCreases`; before the kernels, as remainders. */
+function addCreasesOfEach(integers: Integers, { lines, folds }: Creases, out: Float32Array): void {
+  const { xyz, count, scaleU, scaleV, offsetU, offsetV } = integers;
+  const [s0, su, sv, t0 = 0, tu = 0, tv = 0] = lines;
+  const [as, bs, cs, at = 0, bt = 0, ct = 0] = folds;
+  for (let i = 0, end = 3 * count; i < end; i += 3) {
+    const u = xyz[i] * scaleU + offsetU;
+    const v = xyz[i + 1] * scaleV + offsetV;
+    const s = Math.abs(s0 + u * su + v * sv);
+    const t = Math.abs(t0 + u * tu + v * tv);
+    out[i] += s * as + t * at;
+    out[i + 1] += s * bs + t * bt;
+    out[i + 2] += s * cs + t * ct;
+  }
 }
 
 /**
@@ -125,6 +167,59 @@ const quadratic: Kernel = (integers, coefficients, out) => {
     out[i] += a0 + u * (au + u * auu + v * auv) + v * (av + v * avv) + w * (an + u * anu + v * anv);
     out[i + 1] += b0 + u * (bu + u * buu + v * buv) + v * (bv + v * bvv) + w * (bn + u * bnu + v * bnv);
     out[i + 2] += c0 + u * (cu + u * cuu + v * cuv) + v * (cv + v * cvv) + w * (cn + u * cnu + v * cnv);
+  }
+};
+
+/** The quadratic scheme and what a grid adds in one pass; in two they cost half as much again. */
+type FusedKernel<Added> = (
+  integers: Integers,
+  coefficients: Float64Array,
+  added: Added,
+  out: Float32Array,
+) => void;
+
+const quadraticOnRelief: FusedKernel<Relief> = (integers, coefficients, relief, out) => {
+  const { xyz, count, scaleU, scaleV, scaleW, offsetU, offsetV, offsetW } = integers;
+  const [a0, au, av, auu, auv, avv, an, anu, anv] = coefficients;
+  const [b0, bu, bv, buu, buv, bvv, bn, bnu, bnv] = coefficients.subarray(9);
+  const [c0, cu, cv, cuu, cuv, cvv, cn, cnu, cnv] = coefficients.subarray(18);
+  const [x0, xu, xv, y0, yu, yv] = relief.position;
+  const { cells } = relief;
+  const stride = relief.columns + 1;
+  const mask = cells.length - 1;
+  for (let i = 0, end = 3 * count; i < end; i += 3) {
+    const u = xyz[i] * scaleU + offsetU;
+    const v = xyz[i + 1] * scaleV + offsetV;
+    const w = xyz[i + 2] * scaleW + offsetW;
+    out[i] = a0 + u * (au + u * auu + v * auv) + v * (av + v * avv) + w * (an + u * anu + v * anv);
+    out[i + 1] = b0 + u * (bu + u * buu + v * buv) + v * (bv + v * bvv) + w * (bn + u * bnu + v * bnv);
+    const x = x0 + u * xu + v * xv;
+    const y = y0 + u * yu + v * yv;
+    const at = ((Math.imul(y | 0, stride) + (x | 0)) << 2) & mask;
+    const c = c0 + u * (cu + u * cuu + v * cuv) + v * (cv + v * cvv) + w * (cn + u * cnu + v * cnv);
+    out[i + 2] = c + (cells[at] + x * cells[at + 1] + y * (cells[at + 2] + x * cells[at + 3]));
+  }
+};
+
+const quadraticWithCreases: FusedKernel<Creases> = (integers, coefficients, { lines, folds }, out) => {
+  const { xyz, count, scaleU, scaleV, scaleW, offsetU, offsetV, offsetW } = integers;
+  const [a0, au, av, auu, auv, avv, an, anu, anv] = coefficients;
+  const [b0, bu, bv, buu, buv, bvv, bn, bnu, bnv] = coefficients.subarray(9);
+  const [c0, cu, cv, cuu, cuv, cvv, cn, cnu, cnv] = coefficients.subarray(18);
+  const [s0, su, sv, t0 = 0, tu = 0, tv = 0] = lines;
+  const [as, bs, cs, at = 0, bt = 0, ct = 0] = folds;
+  for (let i = 0, end = 3 * count; i < end; i += 3) {
+    const u = xyz[i] * scaleU + offsetU;
+    const v = xyz[i + 1] * scaleV + offsetV;
+    const w = xyz[i + 2] * scaleW + offsetW;
+    const s = Math.abs(s0 + u * su + v * sv);
+    const t = Math.abs(t0 + u * tu + v * tv);
+    const a = a0 + u * (au + u * auu + v * auv) + v * (av + v * avv) + w * (an + u * anu + v * anv);
+    out[i] = a + s * as + t * at;
+    const b = b0 + u * (bu + u * buu + v * buv) + v * (bv + v * bvv) + w * (bn + u * bnu + v * bnv);
+    out[i + 1] = b + s * bs + t * bt;
+    const c = c0 + u * (cu + u * cuu + v * cuv) + v * (cv + v * cvv) + w * (cn + u * cnu + v * cnv);
+    out[i + 2] = c + s * cs + t * ct;
   }
 };
 

@@ -1,6 +1,8 @@
 import { boxOf } from "./chebyshev.js";
+import { addCreases } from "./creases.js";
 import { addRemainder } from "./grid-remainder.js";
 import type { Placement } from "./placement.js";
+import { addRelief } from "./relief.js";
 import { type FittedScheme, keeps, termCount, termIndex } from "./scheme.js";
 
 /**
@@ -29,6 +31,8 @@ export function place(
   const w = (z - box.z) / box.halfZ;
   const local = polynomial(placement.coefficients, scheme, u, v, w);
   for (const remainder of placement.remainders) addRemainder(remainder, u, v, local);
+  if (placement.creases) addCreases(placement.creases, u, v, local);
+  if (placement.relief) addRelief(placement.relief, u, v, local);
   const { origin, rotation } = frame;
   for (let axis = 0; axis < 3; axis++) {
     const turned = rotation[axis] * local[0] + rotation[axis + 3] * local[1] + rotation[axis + 6] * local[2];

@@ -1,6 +1,8 @@
 import type { Frame } from "../ellipsoid/frame.js";
 import type { PointTransform } from "../transformation/link.js";
+import type { Creases } from "./creases.js";
 import type { GridRemainder } from "./grid-remainder.js";
+import type { Relief } from "./relief.js";
 
 /** A box in source coordinates and units. */
 export interface Domain {
@@ -43,8 +45,12 @@ export interface Placement {
    */
   readonly coefficients: Float64Array;
   readonly domain: Domain;
-  /** What grids add to the polynomials, axes of the node frame; empty unless the node crosses lines of a grid. */
+  /** What grids add to the polynomials, axes of the node frame; empty unless the node crosses many lines of a grid. */
   readonly remainders: readonly GridRemainder[];
+  /** The same in closed form, for a node that one or two lines cross. */
+  readonly creases?: Creases;
+  /** The same where it lies along up. */
+  readonly relief?: Relief;
   /** The function itself, for the scheme `exact` only (so such a placement does not cross to a worker). */
   readonly exact?: PointTransform;
 }

@@ -29,8 +29,10 @@ export const COSTS: Readonly<Record<FittedScheme, number>> = {
   quartic: 26,
   tensor6: 180,
 };
-/** The same for what a grid adds. */
-export const REMAINDER_COST = 15;
+/** The same for what a grid adds: looked up in its cells, looked up for up alone, one or two lines in closed form. */
+export const REMAINDER_COST = 35;
+export const RELIEF_COST = 4;
+export const CREASES_COST = 2;
 
 const SHAPES: Readonly<Record<FittedScheme, Shape>> = {
   affine: { kind: "total", degreeP: 1, degreeN: 0 },

@@ -5,7 +5,8 @@ import { nodeOf, offBy, openCrs } from "./nodes.mjs";
 import { FORWARD, TOLERANCE } from "./placing.mjs";
 import { nanoseconds } from "./timing.mjs";
 
-const NAME = "EPSG:7415";
+/** Names of the pipelines, and the horizontal CRS that proj4js is given. */
+const NAMES = { "EPSG:7415": "EPSG:28992", "EPSG:2056+5728": "EPSG:2056" };
 const EDGE = 1000;
 const HEIGHT = 200;
 const DEGREE = Math.PI / 180;
@@ -15,29 +16,34 @@ const POINTS = 50000;
 
 export const FALLBACK = "proj4.forward + EGM96";
 export const EVALUATE = "transformation";
-/** Nodes that no single function is near enough to, because they lie across lines of a grid. */
-export const REMAINDER = "fit + grid remainder";
+/** Nodes that no single function is near enough to, because they lie across lines of a grid: a fold for each of one or two. */
+export const CREASED = "fit + grid lines";
+/** The same where more lines cross a grid of heights: each point looks its cell up. */
+export const RELIEF = "fit + heights of cells";
+/** The same for any grid, along all axes. */
+export const REMAINDER = "fit + grid cells";
 
 /**
- * RD New with heights above NAP against PROJ with its grids: proj4js as it is, with the geoid EGM96, the transformation
- * of the georeference record, and nodes fitted to it.
+ * RD New with heights above NAP, and LV95 with heights above LN02, against PROJ with its grids: proj4js as it is, with
+ * the geoid EGM96, the transformation of the georeference record, and nodes fitted to it.
  *
- * @returns {Promise<object[] | undefined>} undefined where the grids or the truth are not there
+ * @returns {Promise<object[]>} none where the grids or the truth are not there
  */
 export async function measureWithGrids(root) {
   const { missingFor, PIPELINES, pipeline } = await numerics(root);
-  if (missingFor(NAME)) return undefined;
-  const rows = truthRows(root, PIPELINES[NAME].truth);
-  const compiled = compileTransformation(await pipeline(NAME, around(rows)), NAME);
-  return [...measureEngines(root, compiled, rows), ...measureNodes(compiled, rows)].map((row) => ({
-    crs: NAME,
-    edge: EDGE,
-    ...row,
-  }));
+  const all = [];
+  for (const [name, horizontal] of Object.entries(NAMES)) {
+    if (missingFor(name)) continue;
+    const rows = truthRows(root, PIPELINES[name].truth);
+    const compiled = compileTransformation(await pipeline(name, around(rows)), name);
+    const measured = [...measureEngines(root, compiled, rows, horizontal), ...measureNodes(compiled, rows)];
+    all.push(...measured.map((row) => ({ crs: name, edge: EDGE, ...row })));
+  }
+  return all;
 }
 
-function measureEngines(root, compiled, rows) {
-  const { crs } = openCrs("EPSG:28992");
+function measureEngines(root, compiled, rows, horizontal) {
+  const { crs } = openCrs(horizontal);
   const { forward } = proj4(crs.proj4, "WGS84");
   const undulation = egm96Package(root);
   const ecef = new Float64Array(3);
@@ -76,24 +82,29 @@ function measureNodes(compiled, rows) {
     .map(([x, y, z, ...truth]) => {
       const plane = { minX: x - EDGE / 2, maxX: x + EDGE / 2, minY: y - EDGE / 2, maxY: y + EDGE / 2 };
       const domain = { ...plane, minZ: z - HEIGHT / 2, maxZ: z + HEIGHT / 2 };
-      const placement = fitPlacement(compiled, inside(domain, around(rows)), TOLERANCE, NAME);
+      const placement = fitPlacement(compiled, inside(domain, around(rows)), TOLERANCE);
       placeIntegers(placement, Int32Array.of(0, 0, 0), 1, [1, 1, 1], [x, y, z], local);
       return { x, y, z, placement, error: offBy(placement.frame, local, 0, truth) };
     });
-  const kinds = [
-    fitted.filter(({ placement }) => placement.remainders.length === 0),
-    fitted.filter(({ placement }) => placement.remainders.length > 0),
-  ].filter((kind) => kind.length > 0);
+  const kinds = [...new Set(fitted.map(({ placement }) => kindOf(placement)))].map((kind) =>
+    fitted.filter(({ placement }) => kindOf(placement) === kind),
+  );
   const out = new Float32Array(3 * POINTS);
   const times = nanoseconds(kinds.map(([node]) => ({ task: placeTask(node, out), items: POINTS })));
   return kinds.map((kind, i) => ({
-    method: kind[0].placement.remainders.length > 0 ? REMAINDER : kind[0].placement.scheme,
+    method: kindOf(kind[0].placement),
     ns: times[i],
     error: Math.max(...kind.map(({ error }) => error)),
     bound: Math.max(...kind.map(({ placement }) => placement.bound)),
     nodes: kind.length,
     chosen: true,
   }));
+}
+
+function kindOf({ scheme, remainders, creases, relief }) {
+  if (remainders.length > 0) return REMAINDER;
+  if (relief) return RELIEF;
+  return creases ? CREASED : scheme;
 }
 
 function placeTask({ x, y, z, placement }, out) {

@@ -1,15 +1,18 @@
 import { length, paretoChart } from "./chart.mjs";
 import { EXACT, FORWARD, measurePlacing, SCHEMES, TOLERANCE } from "./placing.mjs";
-import { EVALUATE, FALLBACK, measureWithGrids, REMAINDER } from "./placing-grids.mjs";
+import { CREASED, EVALUATE, FALLBACK, measureWithGrids, RELIEF, REMAINDER } from "./placing-grids.mjs";
 import { summarise } from "./summary.mjs";
 import { digits, markdownTable, span } from "./table.mjs";
 
-const GRIDS = "1 km, RD + NAP, against PROJ with grids";
+const GRIDS = {
+  "EPSG:7415": "1 km, RD + NAP, against PROJ with grids",
+  "EPSG:2056+5728": "1 km, LV95 + LN02, against PROJ with grids",
+};
 
 /** What placing a point costs, by scheme, engine and size of node. */
 export async function placingReport(root) {
   const plain = measurePlacing().map((row) => ({ panel: `node of ${length(row.edge)}`, ...row }));
-  const grids = ((await measureWithGrids(root)) ?? []).map((row) => ({ panel: GRIDS, ...row }));
+  const grids = (await measureWithGrids(root)).map((row) => ({ panel: GRIDS[row.crs], ...row }));
   const rows = [...plain, ...grids];
   const summaries = summarise(rows);
   return {
@@ -17,7 +20,12 @@ export async function placingReport(root) {
     text: describe(plain, grids),
     svg: paretoChart({
       summaries,
-      methods: [...SCHEMES, EXACT, FORWARD, ...(grids.length > 0 ? [FALLBACK, EVALUATE, REMAINDER] : [])],
+      methods: [
+        ...SCHEMES,
+        EXACT,
+        FORWARD,
+        ...(grids.length > 0 ? [FALLBACK, EVALUATE, CREASED, RELIEF, REMAINDER] : []),
+      ],
       columns: 3,
       errors: [1e-8, 1e3],
       tolerance: TOLERANCE,
@@ -61,8 +69,8 @@ function describe(rows, grids) {
     "Web Mercator); the thin line spans the CRSs. The default is the cheapest scheme whose certified bound is below " +
     `${length(TOLERANCE)}; where float32 alone reaches that (nodes of 100 km, which a page draws only from far away), ` +
     "the one whose fit is. `exact` is proj4js's inverse projection, improved by one step, with this project's own ECEF; " +
-    "`proj4.forward` goes to longitude and latitude, then to ECEF. In the last panel the truth is PROJ with the grids of " +
-    "RD New and NAP: `transformation` is PROJ's steps one by one with windows of its grids; the default is a fit of those, " +
+    "`proj4.forward` goes to longitude and latitude, then to ECEF. In the last panels the truth is PROJ with the grids of " +
+    "RD New and NAP, LV95 and LN02: `transformation` is PROJ's steps one by one with windows of its grids; the default is a fit of those, " +
     `${shares(grids)}.\n\n` +
     `Nodes of 1 km at 1 mm: ${bars.join("; ")}.`
   );
@@ -71,6 +79,8 @@ function describe(rows, grids) {
 /** How many nodes are fitted in which way. */
 function shares(grids) {
   const kinds = grids.filter(({ nodes }) => nodes > 0);
-  const all = kinds.reduce((sum, { nodes }) => sum + nodes, 0);
-  return kinds.map(({ method, nodes }) => `\`${method}\` in ${nodes} of ${all} nodes`).join(", ");
+  const all = (crs) => kinds.reduce((sum, kind) => sum + (kind.crs === crs ? kind.nodes : 0), 0);
+  const share = ({ crs, method, nodes, ns }) =>
+    `\`${method}\` in ${nodes} of ${all(crs)} nodes of ${crs} at ${digits(ns)} ns`;
+  return kinds.map(share).join(", ");
 }

@@ -26,7 +26,7 @@ export async function writeReports(root, names) {
       `![${title}](${name}.svg)`,
       table,
       `Measured on ${machine.date} on ${machine.cores} × ${machine.cpu}, load ${machine.load}, Node.js ${machine.node}, ${machine.packages}. ` +
-        "Times are the least of fifteen rounds in which all methods take turns: ratios within a run count, absolute times " +
+        "Times are the least of 45 rounds in which all methods take turns: ratios within a run count, absolute times " +
         `depend on the machine. Raw numbers: [${name}.json](${name}.json). Written by \`npm run bench:accuracy\`.`,
     ];
     writeFileSync(join(folder, `${name}.md`), `${paragraphs.join("\n\n")}\n`);

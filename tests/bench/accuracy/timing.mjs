@@ -1,7 +1,7 @@
 /** Rounds in which all tasks take turns, so that a busy moment of the machine hits none of them alone. */
-const ROUNDS = 15;
+const ROUNDS = 45;
 /** Nanoseconds that a task is run for in a round, at least: enough for the compiler and the clock. */
-const LEAST = 4e6;
+const LEAST = 1.3e6;
 
 /**
  * Nanoseconds per item of several tasks: the least of several rounds, the tasks taking turns.
