@@ -12,6 +12,10 @@ import { ellipsoidAxes } from "./ellipsoid.js";
 import type { Proj } from "./find.js";
 import type { EllipsoidText, PlannedStep } from "./plan.js";
 
+const ARC_SECOND = Math.PI / 648_000;
+/** In place of a grid's file name. */
+const CONSTANT = "constant offset";
+
 export interface AssembleOptions {
   readonly domain: Parameters<typeof fitPatchwork>[1];
   /** Metres. */
@@ -44,6 +48,12 @@ export async function assemble(
       const { map, keepHeight } = step;
       const [from, to] = [axes.get(step.from)!, axes.get(step.to)!];
       steps.push({ kind: "datumShift", from, to, ...map, keepHeight });
+    } else if (step.kind === "horizontalOffset") {
+      for (const window of constantShift(step.longitude * ARC_SECOND, step.latitude * ARC_SECOND)) {
+        steps.push({ kind: "horizontalShift", direction: "forward", window });
+      }
+    } else if (step.kind === "verticalOffset") {
+      steps.push({ kind: "verticalShift", multiplier: step.metres, window: constantWindow([1]) });
     } else {
       const window = unused.shift();
       if (!window) throw new RangeError("fewer windows than steps that use a grid");
@@ -52,6 +62,21 @@ export async function assemble(
     }
   }
   return { transformation: { steps }, patchwork };
+}
+
+/** A grid of one cell round the earth with the same values everywhere: what a step adds that needs no grid. */
+function constantWindow(values: readonly number[]): GridWindow {
+  return {
+    grid: CONSTANT,
+    ...{ west: -Math.PI, south: -Math.PI / 2, stepLongitude: 2 * Math.PI, stepLatitude: Math.PI },
+    ...{ columns: 2, rows: 2, channels: values.length, unit: 1 },
+    values: Float32Array.from(values.flatMap((value) => [value, value, value, value])),
+  };
+}
+
+/** Two of them, since the values of a grid are float32: the shift (radians), and what rounding it to float32 leaves. */
+function constantShift(...shift: readonly [number, number]): GridWindow[] {
+  return [constantWindow(shift), constantWindow(shift.map((value) => value - Math.fround(value)))];
 }
 
 /** The axes of every ellipsoid that the steps name; equal ones are asked for once. */

@@ -88,6 +88,18 @@ describe("a pipeline", () => {
     expect(kinds(UTM, "+step +proj=hgridshift +grids=@null", CART)).toEqual(["geocentric"]);
   });
 
+  it("adds the same offset everywhere, in either direction", () => {
+    const tokyo = "+step +proj=geogoffset +dlat=11.5 +dlon=-10.25 +dh=-36";
+    expect(parse(UTM, tokyo, CART).steps.slice(0, 2)).toEqual([
+      { kind: "horizontalOffset", longitude: -10.25, latitude: 11.5 },
+      { kind: "verticalOffset", metres: -36 },
+    ]);
+    expect(parse(UTM, tokyo.replace("+step", "+step +inv"), CART).steps[1]).toMatchObject({ metres: 36 });
+    expect(kinds(UTM, "+step +proj=geogoffset +dh=2.3", CART)).toEqual(["verticalOffset", "geocentric"]);
+    expect(kinds(UTM, "+step +proj=geogoffset", CART)).toEqual(["geocentric"]);
+    expect(() => parse(UTM, "+step +proj=push +v_3", tokyo, "+step +proj=pop +v_3", CART)).toThrow(/heights/);
+  });
+
   it("leaves heights alone between push and pop", () => {
     const shift =
       "+step +proj=cart +ellps=bessel +step +proj=helmert +x=1 +step +inv +proj=cart +ellps=GRS80";
@@ -110,7 +122,8 @@ describe("a pipeline", () => {
     ["xyzgridshift", "+step +proj=xyzgridshift +grids=x.tif"],
     ["gridshift", "+step +proj=gridshift +grids=x.tif"],
     ["molodensky", "+step +proj=molodensky +ellps=GRS80 +dx=1 +dy=1 +dz=1 +da=1 +df=1"],
-    ["geogoffset", "+step +proj=geogoffset +dlat=1 +dlon=1"],
+    ["geogoffset", "+step +proj=geogoffset +dlat=much"],
+    ["vertoffset", "+step +proj=vertoffset +lat_0=50 +lon_0=10 +dh=0.1 +slope_lat=0.1"],
     ["a later invention", "+step +proj=later_invention"],
     ["hgridshift", "+step +proj=hgridshift +grids=x.tif +t_epoch=2010"],
     ["vgridshift", "+step +proj=vgridshift +grids=x.tif +multiplier=much"],

@@ -97,6 +97,9 @@ function readUnits(step: StepText): Units {
   return step.inverse ? { angular: true, from: to, to: from, height } : { angular: true, from, to, height };
 }
 
+/** Steps that would have to be undone where heights are put aside before them. */
+const CHANGES_HEIGHT = new Set<PlannedStep["kind"]>(["height", "verticalShift", "verticalOffset"]);
+
 /** Walks from longitude and latitude in radians to ECEF. */
 class Walk {
   readonly #pipeline: readonly StepText[];
@@ -169,6 +172,8 @@ class Walk {
       const multiplier = multiplierOf(step) * (inverse ? -1 : 1);
       const grids = gridNames(step);
       if (grids[0].name !== "null") this.#planned.push({ kind: "verticalShift", multiplier, grids, before });
+    } else if (name === "geogoffset") {
+      this.#offset(step);
     } else throw refuseStep(step);
   }
 
@@ -184,6 +189,15 @@ class Walk {
     else throw refuseStep(step);
   }
 
+  /** The same offset everywhere: EPSG methods 9616, 9618, 9619 and 9660. */
+  #offset(step: StepText): void {
+    only(step, ["dlon", "dlat", "dh"]);
+    const [longitude, latitude, metres] = ["dlon", "dlat", "dh"].map((key) => offsetOf(step, key));
+    if (longitude !== 0 || latitude !== 0)
+      this.#planned.push({ kind: "horizontalOffset", longitude, latitude });
+    if (metres !== 0) this.#planned.push({ kind: "verticalOffset", metres });
+  }
+
   #height(metresPerUnit: number): void {
     if (metresPerUnit !== 1) this.#planned.push({ kind: "height", metresPerUnit });
   }
@@ -197,7 +211,7 @@ class Walk {
       return;
     }
     const between = this.#planned.slice(this.#aside);
-    if (between.some(({ kind }) => kind === "height" || kind === "verticalShift")) {
+    if (between.some(({ kind }) => CHANGES_HEIGHT.has(kind))) {
       throw refuseStep(step, "a change of heights before it");
     }
     this.#aside = undefined;
@@ -226,6 +240,13 @@ function multiplierOf(step: StepText): number {
   const value = Number(text);
   if (text === "" || !Number.isFinite(value)) throw refuseStep(step, `the multiplier ${text}`);
   return value;
+}
+
+function offsetOf(step: StepText, key: string): number {
+  const text = step.parameters.get(key) ?? "0";
+  const value = Number(text);
+  if (text === "" || !Number.isFinite(value)) throw refuseStep(step, `its parameter +${key}=${text}`);
+  return step.inverse ? -value : value;
 }
 
 function gridNames(step: StepText): GridName[] {

@@ -20,6 +20,10 @@ export type PlannedStep =
       readonly grids: readonly GridName[];
       readonly before: number;
     }
+  /** PROJ's geogoffset: arc-seconds added to longitude and latitude. */
+  | { readonly kind: "horizontalOffset"; readonly longitude: number; readonly latitude: number }
+  /** The same for heights, metres. */
+  | { readonly kind: "verticalOffset"; readonly metres: number }
   | {
       readonly kind: "datumShift";
       readonly from: EllipsoidText;

@@ -106,6 +106,14 @@ describe.skipIf(!plain)(`PROJ alone${absent}`, () => {
     ["an ellipsoid by numbers", crsOf("EPSG:20135", UNKNOWN), box(500_000, 1_100_000)],
     ["Paris and grads", crsOf("EPSG:4807", UNKNOWN), box(0, 54, 0.1)],
     ["degrees across the antimeridian", crsOf("EPSG:4326", UNKNOWN), box(179.95, 54, 0.1)],
+    ["an offset of longitude and latitude", crsOf("EPSG:2000", UNKNOWN), box(285_000, 2_012_000)],
+    ["an offset before a shift", crsOf("EPSG:4120", UNKNOWN), box(23, 38, 0.1)],
+    ["heights by an offset", crsOf("EPSG:7414", GEOID), box(140, 36, 0.1)],
+    [
+      "a zone across the antimeridian",
+      crsOf("EPSG:32660", { kind: "ellipsoidal" }),
+      box(690_000, 100_000, 30_000),
+    ],
     ["degrees from 0 to 360", crsOf("EPSG:4326+5773", GEOID), box(289.9, 44, 0.1)],
   ])("is met in %s", async (_, crs, domain) => {
     const { report } = await projTransformation(plain!, crs, domain);
