@@ -64,8 +64,6 @@ export type RecordMaker = (bounds: PointBounds, signal: AbortSignal) => Promise<
 export interface Conversion {
   readonly points: number;
   readonly nodes: number;
-  /** Levels of the octree. */
-  readonly levels?: number;
   readonly bytes: number;
   readonly seconds: number;
 }

@@ -23,11 +23,10 @@ export function summaryForMachines({ georeferenced, records, ...summary }: Conve
 
 /** What a conversion made, for people. */
 export function summaryInWords(converted: Converted): string {
-  const { output, points, nodes, levels, bytes, seconds } = converted;
-  const octree = `${counted(nodes, "node")}${levels === undefined ? "" : ` on ${counted(levels, "level")}`}`;
+  const { output, points, nodes, bytes, seconds } = converted;
   const each = `${(bytes / points).toPrecision(2)} bytes a point`;
   const rate = seconds > 0 ? `, ${count(Math.round(points / seconds))} points/s` : "";
-  const first = `${basename(output)}  ${counted(points, "point")} in ${octree}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}\n`;
+  const first = `${basename(output)}  ${counted(points, "point")} in ${counted(nodes, "node")}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}\n`;
   return `${first}${placeSummary(converted)}`;
 }
 
