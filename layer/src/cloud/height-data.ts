@@ -1,4 +1,4 @@
-import { decodeEgm96, type Grid, type VerticalSystem } from "@groma/georef";
+import { decodeEgm96, type Grid, GromaError, type VerticalSystem } from "@groma/georef";
 import { SourceError } from "../errors/index.js";
 
 /** What it takes to place heights above a geoid where no conversion has settled them. Large, so fetched when needed. */
@@ -26,22 +26,21 @@ function once<T>(load: () => Promise<T>): () => Promise<T> {
 
 /** The files that lie beside this library: 37 kB of systems, 1.1 MB of geoid. */
 export const packagedHeights: HeightData = {
-  systems: once(async () => (await fetched(SYSTEMS)).json()),
-  egm96: once(async () => {
-    const bytes = new Uint8Array(await (await fetched(GEOID)).arrayBuffer());
-    return decodeEgm96(bytes, GEOID.href);
-  }),
+  systems: once(() => fetched(SYSTEMS, (response) => response.json())),
+  egm96: once(() =>
+    fetched(GEOID, async (response) => decodeEgm96(new Uint8Array(await response.arrayBuffer()), GEOID.href)),
+  ),
 };
 
 /** @throws SourceError SOURCE_HEIGHTS */
-async function fetched(address: URL): Promise<Response> {
+async function fetched<T>(address: URL, read: (response: Response) => Promise<T>): Promise<T> {
   let cause: string;
   try {
     const response = await fetch(address);
-    if (response.ok) return response;
+    if (response.ok) return await read(response);
     cause = `the server answered ${response.status}`;
   } catch (thrown) {
-    cause = thrown instanceof Error ? thrown.message : String(thrown);
+    cause = thrown instanceof GromaError ? thrown.cause : String(thrown);
   }
   throw new SourceError({
     code: "SOURCE_HEIGHTS",
