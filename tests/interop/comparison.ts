@@ -1,7 +1,7 @@
 import { join } from "node:path";
 import { expect } from "vitest";
 import { pythonMissing, runPython } from "../python.js";
-import { convert, coreMissing, inPairs, type Outcome } from "./core.js";
+import { convert, coreMissing, inPairs, type Limits, type Outcome } from "./core.js";
 
 /** Why comparisons with the referees are skipped, in the order of what is missing. */
 export const refereesMissing = coreMissing ?? pythonMissing;
@@ -20,6 +20,7 @@ export interface Comparison {
 
 /** A conversion and what the referees say of it. */
 export interface Converted {
+  output: string;
   outcome: Outcome;
   /** Undefined where the conversion failed. */
   found: Comparison | undefined;
@@ -28,6 +29,8 @@ export interface Converted {
 /** What each input list becomes. */
 export interface Job {
   readonly inputs: readonly string[];
+  /** Files with the same records that the referees read instead; none for a check of the output alone. */
+  readonly references?: readonly string[];
   readonly options?: readonly string[];
 }
 
@@ -39,16 +42,22 @@ export function compareAll(
 }
 
 /** Converts every job to a COPC file in the folder, and compares all of them in one go. */
-export async function convertAndCompare(folder: string, jobs: readonly Job[]): Promise<Converted[]> {
+export async function convertAndCompare(
+  folder: string,
+  jobs: readonly Job[],
+  limits?: Limits,
+): Promise<Converted[]> {
   const output = (index: number) => join(folder, `out-${index}.copc.laz`);
   const numbered = jobs.map((job, index) => ({ ...job, index }));
   const outcomes = await inPairs(numbered, ({ inputs, options = [], index }) =>
-    convert([...inputs, output(index), ...options]),
+    convert([...inputs, output(index), ...options], limits),
   );
   const done = numbered.filter(({ index }) => outcomes[index]!.status === 0);
-  const found = compareAll(done.map(({ inputs, index }) => [output(index), inputs] as const));
+  const found = compareAll(
+    done.map(({ inputs, references, index }) => [output(index), references ?? inputs] as const),
+  );
   const byIndex = new Map(done.map(({ index }, place) => [index, found[place]]));
-  return outcomes.map((outcome, index) => ({ outcome, found: byIndex.get(index) }));
+  return outcomes.map((outcome, index) => ({ output: output(index), outcome, found: byIndex.get(index) }));
 }
 
 /** Expects that the referees found every record once and every rule kept. */

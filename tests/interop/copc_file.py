@@ -74,7 +74,7 @@ class CopcFile:
     def _records(self, at, count, length_format, length_size):
         records, places = [], []
         for _ in range(count):
-            user = self.bytes[at + 2 : at + 18].split(b"\0")[0].decode()
+            user = self.bytes[at + 2 : at + 18].split(b"\0")[0].decode("latin-1")
             (record_id,) = struct.unpack_from("<H", self.bytes, at + 18)
             (length,) = struct.unpack_from(length_format, self.bytes, at + 20)
             at += 20 + length_size + 32
