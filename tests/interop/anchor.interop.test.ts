@@ -27,9 +27,14 @@ function converted(name: string, ...options: string[]): { out: string; done: Don
   return { out, done };
 }
 
+let atAnchor: ReturnType<typeof converted> | undefined;
+
+/** The lion at its anchor, converted once for all tests. */
 const anchored = () => {
   const { longitude, latitude, height, heading, scale } = ANCHOR;
-  return converted("anchor.copc.laz", "--anchor", [longitude, latitude, height, heading, scale].join());
+  const anchor = [longitude, latitude, height, heading, scale].join();
+  atAnchor ??= converted("anchor.copc.laz", "--anchor", anchor);
+  return atAnchor;
 };
 
 /** Points of the scan that are far from one line. */

@@ -52,6 +52,16 @@ interface Done {
 const convert = (name: string, crs: string, out: string, ...more: string[]) =>
   gromaJson<Done>(["convert", las(name), out, "--crs", crs, "--progress", "json", "--overwrite", ...more]);
 
+const withGrids = new Map<string, { out: string; done: Done }>();
+
+/** A whole table converted with its grids, once for all tests. */
+function converted({ name, crs }: { name: string; crs: string }): { out: string; done: Done } {
+  const out = join(folder, `${name}.copc.laz`);
+  const known = withGrids.get(name) ?? { out, done: convert(name, crs, out, "--grids", grids.path) };
+  withGrids.set(name, known);
+  return known;
+}
+
 beforeAll(() => {
   if (missing) return;
   const jobs = tables.flatMap(({ name, path, ...table }) => {
@@ -66,10 +76,10 @@ beforeAll(() => {
 });
 
 describe.skipIf(missing ?? projMissing ?? grids.missing)("groma locate after a conversion with PROJ", () => {
-  it.each(tables)("puts every row of $name within 1 mm", { timeout: 120_000 }, ({ name, crs, path }) => {
-    const out = join(folder, `${name}.copc.laz`);
-    const done = convert(name, crs, out, "--grids", grids.path);
+  it.each(tables)("puts every row of $name within 1 mm", { timeout: 120_000 }, (table) => {
+    const { out, done } = converted(table);
     expect(done.engine.name).toBe("PROJ");
+    const { name, path } = table;
     const rows = rowsOf(path);
     const located = locate(out, rows);
     expect(located.length).toBe(rows.length);
@@ -107,9 +117,9 @@ describe.skipIf(missing ?? projMissing ?? grids.missing)("groma locate after a c
   });
 
   it("leaves a COPC that others read, the transformation of a country behind its points", () => {
-    const { name, crs, path } = tables[1];
-    const out = join(folder, "country.copc.laz");
-    const { transformationBytes } = convert(name, crs, out, "--grids", grids.path);
+    const { path } = tables[1];
+    const { out, done } = converted(tables[1]);
+    const { transformationBytes } = done;
     expect(transformationBytes).toBeGreaterThan(65_535);
     const points = rowsOf(path).length;
     expect(runPython("interop/extended_record.py", [out])).toEqual({
@@ -123,8 +133,7 @@ describe.skipIf(missing ?? projMissing ?? grids.missing)("groma locate after a c
   });
 
   it("says by name what lies outside, and tells the line", () => {
-    const out = join(folder, "outside.copc.laz");
-    convert(tables[0].name, tables[0].crs, out, "--grids", grids.path);
+    const { out } = converted(tables[0]);
     const { code, stderr } = groma(
       ["locate", out, "--points", "-"],
       "# remark\n150000 450000\n900000;450000;3\n",
