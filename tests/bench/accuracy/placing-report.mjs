@@ -61,7 +61,8 @@ function describe(rows, grids) {
     .filter(({ chosen }) => chosen)
     .map(({ crs, method, ns }) => {
       const forward = kilometre.find((row) => row.crs === crs && row.method === FORWARD);
-      return `${crs} ${method} ${digits(ns)} ns, ${Math.round(forward.ns / ns)} × faster than \`proj4.forward\``;
+      const ratio = `${Math.round(forward.ns / ns)} × faster than \`proj4.forward\` (${digits(forward.ns)} ns)`;
+      return `${crs} ${method} ${digits(ns)} ns, ${ratio}`;
     });
   return (
     `Each point is a way to place a scan: its time per point, and the greatest error of points as the page stores them ` +
@@ -72,7 +73,8 @@ function describe(rows, grids) {
     "`proj4.forward` goes to longitude and latitude, then to ECEF. In the last panels the truth is PROJ with the grids of " +
     "RD New and NAP, LV95 and LN02: `transformation` is PROJ's steps one by one with windows of its grids; the default is a fit of those, " +
     `${shares(grids)}.\n\n` +
-    `Nodes of 1 km at 1 mm: ${bars.join("; ")}.`
+    `Nodes of 1 km at 1 mm: ${bars.join("; ")}. Forty times faster than Web Mercator's \`forward\`, ` +
+    "two functions of one variable, would be as fast as the affine scheme, which is off by centimetres there."
   );
 }
 
@@ -81,6 +83,6 @@ function shares(grids) {
   const kinds = grids.filter(({ nodes }) => nodes > 0);
   const all = (crs) => kinds.reduce((sum, kind) => sum + (kind.crs === crs ? kind.nodes : 0), 0);
   const share = ({ crs, method, nodes, ns }) =>
-    `\`${method}\` in ${nodes} of ${all(crs)} nodes of ${crs} at ${digits(ns)} ns`;
+    `\`$method\` in $nodesof $all(crs)nodes of $crsat $digits(ns)ns`;
   return kinds.map(share).join(", ");
 }
