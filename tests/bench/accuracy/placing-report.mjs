@@ -83,6 +83,6 @@ function shares(grids) {
   const kinds = grids.filter(({ nodes }) => nodes > 0);
   const all = (crs) => kinds.reduce((sum, kind) => sum + (kind.crs === crs ? kind.nodes : 0), 0);
   const share = ({ crs, method, nodes, ns }) =>
-    `\`$method\` in $nodesof $all(crs)nodes of $crsat $digits(ns)ns`;
+    `\`${method}\` in ${nodes} of ${all(crs)} nodes of ${crs} at ${digits(ns)} ns`;
   return kinds.map(share).join(", ");
 }
