@@ -12,5 +12,6 @@ pub mod output;
 pub mod pipeline;
 pub mod progress;
 pub mod record;
+pub mod sampling;
 pub mod scan;
 pub mod statistics;
