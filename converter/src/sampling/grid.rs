@@ -17,7 +17,7 @@ pub fn choose(cell: &Cell, candidates: &[[f64; 3]], seed: &[u64], scratch: &mut 
     lattice.lay(cell, cell.spacing);
     best.clear();
     for ((position, seed), index) in candidates.iter().zip(seed).zip(0..) {
-        let own = Best { distance2: lattice.from_centre2(position), seed: *seed, index };
+        let own = Best { distance2: lattice.off_centre2(position), seed: *seed, index };
         let at = lattice.inner_cell(position);
         let slot = lattice.get(at);
         if slot == EMPTY {

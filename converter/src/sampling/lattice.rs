@@ -52,7 +52,7 @@ impl Lattice {
 
     /// The square of the distance of a position from the centre of its inner cell, in edges of a cell.
     #[inline]
-    pub fn from_centre2(&self, position: &[f64; 3]) -> f64 {
+    pub fn off_centre2(&self, position: &[f64; 3]) -> f64 {
         let last = (self.count - 3) as f64;
         let off = |i: usize| {
             let place = (position[i] - self.min[i]) * self.inverse;
