@@ -3,7 +3,9 @@
 //!
 //! The way of the data is a chain of stages whose order the types enforce, see [`pipeline::Pipeline`].
 
+pub mod build;
 pub mod copc;
+pub mod distribute;
 pub mod error;
 pub mod input;
 pub mod memory;
@@ -15,3 +17,4 @@ pub mod record;
 pub mod sampling;
 pub mod scan;
 pub mod statistics;
+pub mod temporary;

@@ -1,6 +1,10 @@
 //! The root cube.
 
-use super::key::{BITS, morton};
+use super::key::{BITS, Key, morton};
+use crate::sampling::Cell;
+
+/// Cells along the edge of a node's cube: the spacing of a node's points is its side by this number.
+pub const GRID: u32 = 128;
 
 /// Smallest and largest coordinate on each axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +54,24 @@ impl Cube {
 
     pub fn side(&self) -> f64 {
         self.half_size * 2.0
+    }
+
+    /// The cube of a node.
+    pub fn cell(&self, key: Key) -> Cell {
+        let side = self.side() / f64::from(1u32 << key.level);
+        let min = self.min();
+        let at = [key.x, key.y, key.z];
+        Cell {
+            min: std::array::from_fn(|i| min[i] + f64::from(at[i]) * side),
+            side,
+            spacing: side / f64::from(GRID),
+        }
+    }
+
+    /// Whether a position lies within.
+    pub fn contains(&self, position: [f64; 3]) -> bool {
+        let (min, side) = (self.min(), self.side());
+        (0..3).all(|i| position[i] >= min[i] && position[i] <= min[i] + side)
     }
 
     /// The Morton code of a position; positions outside get that of the nearest cell.
