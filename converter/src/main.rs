@@ -1,16 +1,16 @@
 //! `groma-core`: the part of the `groma` command that reads and writes points.
 
 use clap::{Args, Parser, Subcommand};
+use groma_core::build::Rules;
 use groma_core::error::{Error, Result};
 use groma_core::input::contain::is_contained;
+use groma_core::memory;
 use groma_core::pipeline::options::Options;
 use groma_core::pipeline::{Pipeline, Summary};
 use groma_core::progress::JsonLines;
-use groma_core::scan::Scan;
 use groma_core::sampling::Strategy;
+use groma_core::scan::Scan;
 use groma_core::temporary::folder;
-use groma_core::build::Rules;
-use groma_core::memory;
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -181,8 +181,18 @@ fn usage(error: &clap::Error) -> Error {
     let text = error.to_string();
     let cause = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string();
     let option = error.get(clap::error::ContextKind::InvalidArg).map(ToString::to_string).unwrap_or_default();
-    let name = ["SAMPLING", "MEMORY", "THREADS", "LIST", "TEMP_DIR", "WAIT_FOR_RECORD", "RECORD", "TRANSFORMATION", "WKT"]
-        .into_iter()
-        .find(|name| option.contains(&format!("--{}", name.to_lowercase().replace('_', "-"))));
+    let name = [
+        "SAMPLING",
+        "MEMORY",
+        "THREADS",
+        "LIST",
+        "TEMP_DIR",
+        "WAIT_FOR_RECORD",
+        "RECORD",
+        "TRANSFORMATION",
+        "WKT",
+    ]
+    .into_iter()
+    .find(|name| option.contains(&format!("--{}", name.to_lowercase().replace('_', "-"))));
     Error::option(name.unwrap_or("USAGE"), cause)
 }

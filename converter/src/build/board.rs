@@ -42,7 +42,13 @@ impl Board {
     /// what a job takes.
     pub fn new(phases: Vec<Vec<Job>>, bytes: impl Fn(&Job) -> u64, force: Workforce) -> Self {
         let weighed = |jobs: Vec<Job>| {
-            let mut jobs: Vec<_> = jobs.into_iter().map(|job| { let b = bytes(&job); (job, b) }).collect();
+            let mut jobs: Vec<_> = jobs
+                .into_iter()
+                .map(|job| {
+                    let b = bytes(&job);
+                    (job, b)
+                })
+                .collect();
             jobs.sort_by_key(|(_, bytes)| *bytes);
             jobs
         };
@@ -56,7 +62,12 @@ impl Board {
             failure: None,
         };
         state.advance();
-        Self { work: force.work, queue: QUEUE * force.workers as u64, state: Mutex::new(state), moved: Condvar::new() }
+        Self {
+            work: force.work,
+            queue: QUEUE * force.workers as u64,
+            state: Mutex::new(state),
+            moved: Condvar::new(),
+        }
     }
 
     /// Waits for something to do; `None` when there will be nothing more.
@@ -67,7 +78,8 @@ impl Board {
                 return None;
             }
             let full = state.queued >= self.queue;
-            let fits = |bytes: u64, state: &State| state.active == 0 || state.active_bytes + bytes <= self.work;
+            let fits =
+                |bytes: u64, state: &State| state.active == 0 || state.active_bytes + bytes <= self.work;
             // Where the largest does not fit, a smaller one may.
             let job = state.jobs.iter().rposition(|(_, bytes)| fits(*bytes, &state)).filter(|_| !full);
             if let Some(index) = job {

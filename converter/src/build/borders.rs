@@ -16,7 +16,13 @@ pub struct Borders(RwLock<HashMap<Key, Held>>);
 
 impl Borders {
     /// Keeps those of a node's positions that lie within one spacing of a face.
-    pub fn keep(&self, key: Key, cell: &Cell, chosen: impl Iterator<Item = [f64; 3]>, store: &Store) -> Result<()> {
+    pub fn keep(
+        &self,
+        key: Key,
+        cell: &Cell,
+        chosen: impl Iterator<Item = [f64; 3]>,
+        store: &Store,
+    ) -> Result<()> {
         let (low, high) = (cell.spacing, cell.side - cell.spacing);
         let mut bytes = Vec::new();
         for position in chosen {

@@ -21,7 +21,7 @@ pub struct Candidates<'a> {
 pub fn choose(site: &Site, key: Key, candidates: Candidates, desk: &mut Desk) -> Result<Vec<u32>> {
     let Candidates { records, numbers, weights } = candidates;
     let (length, cell) = (site.inputs.length, site.cube.cell(key));
-    let Desk { positions, seeds, near, scratch } = desk;
+    let Desk { positions, seeds, near, scratch, .. } = desk;
     let record = |number: u32| &records[number as usize * length..][..length];
     positions.clear();
     positions.extend(

@@ -25,7 +25,8 @@ pub fn merge(site: &Site, key: Key, desk: &mut Desk) -> Result<()> {
     let mut start = 0;
     for (child, end) in children {
         let mut rest = Vec::with_capacity((end - start) * length);
-        for (number, record) in (start..).zip(all.records[start * length..end * length].chunks_exact(length)) {
+        for (number, record) in (start..).zip(all.records[start * length..end * length].chunks_exact(length))
+        {
             if taken.next_if(|next| *next as usize == number).is_some() {
                 own.records.extend_from_slice(record);
                 own.weights.extend(all.weights.get(number));
@@ -33,7 +34,7 @@ pub fn merge(site: &Site, key: Key, desk: &mut Desk) -> Result<()> {
                 rest.extend_from_slice(record);
             }
         }
-        site.finish(child, rest)?;
+        site.finish(child, rest, &mut desk.arranger)?;
         start = end;
     }
     site.keep(key, own)

@@ -12,6 +12,7 @@
 //! The order of work makes the result the same for any number of threads: nodes whose samples depend on each other,
 //! because they touch, are never worked on at the same time.
 
+mod arrange;
 mod board;
 mod borders;
 mod choose;
@@ -77,11 +78,12 @@ pub fn build(
             let done = match task {
                 Task::Finish(finish) => site.compress(finish),
                 Task::Job(job, bytes) => {
+                    desk.arranger.reset();
                     let done = match job {
                         Job::Split { key, cell } => split::split(&site, key, cell, &mut desk),
                         Job::Pile { key, cell } => pile::stream(&site, key, cell),
                         Job::Merge { key, .. } => merge::merge(&site, key, &mut desk),
-                        Job::Root => site.finish_root(),
+                        Job::Root => site.finish_root(&mut desk.arranger),
                     };
                     board.job_done(bytes);
                     done

@@ -1,5 +1,6 @@
 //! What all jobs of a build share.
 
+use super::arrange::Arranger;
 use super::board::Board;
 use super::borders::Borders;
 use crate::copc::chunk;
@@ -81,6 +82,7 @@ pub struct Desk {
     pub seeds: Vec<u64>,
     pub near: Vec<[f64; 3]>,
     pub scratch: Scratch,
+    pub arranger: Arranger,
 }
 
 pub struct Site<'a> {
@@ -111,7 +113,19 @@ impl<'a> Site<'a> {
         board: &'a Board,
     ) -> Self {
         let (pending, nodes) = (Mutex::new(pending), Mutex::new(Vec::new()));
-        Self { inputs, cube, limits, rules, laz, store, borders: Borders::default(), meter, board, pending, nodes }
+        Self {
+            inputs,
+            cube,
+            limits,
+            rules,
+            laz,
+            store,
+            borders: Borders::default(),
+            meter,
+            board,
+            pending,
+            nodes,
+        }
     }
 
     /// Whether colours are averaged: asked for, and there.
@@ -152,7 +166,9 @@ impl<'a> Site<'a> {
                 let mut weights = Vec::new();
                 if self.averages() {
                     let count = records.len() / (length + 4);
-                    weights.extend(records[count * length..].as_chunks::<4>().0.iter().map(|b| u32::from_le_bytes(*b)));
+                    weights.extend(
+                        records[count * length..].as_chunks::<4>().0.iter().map(|b| u32::from_le_bytes(*b)),
+                    );
                     records.truncate(count * length);
                 }
                 Ok(Batch { records, weights })
@@ -160,20 +176,21 @@ impl<'a> Site<'a> {
         }
     }
 
-    /// Gives a node its records for good.
-    pub fn finish(&self, key: Key, records: Vec<u8>) -> Result<()> {
+    /// Gives a node its records for good. They come in the input's order.
+    pub fn finish(&self, key: Key, records: Vec<u8>, arranger: &mut Arranger) -> Result<()> {
         if records.is_empty() {
             return Ok(());
         }
+        let records = arranger.arrange(self, records)?;
         match self.board.queue(Finish { key, records }) {
             Some(finish) => self.compress(finish),
             None => Ok(()),
         }
     }
 
-    pub fn finish_root(&self) -> Result<()> {
+    pub fn finish_root(&self, arranger: &mut Arranger) -> Result<()> {
         let batch = self.take(Key::ROOT)?;
-        self.finish(Key::ROOT, batch.records)
+        self.finish(Key::ROOT, batch.records, arranger)
     }
 
     /// Compresses a node's records.

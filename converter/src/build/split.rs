@@ -1,5 +1,6 @@
 //! All nodes below a cell whose points are in memory.
 
+use super::arrange::Arranger;
 use super::choose::{Candidates, choose};
 use super::pile;
 use super::site::{Batch, Desk, Site};
@@ -47,7 +48,7 @@ impl Points {
         let code = |number: u32| self.codes[number as usize];
         let first = code(order[0]);
         if order.iter().all(|number| code(*number) == first) {
-            return self.pile(site, key, first, order);
+            return self.pile(site, key, first, order, &mut desk.arranger);
         }
         let ends = self.partition(key.level, order, spare);
         let mut children = Vec::with_capacity(8);
@@ -55,7 +56,10 @@ impl Points {
         for (octant, end) in (0..8).zip(ends) {
             if start < end {
                 let child = key.child(octant);
-                children.push((child, self.grow(site, child, &mut order[start..end], &mut spare[start..end], desk)?));
+                children.push((
+                    child,
+                    self.grow(site, child, &mut order[start..end], &mut spare[start..end], desk)?,
+                ));
             }
             start = end;
         }
@@ -68,7 +72,7 @@ impl Points {
         chosen.iter().for_each(|number| self.taken[*number as usize] = true);
         for (child, mut own) in children {
             own.retain(|number| !self.taken[*number as usize]);
-            site.finish(child, self.gather(&own, site.inputs.length).records)?;
+            site.finish(child, self.gather(&own, site.inputs.length).records, &mut desk.arranger)?;
         }
         Ok(chosen)
     }
@@ -93,12 +97,19 @@ impl Points {
     }
 
     /// Points with one code: the first ones are the node's, the others its descendants'.
-    fn pile(&self, site: &Site, key: Key, code: u64, order: &[u32]) -> Result<Vec<u32>> {
+    fn pile(
+        &self,
+        site: &Site,
+        key: Key,
+        code: u64,
+        order: &[u32],
+        arranger: &mut Arranger,
+    ) -> Result<Vec<u32>> {
         let chain = pile::chain(key, code, order.len() as u64, site.limits.node);
         let (own, mut rest) = order.split_at(chain.own as usize);
         for (key, points) in chain.below {
             let (now, later) = rest.split_at(points as usize);
-            site.finish(key, self.gather(now, site.inputs.length).records)?;
+            site.finish(key, self.gather(now, site.inputs.length).records, arranger)?;
             rest = later;
         }
         Ok(own.to_vec())

@@ -9,10 +9,10 @@ use crate::error::{Error, Result};
 use crate::octree::key::Key;
 use crate::progress::Meter;
 use crate::scan::variable_record::{COPC, COPC_HIERARCHY, EXTENDED_HEADER, HEADER, VariableRecord};
+use crate::temporary::store::{Held, Store};
 use las::raw::Header;
 use laz::LazVlr;
 use laz::laszip::{ChunkTable, ChunkTableEntry};
-use crate::temporary::store::{Held, Store};
 use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -110,7 +110,8 @@ fn write_points(
     for Node { key, points, chunk } in nodes {
         let mut chunk_of = Chunk { key: *key, offset: 0, bytes: 0, points: 0 };
         if *points > 0 {
-            chunk_of.points = i32::try_from(*points).map_err(|_| failed(invalid("a node has over 2^31 points")))?;
+            chunk_of.points =
+                i32::try_from(*points).map_err(|_| failed(invalid("a node has over 2^31 points")))?;
             let bytes = content.store.with(chunk, |bytes| out.write_all(bytes).map(|()| bytes.len()))?;
             let bytes = bytes.map_err(failed)?;
             chunk_of.bytes = i32::try_from(bytes).map_err(|_| failed(invalid("a node takes over 2 GiB")))?;

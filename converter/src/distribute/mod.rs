@@ -72,7 +72,12 @@ impl Inputs {
 }
 
 /// Reads all inputs once, and once more where their headers' bounds turn out wrong.
-pub fn distribute(inputs: &Inputs, workers: usize, store: &Store, progress: &dyn Progress) -> Result<Distribution> {
+pub fn distribute(
+    inputs: &Inputs,
+    workers: usize,
+    store: &Store,
+    progress: &dyn Progress,
+) -> Result<Distribution> {
     let read = |plan: Option<&Plan>| {
         let meter = Meter::start(progress, Stage::Read, inputs.points);
         let found = pass::read(inputs, plan, workers, store, &meter)?;

@@ -1,9 +1,9 @@
 //! One pass over all inputs: parts are decoded and sorted by all threads, and arrive in the order of the input.
 
+use super::Inputs;
 use super::cells::Cells;
 use super::sort::{Sorted, Sorter, Target};
 use super::turns::Turns;
-use super::Inputs;
 use crate::error::Result;
 use crate::input::{Pieces, piece_points};
 use crate::octree::cube::Cube;
@@ -49,15 +49,25 @@ pub fn worker_bytes(inputs: &Inputs) -> u64 {
 }
 
 /// Reads everything. Without a plan, or once a point lies outside of it, only bounds and statistics are found.
-pub fn read(inputs: &Inputs, plan: Option<&Plan>, workers: usize, store: &Store, meter: &Meter) -> Result<Found> {
+pub fn read(
+    inputs: &Inputs,
+    plan: Option<&Plan>,
+    workers: usize,
+    store: &Store,
+    meter: &Meter,
+) -> Result<Found> {
     let parts: Vec<_> = inputs
         .sources
         .iter()
         .flat_map(|source| (0..source.parts()).map(move |part| (source, part)))
         .collect();
     let placed = AtomicBool::new(plan.is_some());
-    let mut found =
-        Found { tally: Tally::empty(inputs.fields.len()), extent: Extent::EMPTY, cells: Cells::default(), placed: true };
+    let mut found = Found {
+        tally: Tally::empty(inputs.fields.len()),
+        extent: Extent::EMPTY,
+        cells: Cells::default(),
+        placed: true,
+    };
     let take = |(tally, extent, sorted): (Tally, Extent, Option<Sorted>)| {
         found.tally.add(&tally);
         found.extent.join(&extent);

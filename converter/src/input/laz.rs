@@ -1,7 +1,7 @@
 //! LAZ: where the chunks are, and how one is decoded without trusting it.
 
-use super::{Block, Sink};
 use super::contain::contained;
+use super::{Block, Sink};
 use crate::error::{Error, Result};
 use crate::scan::Scan;
 use laz::laszip::{ChunkTable, CompressorType};
@@ -179,7 +179,11 @@ fn decode<R>(
 ///
 /// A layered chunk (LASzip 3): one plain record, the number of points (u32), the size of each layer (u32),
 /// then the layers.
-fn check_layers(source: &mut (impl Read + Seek), bytes: u64, vlr: &LazVlr) -> std::result::Result<(), String> {
+fn check_layers(
+    source: &mut (impl Read + Seek),
+    bytes: u64,
+    vlr: &LazVlr,
+) -> std::result::Result<(), String> {
     let layers: usize = vlr.items().iter().map(|item| layers_of(item.item_type())).sum();
     let record: usize = vlr.items().iter().map(|item| usize::from(item.size())).sum();
     let sizes_at = record + 4;

@@ -36,7 +36,9 @@ impl Limits {
         let length = record_length.max(1) as u64;
         let node = (NODE_BYTES / length).clamp(64, NODE_POINTS);
         let cell = (CELL_BYTES / length).clamp(8 * 64, CELL_POINTS);
-        Self { leaf: LEAF_POINTS.min(node), node, cell }
+        let leaf: u64 = std::env::var("LEAF").ok().and_then(|v| v.parse().ok()).unwrap_or(LEAF_POINTS);
+        let node = node.max(leaf);
+        Self { leaf: leaf.min(node), node, cell }
     }
 
     /// Levels to go down so that a surface of so many points comes to cells of half the limit: it takes a quarter of

@@ -103,7 +103,9 @@ mod tests {
     #[test]
     fn bounds_that_are_none() {
         let bounds = |min, max| Bounds { min: [min, 0.0, 0.0], max: [max, 1.0, 1.0] };
-        for (min, max) in [(f64::NAN, 1.0), (0.0, f64::NAN), (2.0, 1.0), (0.0, 1e300), (f64::NEG_INFINITY, 0.0)] {
+        for (min, max) in
+            [(f64::NAN, 1.0), (0.0, f64::NAN), (2.0, 1.0), (0.0, 1e300), (f64::NEG_INFINITY, 0.0)]
+        {
             assert_eq!(FRAME.nearest(&bounds(min, max)), None, "{min} {max}");
         }
     }

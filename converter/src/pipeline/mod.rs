@@ -123,7 +123,8 @@ impl<'a> Pipeline<'a, Validated> {
         let Self { options, progress, stage: Validated { inputs, additions, shares, .. } } = self;
         let output = PendingFile::create(&options.output, options.overwrite)?;
         let name = options.output.file_name().unwrap_or_default().to_string_lossy();
-        let make = |parent: &Path| TempFolder::create(parent, &name).map_err(|e| Error::temporary(parent, &e));
+        let make =
+            |parent: &Path| TempFolder::create(parent, &name).map_err(|e| Error::temporary(parent, &e));
         let temporary = options.temp_dir.as_deref().map(make).transpose()?;
         let folder = temporary.as_ref().map_or(output.folder(), TempFolder::path);
         let store = Store::new(folder, shares.store);

@@ -89,7 +89,8 @@ pub fn temp_bytes(inputs: &Inputs, shares: &Shares) -> u64 {
 pub fn check_space(folder: &Path, needed: u64) -> Result<()> {
     match free(folder) {
         Some(free) if free < needed => {
-            let cause = format!("up to {} MiB may be needed, {} MiB are free", needed.div_ceil(1 << 20), free >> 20);
+            let cause =
+                format!("up to {} MiB may be needed, {} MiB are free", needed.div_ceil(1 << 20), free >> 20);
             Err(Error::temp_space(folder, cause))
         }
         _ => Ok(()),

@@ -111,7 +111,9 @@ impl Field {
             Kind::HighNibble => records.for_each(|r| hand(f64::from(r[at] >> 4))),
             Kind::U16 => records.for_each(|r| hand(f64::from(u16::from_le_bytes([r[at], r[at + 1]])))),
             Kind::I32 => {
-                records.for_each(|r| hand(f64::from(i32::from_le_bytes([r[at], r[at + 1], r[at + 2], r[at + 3]]))));
+                records.for_each(|r| {
+                    hand(f64::from(i32::from_le_bytes([r[at], r[at + 1], r[at + 2], r[at + 3]])))
+                });
             }
             _ => records.filter_map(|record| self.stored(record)).for_each(hand),
         }

@@ -23,9 +23,15 @@ pub struct Store {
 pub enum Held {
     Memory(Vec<u8>),
     /// A file of their own, which goes with them.
-    File { path: PathBuf, bytes: u64 },
+    File {
+        path: PathBuf,
+        bytes: u64,
+    },
     /// A part of the log, which stays to the end.
-    Log { at: u64, bytes: u64 },
+    Log {
+        at: u64,
+        bytes: u64,
+    },
 }
 
 #[derive(Debug)]
@@ -226,7 +232,12 @@ mod tests {
         store.append(&path, [&[1u8, 2, 3][..], &[4, 5][..]]).unwrap();
         store.append(&path, [&[6u8, 7][..]]).unwrap();
         let mut seen = Vec::new();
-        store.drain(&path, 3, |piece| { seen.push(piece.to_vec()); Ok(()) }).unwrap();
+        store
+            .drain(&path, 3, |piece| {
+                seen.push(piece.to_vec());
+                Ok(())
+            })
+            .unwrap();
         assert_eq!(seen, [vec![1, 2, 3], vec![4, 5, 6], vec![7]]);
         assert!(!path.exists());
     }
