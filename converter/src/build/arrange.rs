@@ -24,35 +24,52 @@ pub struct Arranger {
     keys: Vec<(u64, u32)>,
 }
 
+/// Some of the records of a job.
+#[derive(Clone, Copy)]
+pub struct Selection<'a> {
+    pub records: &'a [u8],
+    /// The Morton codes of all records.
+    pub codes: &'a [u64],
+    /// The numbers of the selected ones, in the input's order.
+    pub numbers: &'a [u32],
+}
+
 impl Arranger {
-    /// Brings records of `length` bytes, which stand in the input's order, into the better one.
-    pub fn arrange(&mut self, site: &Site, records: Vec<u8>) -> Result<Vec<u8>> {
+    /// Copies of selected records in the better order.
+    pub fn arrange(&mut self, site: &Site, selection: Selection) -> Result<Vec<u8>> {
+        let Selection { records, codes, numbers } = selection;
         let length = site.inputs.length;
+        let input = match self.order {
+            Some(Order::Morton) => Vec::new(),
+            _ => gather(records, numbers.iter().copied(), length),
+        };
         if self.order == Some(Order::Input) {
-            return Ok(records);
+            return Ok(input);
         }
         self.keys.clear();
-        let codes = records.chunks_exact(length).map(|record| site.inputs.frame.code(record, &site.cube));
-        self.keys.extend(codes.zip(0..));
+        self.keys.extend(numbers.iter().map(|number| (codes[*number as usize], *number)));
         self.keys.sort_unstable();
-        let mut sorted = Vec::with_capacity(records.len());
-        for (_, number) in &self.keys {
-            sorted.extend_from_slice(&records[*number as usize * length..][..length]);
-        }
+        let morton = gather(records, self.keys.iter().map(|(_, number)| *number), length);
         let order = match self.order {
             Some(order) => order,
-            None => {
-                let better = better(&records, &sorted, site)?;
-                *self.order.insert(better)
-            }
+            None => *self.order.insert(better(&input, &morton, site)?),
         };
-        Ok(if order == Order::Morton { sorted } else { records })
+        Ok(if order == Order::Morton { morton } else { input })
     }
 
     /// Forgets what was found out: another job begins.
     pub fn reset(&mut self) {
         self.order = None;
     }
+}
+
+/// Copies of records of `length` bytes.
+pub fn gather(records: &[u8], numbers: impl ExactSizeIterator<Item = u32>, length: usize) -> Vec<u8> {
+    let mut copies = Vec::with_capacity(numbers.len() * length);
+    for number in numbers {
+        copies.extend_from_slice(&records[number as usize * length..][..length]);
+    }
+    copies
 }
 
 /// Compresses as many points from the middle of both.

@@ -1,5 +1,6 @@
 //! A node whose children were built before it.
 
+use super::arrange::Selection;
 use super::choose::{Candidates, choose};
 use super::site::{Batch, Desk, Site};
 use crate::error::Result;
@@ -20,21 +21,22 @@ pub fn merge(site: &Site, key: Key, desk: &mut Desk) -> Result<()> {
     let numbers: Vec<u32> = (0..(all.records.len() / length) as u32).collect();
     let Batch { records, weights } = &mut all;
     let chosen = choose(site, key, Candidates { records, numbers: &numbers, weights }, desk)?;
+    let codes = site.codes(&all.records);
     let mut own = Batch::default();
     let mut taken = chosen.into_iter().peekable();
     let mut start = 0;
     for (child, end) in children {
-        let mut rest = Vec::with_capacity((end - start) * length);
-        for (number, record) in (start..).zip(all.records[start * length..end * length].chunks_exact(length))
-        {
-            if taken.next_if(|next| *next as usize == number).is_some() {
-                own.records.extend_from_slice(record);
+        let mut rest = Vec::with_capacity(end - start);
+        for number in start..end {
+            if taken.next_if_eq(&(number as u32)).is_some() {
+                own.records.extend_from_slice(&all.records[number * length..][..length]);
                 own.weights.extend(all.weights.get(number));
             } else {
-                rest.extend_from_slice(record);
+                rest.push(number as u32);
             }
         }
-        site.finish(child, rest, &mut desk.arranger)?;
+        let selection = Selection { records: &all.records, codes: &codes, numbers: &rest };
+        site.finish(child, selection, &mut desk.arranger)?;
         start = end;
     }
     site.keep(key, own)

@@ -1,6 +1,6 @@
 //! What all jobs of a build share.
 
-use super::arrange::Arranger;
+use super::arrange::{Arranger, Selection};
 use super::board::Board;
 use super::borders::Borders;
 use crate::copc::chunk;
@@ -176,21 +176,30 @@ impl<'a> Site<'a> {
         }
     }
 
-    /// Gives a node its records for good. They come in the input's order.
-    pub fn finish(&self, key: Key, records: Vec<u8>, arranger: &mut Arranger) -> Result<()> {
-        if records.is_empty() {
+    /// Gives a node its records for good.
+    pub fn finish(&self, key: Key, selection: Selection, arranger: &mut Arranger) -> Result<()> {
+        if selection.numbers.is_empty() {
             return Ok(());
         }
-        let records = arranger.arrange(self, records)?;
+        let records = arranger.arrange(self, selection)?;
         match self.board.queue(Finish { key, records }) {
             Some(finish) => self.compress(finish),
             None => Ok(()),
         }
     }
 
+    /// The Morton codes of records.
+    pub fn codes(&self, records: &[u8]) -> Vec<u64> {
+        let locator = self.inputs.frame.locator(&self.cube);
+        records.chunks_exact(self.inputs.length).map(|record| locator.code(record)).collect()
+    }
+
     pub fn finish_root(&self, arranger: &mut Arranger) -> Result<()> {
-        let batch = self.take(Key::ROOT)?;
-        self.finish(Key::ROOT, batch.records, arranger)
+        let Batch { records, .. } = self.take(Key::ROOT)?;
+        let codes = self.codes(&records);
+        let numbers: Vec<u32> = (0..codes.len() as u32).collect();
+        let selection = Selection { records: &records, codes: &codes, numbers: &numbers };
+        self.finish(Key::ROOT, selection, arranger)
     }
 
     /// Compresses a node's records.

@@ -1,6 +1,6 @@
 //! All nodes below a cell whose points are in memory.
 
-use super::arrange::Arranger;
+use super::arrange::{Arranger, Selection, gather};
 use super::choose::{Candidates, choose};
 use super::pile;
 use super::site::{Batch, Desk, Site};
@@ -12,7 +12,7 @@ use crate::octree::key::{BITS, Key};
 struct Points {
     batch: Batch,
     codes: Vec<u64>,
-    /// Marks of points that are taken by a node above.
+    /// Marks of points that a node takes from its children.
     taken: Vec<bool>,
 }
 
@@ -20,8 +20,7 @@ struct Points {
 pub fn split(site: &Site, key: Key, cell: Cell, desk: &mut Desk) -> Result<()> {
     let length = site.inputs.length;
     let records = cell.load(length, site.store)?;
-    let codes: Vec<_> =
-        records.chunks_exact(length).map(|record| site.inputs.frame.code(record, &site.cube)).collect();
+    let codes = site.codes(&records);
     let mut order: Vec<u32> = (0..codes.len() as u32).collect();
     let mut spare = order.clone();
     let weights = site.weights(codes.len());
@@ -72,8 +71,10 @@ impl Points {
         chosen.iter().for_each(|number| self.taken[*number as usize] = true);
         for (child, mut own) in children {
             own.retain(|number| !self.taken[*number as usize]);
-            site.finish(child, self.gather(&own, site.inputs.length).records, &mut desk.arranger)?;
+            site.finish(child, self.select(&own), &mut desk.arranger)?;
         }
+        // The marks are for this node's children only: its parent makes its own.
+        chosen.iter().for_each(|number| self.taken[*number as usize] = false);
         Ok(chosen)
     }
 
@@ -109,18 +110,19 @@ impl Points {
         let (own, mut rest) = order.split_at(chain.own as usize);
         for (key, points) in chain.below {
             let (now, later) = rest.split_at(points as usize);
-            site.finish(key, self.gather(now, site.inputs.length).records, arranger)?;
+            site.finish(key, self.select(now), arranger)?;
             rest = later;
         }
         Ok(own.to_vec())
     }
 
+    fn select<'a>(&'a self, numbers: &'a [u32]) -> Selection<'a> {
+        Selection { records: &self.batch.records, codes: &self.codes, numbers }
+    }
+
     /// Copies of some points.
     fn gather(&self, numbers: &[u32], length: usize) -> Batch {
-        let mut records = Vec::with_capacity(numbers.len() * length);
-        for number in numbers {
-            records.extend_from_slice(&self.batch.records[*number as usize * length..][..length]);
-        }
+        let records = gather(&self.batch.records, numbers.iter().copied(), length);
         let weights = &self.batch.weights;
         let weights = if weights.is_empty() {
             Vec::new()

@@ -150,7 +150,7 @@ mod tests {
                 for (index, key) in keys.iter().enumerate() {
                     let records: Vec<u8> =
                         (0..50 * (index as u32 + 1)).flat_map(|i| (round * 1000 + i).to_le_bytes()).collect();
-                    cells.append(*key, &records, 4, (u64::from(round), 7), &store);
+                    cells.append(*key, &records, 4, (u64::from(round), u64::from(round)), &store);
                     cells.relieve(&store).unwrap();
                 }
             }

@@ -64,9 +64,9 @@ pub fn divide(
 }
 
 /// Below the smallest node that holds all points of a cell, as many levels as its points need.
-fn target<'a>(key: Key, cell: &Cell, inputs: &'a Inputs, cube: &'a Cube, limits: &Limits) -> Target<'a> {
+fn target(key: Key, cell: &Cell, inputs: &Inputs, cube: &Cube, limits: &Limits) -> Target {
     let differing = 64 - (cell.codes.0 ^ cell.codes.1).leading_zeros();
     let from = (BITS - differing.div_ceil(3)).max(key.level);
     let to = (from + limits.step(cell.points).max(1)).min(BITS);
-    Target { frame: &inputs.frame, cube, from, to }
+    Target { locator: inputs.frame.locator(cube), from, to }
 }

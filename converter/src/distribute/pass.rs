@@ -98,7 +98,8 @@ pub fn read(
                     placed.store(false, Ordering::Relaxed);
                 }
                 let sorted = plan.filter(|_| placed.load(Ordering::Relaxed)).map(|plan| {
-                    let target = Target { frame: &inputs.frame, cube: &plan.cube, from: 0, to: plan.level };
+                    let locator = inputs.frame.locator(&plan.cube);
+                    let target = Target { locator, from: 0, to: plan.level };
                     sorter.sort(records, inputs.length, &target)
                 });
                 meter.add((records.len() / inputs.length) as u64);

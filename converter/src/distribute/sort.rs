@@ -1,14 +1,12 @@
 //! Sorting a piece of the input by the cells that its points go to.
 
-use crate::octree::cube::Cube;
 use crate::octree::key::{BITS, Key};
-use crate::octree::place::Frame;
+use crate::octree::place::Locator;
 
 /// Where a sorter puts points: to the cells of a level within one node.
 #[derive(Debug, Clone, Copy)]
-pub struct Target<'a> {
-    pub frame: &'a Frame,
-    pub cube: &'a Cube,
+pub struct Target {
+    pub locator: Locator,
     /// Level of a node that holds all points.
     pub from: u32,
     /// Level of the cells, a few below.
@@ -47,7 +45,7 @@ impl Sorter {
         self.slots.resize(self.slots.len().max(mask as usize + 1), 0);
         let Self { codes, slots } = self;
         codes.clear();
-        codes.extend(records.chunks_exact(length).map(|record| target.frame.code(record, target.cube)));
+        codes.extend(records.chunks_exact(length).map(|record| target.locator.code(record)));
         let mut runs: Vec<Run> = Vec::new();
         for code in codes.iter() {
             let slot = &mut slots[(code >> shift & mask) as usize];
@@ -80,6 +78,8 @@ impl Sorter {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::octree::cube::Cube;
+    use crate::octree::place::Frame;
     use proptest::prelude::*;
 
     proptest! {
@@ -90,6 +90,7 @@ mod tests {
         ) {
             let frame = Frame { scale: [1.0; 3], offset: [0.0; 3] };
             let cube = Cube { center: [500.0; 3], half_size: 500.5 };
+            let locator = frame.locator(&cube);
             let mut records = Vec::new();
             for (index, position) in positions.iter().enumerate() {
                 position.iter().for_each(|v| records.extend(v.to_le_bytes()));
@@ -97,13 +98,13 @@ mod tests {
             }
             let mut sorter = Sorter::default();
             for _ in 0..2 {
-                let target = Target { frame: &frame, cube: &cube, from: 0, to };
+                let target = Target { locator, from: 0, to };
                 let sorted = sorter.sort(&records, 14, &target);
                 let mut seen = 0;
                 for run in &sorted.runs {
                     let mut last = None;
                     for record in sorted.records[run.start..run.end].chunks_exact(14) {
-                        let code = frame.code(record, &cube);
+                        let code = locator.code(record);
                         prop_assert_eq!(Key::of(code, to), run.key);
                         prop_assert!(run.codes.0 <= code && code <= run.codes.1);
                         let index = u16::from_le_bytes([record[12], record[13]]);

@@ -163,7 +163,7 @@ mod tests {
                 });
             }
         });
-        turns.finish()?;
+        turns.finish().map(drop)?;
         Ok(all)
     }
 

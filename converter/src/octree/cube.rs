@@ -1,6 +1,6 @@
 //! The root cube.
 
-use super::key::{BITS, Key, morton};
+use super::key::Key;
 use crate::sampling::Cell;
 
 /// Cells along the edge of a node's cube: the spacing of a node's points is its side by this number.
@@ -67,26 +67,11 @@ impl Cube {
             spacing: side / f64::from(GRID),
         }
     }
-
-    /// Whether a position lies within.
-    pub fn contains(&self, position: [f64; 3]) -> bool {
-        let (min, side) = (self.min(), self.side());
-        (0..3).all(|i| position[i] >= min[i] && position[i] <= min[i] + side)
-    }
-
-    /// The Morton code of a position; positions outside get that of the nearest cell.
-    #[inline]
-    pub fn code(&self, position: [f64; 3]) -> u64 {
-        let cells = f64::from(1u32 << BITS);
-        let (min, factor) = (self.min(), cells / self.side());
-        let cell = |i: usize| ((position[i] - min[i]) * factor).clamp(0.0, cells - 1.0) as u32;
-        morton([cell(0), cell(1), cell(2)])
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::key::Key;
+    use super::super::place::Frame;
     use super::*;
     use proptest::prelude::*;
 
@@ -118,11 +103,14 @@ mod tests {
             offset in proptest::array::uniform3(-5_000_000i32..5_000_000),
             scale in proptest::sample::select(vec![0.01, 0.001, 0.25, 1.0]),
         ) {
+            let frame = Frame { scale: [scale; 3], offset: offset.map(f64::from) };
             let place = |p: &[i32; 3]| [0, 1, 2].map(|i| f64::from(p[i]) * scale + f64::from(offset[i]));
             let points: Vec<_> = integers.iter().map(place).collect();
             let cube = cube_of(&points, [scale; 3]);
-            for point in &points {
-                let code = cube.code(*point);
+            let locator = frame.locator(&cube);
+            for (integers, point) in integers.iter().zip(&points) {
+                let record: Vec<u8> = integers.iter().flat_map(|v| v.to_le_bytes()).collect();
+                let code = locator.code(&record);
                 for level in 0..8 {
                     let key = Key::of(code, level);
                     let size = cube.side() / f64::from(1u32 << level);

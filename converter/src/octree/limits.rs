@@ -36,9 +36,7 @@ impl Limits {
         let length = record_length.max(1) as u64;
         let node = (NODE_BYTES / length).clamp(64, NODE_POINTS);
         let cell = (CELL_BYTES / length).clamp(8 * 64, CELL_POINTS);
-        let leaf: u64 = std::env::var("LEAF").ok().and_then(|v| v.parse().ok()).unwrap_or(LEAF_POINTS);
-        let node = node.max(leaf);
-        Self { leaf: leaf.min(node), node, cell }
+        Self { leaf: LEAF_POINTS.min(node), node, cell }
     }
 
     /// Levels to go down so that a surface of so many points comes to cells of half the limit: it takes a quarter of
@@ -85,7 +83,7 @@ mod tests {
         assert_eq!(limits.first_level(1000, &flat), 0);
         assert_eq!(limits.first_level(10_653_336, &flat), 3);
         assert_eq!(limits.first_level(100_000_000, &flat), 5);
-        assert_eq!(limits.first_level(u64::MAX, &flat), 7);
+        assert_eq!(limits.first_level(u64::MAX, &flat), 6);
         assert_eq!(limits.first_level(u64::MAX, &cube), 5);
     }
 }

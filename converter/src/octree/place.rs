@@ -1,6 +1,7 @@
 //! From the integers of a record to source coordinates and to a place in the root cube.
 
 use super::cube::{Bounds, Cube};
+use super::key::{BITS, morton};
 use crate::record::position;
 
 /// value = integer × scale + offset, on each axis.
@@ -23,10 +24,10 @@ impl Frame {
         std::array::from_fn(|i| f64::from(integers[i]) * self.scale[i] + self.offset[i])
     }
 
-    /// The Morton code of a record in a cube.
-    #[inline]
-    pub fn code(&self, record: &[u8], cube: &Cube) -> u64 {
-        cube.code(self.coordinates(position(record)))
+    /// Finds the places of records in a cube.
+    pub fn locator(&self, cube: &Cube) -> Locator {
+        let cells = f64::from(1u32 << BITS);
+        Locator { frame: *self, min: cube.min(), factor: cells / cube.side(), last: cells - 1.0 }
     }
 
     /// The integers nearest to bounds in source coordinates; `None` where there are none, because the bounds are not
@@ -53,6 +54,29 @@ impl Frame {
     pub fn bounds(&self, extent: &Extent) -> Bounds {
         let (a, b) = (self.coordinates(extent.low), self.coordinates(extent.high));
         Bounds { min: std::array::from_fn(|i| a[i].min(b[i])), max: std::array::from_fn(|i| a[i].max(b[i])) }
+    }
+}
+
+/// The places of records in a root cube.
+#[derive(Debug, Clone, Copy)]
+pub struct Locator {
+    frame: Frame,
+    min: [f64; 3],
+    /// Finest cells per unit.
+    factor: f64,
+    last: f64,
+}
+
+impl Locator {
+    /// The Morton code of a record; one outside the cube gets that of the nearest cell.
+    #[inline]
+    pub fn code(&self, record: &[u8]) -> u64 {
+        let integers = position(record);
+        let cell = |i: usize| {
+            let coordinate = f64::from(integers[i]) * self.frame.scale[i] + self.frame.offset[i];
+            ((coordinate - self.min[i]) * self.factor).clamp(0.0, self.last) as u32
+        };
+        morton([cell(0), cell(1), cell(2)])
     }
 }
 
