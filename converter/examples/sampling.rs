@@ -15,6 +15,8 @@ use std::io::{BufReader, Seek, SeekFrom};
 use std::time::{Duration, Instant};
 
 const GRID: f64 = 128.0;
+/// Each choice is timed so often, and the least time counts.
+const ROUNDS: usize = 3;
 const LEAF_POINTS: usize = 50_000;
 
 struct Cloud {
@@ -123,9 +125,14 @@ impl Cloud {
                     let positions: Vec<_> = own.iter().map(|i| self.positions[*i as usize]).collect();
                     let seeds: Vec<_> = own.iter().map(|i| self.seeds[*i as usize]).collect();
                     let near = neighbours(&chosen, [name.x, name.y, name.z], &cell);
-                    let began = Instant::now();
-                    let taken = choose(strategy, &cell, &positions, &seeds, &near, &mut scratch);
-                    spent += began.elapsed();
+                    let mut least = Duration::MAX;
+                    let mut taken = Vec::new();
+                    for _ in 0..ROUNDS {
+                        let began = Instant::now();
+                        taken = choose(strategy, &cell, &positions, &seeds, &near, &mut scratch);
+                        least = least.min(began.elapsed());
+                    }
+                    spent += least;
                     candidates += own.len();
                     let at = taken.iter().map(|i| positions[*i as usize]).collect();
                     chosen.insert([name.x, name.y, name.z], at);
