@@ -1,8 +1,8 @@
 //! Mean colours of what a point stands for, like the levels of a mip map (Schütz 2016, 7.1).
 
 use super::Cell;
-use super::lattice::{EMPTY, Lattice};
-use super::poisson::distance2;
+use super::discs::distance2;
+use super::lattice::{EMPTY, Lattice, MOST};
 
 /// How far a chosen point speaks for others, in spacings: the diagonal of a cell of the grid.
 const REACH: f64 = 1.732_050_807_568_877_2;
@@ -54,40 +54,45 @@ impl Sum {
     }
 }
 
-/// The chosen points by lattice cell.
-struct Chains {
+/// The chosen points by lattice cell, the last one first.
+struct Chains<'a> {
+    cell: &'a Cell,
     lattice: Lattice,
     next: Vec<u32>,
-    reach2: f64,
+    /// Spacings in an edge of the lattice.
+    edge: f64,
 }
 
-impl Chains {
-    fn new(cell: &Cell, candidates: &[[f64; 3]], chosen: &[u32]) -> Self {
-        let reach = cell.spacing * REACH;
-        let mut lattice = Lattice::default();
-        lattice.lay(cell, reach * 1.001);
-        let place = |(index, slot): (&u32, u32)| {
-            let at = lattice.inner_cell(&candidates[*index as usize]);
-            lattice.replace(at, slot)
-        };
-        let next = chosen.iter().zip(0..).map(place).collect();
-        Self { lattice, next, reach2: reach * reach }
+impl<'a> Chains<'a> {
+    fn new(cell: &'a Cell, candidates: &[[f64; 3]], chosen: &[u32]) -> Self {
+        let across = cell.side / cell.spacing;
+        let edge = (2.001 * REACH).max(across / MOST);
+        let mut chains = Self { cell, lattice: Lattice::default(), next: Vec::new(), edge };
+        chains.lattice.lay(across / edge);
+        for (index, slot) in chosen.iter().zip(0..) {
+            let at = chains.lattice.cell(chains.place(&candidates[*index as usize]));
+            let next = chains.lattice.replace(at, slot);
+            chains.next.push(next);
+        }
+        chains
+    }
+
+    fn place(&self, position: &[f64; 3]) -> [f64; 3] {
+        self.cell.place(position).map(|spacings| spacings / self.edge)
     }
 
     /// The number among the chosen ones of the nearest within reach.
     fn nearest(&self, candidates: &[[f64; 3]], chosen: &[u32], position: &[f64; 3]) -> Option<usize> {
-        let mut best = (self.reach2 * (1.0 + 1e-12), EMPTY);
-        for row in self.lattice.rows(self.lattice.inner_cell(position)) {
-            for cell in row..row + 3 {
-                let mut slot = self.lattice.get(cell);
-                while slot != EMPTY {
-                    let other = &candidates[chosen[slot as usize] as usize];
-                    let own = (distance2(other, position), slot);
-                    if own < best {
-                        best = own;
-                    }
-                    slot = self.next[slot as usize];
+        let reach = REACH * self.cell.spacing;
+        let mut best = (reach * reach, EMPTY);
+        for mut slot in self.lattice.around(self.place(position)) {
+            while slot != EMPTY {
+                let other = &candidates[chosen[slot as usize] as usize];
+                let own = (distance2(other, position), slot);
+                if own < best {
+                    best = own;
                 }
+                slot = self.next[slot as usize];
             }
         }
         (best.1 != EMPTY).then_some(best.1 as usize)
@@ -139,7 +144,7 @@ mod tests {
                     Ok(slot) => slot,
                     Err(_) => nearest.unwrap(),
                 };
-                if distance(slot) <= 3.0 * cell.spacing * cell.spacing {
+                if distance(slot) <= (REACH * cell.spacing).powi(2) {
                     expected[slot][0] += u64::from(weights[index]) * index as u64;
                     expected[slot][1] += u64::from(weights[index]);
                 }

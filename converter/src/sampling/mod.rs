@@ -1,6 +1,7 @@
 //! Which points of its children a node takes: pure functions of positions, knowing neither tree nor files.
 
 mod average;
+mod discs;
 mod first;
 mod grid;
 mod lattice;
@@ -38,12 +39,21 @@ pub struct Cell {
     pub spacing: f64,
 }
 
+impl Cell {
+    /// A position in spacings from the lower corner.
+    #[inline]
+    fn place(&self, [x, y, z]: &[f64; 3]) -> [f64; 3] {
+        let inverse = 1.0 / self.spacing;
+        [(x - self.min[0]) * inverse, (y - self.min[1]) * inverse, (z - self.min[2]) * inverse]
+    }
+}
+
 /// Buffers that live from one choice to the next, so that nothing is allocated per point.
 #[derive(Debug, Default)]
 pub struct Scratch {
     lattice: Lattice,
     order: order::Order,
-    accepted: poisson::Accepted,
+    discs: discs::Discs,
     best: Vec<grid::Best>,
 }
 

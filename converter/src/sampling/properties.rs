@@ -1,6 +1,6 @@
 //! What the strategies promise, over scenes of every kind.
 
-use super::poisson::distance2;
+use super::discs::distance2;
 use super::scene::{Scene, cube, scatter, scenes, unit};
 use super::{Scratch, Strategy};
 use proptest::prelude::*;
