@@ -1,6 +1,6 @@
 //! The root cube.
 
-use super::key::Key;
+use super::key::{BITS, Key, morton};
 use crate::sampling::Cell;
 
 /// Cells along the edge of a node's cube: the spacing of a node's points is its side by this number.
@@ -66,6 +66,35 @@ impl Cube {
             side,
             spacing: side / f64::from(GRID),
         }
+    }
+
+    /// The finest grid of places in the cube.
+    pub fn grid(&self) -> Grid {
+        let cells = f64::from(1u32 << BITS);
+        Grid { min: self.min(), factor: cells / self.side(), last: cells - 1.0 }
+    }
+
+    /// The Morton code of a position, see [`Grid::code`].
+    pub fn code(&self, position: [f64; 3]) -> u64 {
+        self.grid().code(position)
+    }
+}
+
+/// The finest grid of places in a root cube.
+#[derive(Debug, Clone, Copy)]
+pub struct Grid {
+    min: [f64; 3],
+    /// Cells per unit.
+    factor: f64,
+    last: f64,
+}
+
+impl Grid {
+    /// The Morton code of a position; one outside the cube gets that of the nearest cell.
+    #[inline]
+    pub fn code(&self, position: [f64; 3]) -> u64 {
+        let cell = |i: usize| ((position[i] - self.min[i]) * self.factor).clamp(0.0, self.last) as u32;
+        morton([cell(0), cell(1), cell(2)])
     }
 }
 

@@ -1,7 +1,6 @@
 //! From the integers of a record to source coordinates and to a place in the root cube.
 
-use super::cube::{Bounds, Cube};
-use super::key::{BITS, morton};
+use super::cube::{Bounds, Cube, Grid};
 use crate::record::position;
 
 /// value = integer × scale + offset, on each axis.
@@ -26,8 +25,7 @@ impl Frame {
 
     /// Finds the places of records in a cube.
     pub fn locator(&self, cube: &Cube) -> Locator {
-        let cells = f64::from(1u32 << BITS);
-        Locator { frame: *self, min: cube.min(), factor: cells / cube.side(), last: cells - 1.0 }
+        Locator { frame: *self, grid: cube.grid() }
     }
 
     /// The integers nearest to bounds in source coordinates; `None` where there are none, because the bounds are not
@@ -61,22 +59,17 @@ impl Frame {
 #[derive(Debug, Clone, Copy)]
 pub struct Locator {
     frame: Frame,
-    min: [f64; 3],
-    /// Finest cells per unit.
-    factor: f64,
-    last: f64,
+    grid: Grid,
 }
 
 impl Locator {
-    /// The Morton code of a record; one outside the cube gets that of the nearest cell.
+    /// The Morton code of a record.
     #[inline]
     pub fn code(&self, record: &[u8]) -> u64 {
-        let integers = position(record);
-        let cell = |i: usize| {
-            let coordinate = f64::from(integers[i]) * self.frame.scale[i] + self.frame.offset[i];
-            ((coordinate - self.min[i]) * self.factor).clamp(0.0, self.last) as u32
-        };
-        morton([cell(0), cell(1), cell(2)])
+        let [x, y, z] = position(record);
+        let Frame { scale, offset } = &self.frame;
+        let coordinate = |integer: i32, i: usize| f64::from(integer) * scale[i] + offset[i];
+        self.grid.code([coordinate(x, 0), coordinate(y, 1), coordinate(z, 2)])
     }
 }
 
