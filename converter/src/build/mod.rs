@@ -56,6 +56,7 @@ pub struct Workforce {
 }
 
 /// Builds all nodes. They come in no order; nodes without points are left out.
+#[expect(clippy::too_many_arguments, reason = "all that a build is about, said once")]
 pub fn build(
     inputs: &Inputs,
     cube: Cube,

@@ -3,7 +3,7 @@
 use crate::build::{COMPRESSOR_BYTES, Workforce, job_bytes};
 use crate::distribute::{Inputs, pass};
 use crate::error::{Error, Result};
-use crate::memory::Budget;
+use crate::memory::{Budget, FLOOR};
 use crate::octree::limits::Limits;
 use crate::sampling::Strategy;
 use clap::ValueEnum;
@@ -61,7 +61,9 @@ pub struct Shares {
 
 /// Shares out memory. Errors: `OPTION_MEMORY` where a single LAZ chunk takes too much of it.
 pub fn shares(inputs: &Inputs, budget: Budget, threads: usize) -> Result<Shares> {
-    if let Some(source) = inputs.sources.iter().find(|s| s.part_bytes() > budget.bytes() / LARGEST_PART) {
+    if let Some(source) =
+        inputs.sources.iter().find(|s| s.part_bytes() > budget.bytes().max(FLOOR) / LARGEST_PART)
+    {
         let cause = format!(
             "{} has a LAZ chunk of {} MiB, which has to be in memory as a whole, and {} MiB may be used",
             source.scan.path.display(),

@@ -79,7 +79,7 @@ fn chunks_of_any_size() {
     let bench = Bench::new();
     for format in [1, 3, 6, 7] {
         for chunk in [None, Some(200_000), Some(1)] {
-            let count = if chunk == Some(1) { 900 } else { 150_000 };
+            let count = if chunk == Some(1) { 300 } else { 70_000 };
             let mut las = Las::at(format, 1, &surface(count));
             las.chunk = chunk;
             let input = bench.put("in.laz", &las.laz());
