@@ -36,6 +36,10 @@ pub enum Error {
     OutputExists(Detail),
     /// The output cannot be written.
     OutputWrite(Detail),
+    /// The folder for scratch files has too little room.
+    TempSpace(Detail),
+    /// A scratch file cannot be written or read back.
+    TempFile(Detail),
     /// An option has a value that cannot be used. The name becomes part of the code: `OPTION_MEMORY`.
     Option(&'static str, Detail),
     /// The process was asked to stop.
@@ -62,6 +66,8 @@ constructors! {
     mixed => Mixed,
     output_exists => OutputExists,
     output_write => OutputWrite,
+    temp_space => TempSpace,
+    temp_file => TempFile,
     interrupted => Interrupted,
 }
 
@@ -85,6 +91,16 @@ impl Error {
         }
     }
 
+    /// Work with a scratch file that failed: `TempSpace` on a full disk, otherwise `TempFile`.
+    pub fn temporary(folder: &Path, error: &std::io::Error) -> Self {
+        match error.kind() {
+            std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => {
+                Self::temp_space(folder, "the disk is full")
+            }
+            _ => Self::temp_file(folder, format!("a scratch file cannot be used ({error})")),
+        }
+    }
+
     /// The stable code, never reused for another meaning.
     pub fn code(&self) -> String {
         match self {
@@ -97,6 +113,8 @@ impl Error {
             Self::Mixed(_) => "INPUT_MIXED".into(),
             Self::OutputExists(_) => "OUTPUT_EXISTS".into(),
             Self::OutputWrite(_) => "OUTPUT_WRITE".into(),
+            Self::TempSpace(_) => "TEMP_SPACE".into(),
+            Self::TempFile(_) => "TEMP_FILE".into(),
             Self::Option(name, _) => format!("OPTION_{name}"),
             Self::Interrupted(_) => "INTERRUPTED".into(),
         }
@@ -113,6 +131,8 @@ impl Error {
             | Self::Mixed(d)
             | Self::OutputExists(d)
             | Self::OutputWrite(d)
+            | Self::TempSpace(d)
+            | Self::TempFile(d)
             | Self::Option(_, d)
             | Self::Interrupted(d) => d,
         }
@@ -132,7 +152,9 @@ impl Error {
             Self::Mixed(_) => "Convert the files one by one, or bring them to one form first",
             Self::OutputExists(_) => "Choose another name or pass --overwrite",
             Self::OutputWrite(_) => "Check that the folder is there, writable and has room",
-            Self::Option("MEMORY", _) => "Give --memory a larger value or convert fewer points at once",
+            Self::TempSpace(_) => "Make room, choose another folder with --temp-dir, or allow more --memory",
+            Self::TempFile(_) => "Check the folder for scratch files, or choose another with --temp-dir",
+            Self::Option("MEMORY", _) => "Give --memory a larger value",
             Self::Option(..) => "See groma-core convert --help",
             Self::Interrupted(_) => "Run the command again",
         }

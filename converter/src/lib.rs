@@ -3,7 +3,9 @@
 //!
 //! The way of the data is a chain of stages whose order the types enforce, see [`pipeline::Pipeline`].
 
+pub mod build;
 pub mod copc;
+pub mod distribute;
 pub mod error;
 pub mod input;
 pub mod memory;
@@ -12,5 +14,7 @@ pub mod output;
 pub mod pipeline;
 pub mod progress;
 pub mod record;
+pub mod sampling;
 pub mod scan;
 pub mod statistics;
+pub mod temporary;

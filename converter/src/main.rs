@@ -1,14 +1,18 @@
 //! `groma-core`: the part of the `groma` command that reads and writes points.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
+use groma_core::build::Rules;
 use groma_core::error::{Error, Result};
 use groma_core::input::contain::is_contained;
+use groma_core::memory;
 use groma_core::pipeline::options::Options;
 use groma_core::pipeline::{Pipeline, Summary};
 use groma_core::progress::JsonLines;
+use groma_core::sampling::Strategy;
 use groma_core::scan::Scan;
-use groma_core::{memory, output};
+use groma_core::temporary::folder;
 use serde::Serialize;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -30,9 +34,12 @@ enum Command {
 
 #[derive(Args)]
 struct Convert {
-    /// One or more inputs, then the output
-    #[arg(required = true, num_args = 2.., value_names = ["IN", "OUT"])]
+    /// Inputs, then the output
+    #[arg(required = true, num_args = 1.., value_names = ["IN", "OUT"])]
     files: Vec<PathBuf>,
+    /// File with further inputs, one a line
+    #[arg(long)]
+    list: Option<PathBuf>,
     /// File whose bytes become the georeference record (user id groma, record id 1)
     #[arg(long)]
     record: Option<PathBuf>,
@@ -50,20 +57,24 @@ struct Convert {
     #[arg(long)]
     overwrite: bool,
     /// How a node's points are chosen
-    #[arg(long, default_value = "grid")]
-    sampling: Sampling,
-    /// Most memory to use, e.g. 2GB; a conversion that needs more is refused [default: what is available]
+    #[arg(long, default_value = "poisson")]
+    sampling: Strategy,
+    /// Give sampled points the mean colour of the points that they stand for
+    #[arg(long)]
+    average_colors: bool,
+    /// Most threads to work with [default: all]
+    #[arg(long)]
+    threads: Option<NonZeroUsize>,
+    /// Most memory to use, e.g. 2GB, 256MB at least; points that have no room wait in scratch files [default: most of
+    /// what is available]
     #[arg(long)]
     memory: Option<String>,
-    /// Folder for scratch files
+    /// Folder for scratch files [default: the output's]
     #[arg(long)]
     temp_dir: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Sampling {
-    /// The point nearest to the centre of each cell of a 128³ grid
-    Grid,
+    /// Print what the conversion would take, and stop before it reads a point
+    #[arg(long)]
+    dry_run: bool,
 }
 
 #[derive(Serialize)]
@@ -104,39 +115,58 @@ fn scan(file: &Path) -> Result<()> {
 
 fn convert(arguments: Convert) -> Result<()> {
     let start = Instant::now();
+    let dry_run = arguments.dry_run;
     let options = options(arguments)?;
     stop_cleanly(options.output.clone());
     let progress = JsonLines;
-    let summary = Pipeline::scan(&options, &progress)?.validate()?.distribute()?.build()?.write()?;
+    let validated = Pipeline::scan(&options, &progress)?.validate()?;
+    if dry_run {
+        JsonLines::print(&validated.plan());
+        return Ok(());
+    }
+    let summary = validated.distribute()?.build()?.write()?;
     let seconds = (start.elapsed().as_secs_f64() * 1000.0).round() / 1000.0;
     JsonLines::print(&Done { event: "done", summary, seconds });
     Ok(())
 }
 
 fn options(arguments: Convert) -> Result<Options> {
-    let Convert {
-        mut files,
-        record,
-        transformation,
-        wait_for_record,
-        wkt,
-        overwrite,
-        sampling: Sampling::Grid,
-        memory,
-        temp_dir,
-    } = arguments;
-    if let Some(folder) = temp_dir.filter(|folder| !folder.is_dir()) {
+    let mut inputs = arguments.files;
+    let output = inputs.pop().unwrap_or_default();
+    if let Some(list) = &arguments.list {
+        let text = std::fs::read_to_string(list)
+            .map_err(|e| Error::option("LIST", format!("{} cannot be read ({e})", list.display())))?;
+        inputs.extend(text.lines().map(str::trim_end).filter(|line| !line.is_empty()).map(PathBuf::from));
+    }
+    if inputs.is_empty() {
+        return Err(Error::option("USAGE", "no input is given"));
+    }
+    if let Some(folder) = arguments.temp_dir.as_ref().filter(|folder| !folder.is_dir()) {
         return Err(Error::option("TEMP_DIR", format!("{} is not a folder", folder.display())));
     }
-    let output = files.pop().unwrap_or_default();
-    let memory = memory.as_deref().map(memory::parse_size).transpose()?;
-    Ok(Options { inputs: files, output, record, transformation, wait_for_record, wkt, overwrite, memory })
+    let memory = arguments.memory.as_deref().map(memory::parse_size).transpose()?;
+    if let Some(bytes) = memory.filter(|bytes| *bytes < memory::FLOOR) {
+        let cause = format!("{bytes} bytes are less than the {} MiB that a run needs", memory::FLOOR >> 20);
+        return Err(Error::option("MEMORY", cause));
+    }
+    Ok(Options {
+        record: arguments.record,
+        transformation: arguments.transformation,
+        wait_for_record: arguments.wait_for_record,
+        wkt: arguments.wkt,
+        overwrite: arguments.overwrite,
+        rules: Rules { sampling: arguments.sampling, average_colors: arguments.average_colors },
+        threads: arguments.threads.map(NonZeroUsize::get),
+        memory,
+        temp_dir: arguments.temp_dir,
+        ..Options::new(inputs, output)
+    })
 }
 
 /// On SIGINT, SIGTERM and SIGHUP: nothing is left behind, and the exit status says what happened.
 fn stop_cleanly(output: PathBuf) {
     let handler = move || {
-        let _held = output::abandon_all();
+        let _held = folder::abandon_all();
         JsonLines::print(&Error::interrupted(&output, "the conversion was stopped").wire());
         std::process::exit(130);
     };
@@ -151,17 +181,18 @@ fn usage(error: &clap::Error) -> Error {
     let text = error.to_string();
     let cause = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string();
     let option = error.get(clap::error::ContextKind::InvalidArg).map(ToString::to_string).unwrap_or_default();
-    let name = ["sampling", "memory", "temp-dir", "wait-for-record", "record", "transformation", "wkt"]
-        .into_iter()
-        .find(|name| option.contains(name));
-    match name {
-        Some("sampling") => Error::option("SAMPLING", cause),
-        Some("memory") => Error::option("MEMORY", cause),
-        Some("temp-dir") => Error::option("TEMP_DIR", cause),
-        Some("wait-for-record") => Error::option("WAIT_FOR_RECORD", cause),
-        Some("transformation") => Error::option("TRANSFORMATION", cause),
-        Some("record") => Error::option("RECORD", cause),
-        Some("wkt") => Error::option("WKT", cause),
-        _ => Error::option("USAGE", cause),
-    }
+    let name = [
+        "SAMPLING",
+        "MEMORY",
+        "THREADS",
+        "LIST",
+        "TEMP_DIR",
+        "WAIT_FOR_RECORD",
+        "RECORD",
+        "TRANSFORMATION",
+        "WKT",
+    ]
+    .into_iter()
+    .find(|name| option.contains(&format!("--{}", name.to_lowercase().replace('_', "-"))));
+    Error::option(name.unwrap_or("USAGE"), cause)
 }

@@ -1,15 +1,53 @@
-//! How much memory a run may take.
+//! How much memory a run may take, and who gets it.
 
 use crate::error::{Error, Result};
 use std::fs;
 
 const MIB: u64 = 1 << 20;
 
-/// Bytes per point besides its record: the sort entry (16) and its place in a node (4).
-const INDEX_BYTES: u64 = 20;
+/// The least that a run may be given; enough for any input.
+pub const FLOOR: u64 = 256 * MIB;
 
-/// What is held besides the points: chunks on their way in and out, code, stacks.
-const OVERHEAD: u64 = 128 * MIB;
+/// What the process takes whatever it does: code, stacks, tables, and what the allocator does not give back.
+const BASE: u64 = 48 * MIB;
+
+/// The share of the available memory that a run takes where it is not told.
+const SHARE: f64 = 0.75;
+
+/// How much memory a run may take, and how it is divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Budget(u64);
+
+/// Workers of a stage, and the bytes that are left for points to wait in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Division {
+    pub workers: usize,
+    /// Bytes that all workers together may use.
+    pub work: u64,
+    pub store: u64,
+}
+
+impl Budget {
+    /// Bytes as asked for, or what is available.
+    pub fn new(asked: Option<u64>) -> Self {
+        let found = || available().map_or(u64::MAX / 2, |bytes| (bytes as f64 * SHARE) as u64).max(FLOOR);
+        Self(asked.unwrap_or_else(found))
+    }
+
+    pub fn bytes(self) -> u64 {
+        self.0
+    }
+
+    /// Divides the memory among at most `threads` workers of `each` bytes and a store. Workers together get half
+    /// at most, but one works in any case.
+    pub fn divide(self, threads: usize, each: u64) -> Division {
+        let free = self.0.saturating_sub(BASE);
+        let fitting = usize::try_from(free / 2 / each.max(1)).unwrap_or(usize::MAX);
+        let workers = fitting.clamp(1, threads.max(1));
+        let work = (workers as u64).saturating_mul(each);
+        Division { workers, work, store: free.saturating_sub(work) }
+    }
+}
 
 /// Parses a size such as `512MB`, `2GiB` or `1073741824`. Decimal and binary units both mean powers of 1024,
 /// as in the options of most memory-bounded tools.
@@ -54,18 +92,6 @@ pub fn available() -> Option<u64> {
     }
 }
 
-/// Refuses a run that would need more than `limit` bytes (default: what is available), before work starts.
-pub fn check(points: u64, record_length: u64, limit: Option<u64>) -> Result<()> {
-    let needed = points.saturating_mul(record_length + INDEX_BYTES).saturating_add(OVERHEAD);
-    let allowed = limit.or_else(available).unwrap_or(u64::MAX);
-    if needed > allowed || points > u64::from(u32::MAX) {
-        let cause =
-            format!("{points} points need about {} MiB, {} MiB may be used", needed / MIB, allowed / MIB);
-        return Err(Error::option("MEMORY", cause));
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -81,9 +107,11 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_does_not_fit() {
-        assert!(check(1000, 36, Some(256 * MIB)).is_ok());
-        assert_eq!(check(10_000_000, 36, Some(256 * MIB)).unwrap_err().code(), "OPTION_MEMORY");
-        assert_eq!(check(u64::MAX, 36, None).unwrap_err().code(), "OPTION_MEMORY");
+    fn workers_get_half_at_most() {
+        let budget = Budget::new(Some(BASE + 100));
+        assert_eq!(budget.divide(4, 10), Division { workers: 4, work: 40, store: 60 });
+        assert_eq!(budget.divide(40, 10), Division { workers: 5, work: 50, store: 50 });
+        assert_eq!(budget.divide(4, 1000), Division { workers: 1, work: 1000, store: 0 });
+        assert!(Budget::new(None).bytes() >= FLOOR);
     }
 }

@@ -1,48 +1,38 @@
-//! The output appears whole or not at all: written beside its place under a name of its own, made durable,
+//! The output appears whole or not at all: written in a folder of the run's own beside its place, made durable,
 //! then renamed. Whatever ends the run before that removes it.
 
 use crate::error::{Error, Result};
+use crate::temporary::folder::{self, TempFolder};
 use std::fs::{self, File, OpenOptions};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The files that an interrupted process has to remove.
-static PENDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-fn pending() -> MutexGuard<'static, Vec<PathBuf>> {
-    PENDING.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Removes every unfinished output. Holds off any rename that has not begun; for the signal handler, which
-/// ends the process next.
-pub fn abandon_all() -> impl Drop {
-    let mut files = pending();
-    for file in files.drain(..) {
-        let _ = fs::remove_file(file);
-    }
-    files
-}
-
-/// An output that is being written.
+/// An output that is being made.
 #[derive(Debug)]
 pub struct PendingFile {
-    temporary: PathBuf,
+    folder: TempFolder,
     target: PathBuf,
     overwrite: bool,
 }
 
 impl PendingFile {
-    /// Errors: `OUTPUT_EXISTS`, `OUTPUT_WRITE`.
-    pub fn create(target: &Path, overwrite: bool) -> Result<(Self, File)> {
+    /// Makes the folder beside the output. Errors: `OUTPUT_EXISTS`, `OUTPUT_WRITE`.
+    pub fn create(target: &Path, overwrite: bool) -> Result<Self> {
         check_target(target, overwrite)?;
         let name = target.file_name().unwrap_or_default().to_string_lossy();
-        let temporary = target.with_file_name(format!(".{name}.groma-{}.tmp", std::process::id()));
-        let mut files = pending();
-        let file = OpenOptions::new().write(true).create_new(true).open(&temporary);
-        let file =
-            file.map_err(|e| Error::output_write(target, format!("the folder takes no file ({e})")))?;
-        files.push(temporary.clone());
-        Ok((Self { temporary, target: target.to_path_buf(), overwrite }, file))
+        let folder = TempFolder::create(parent(target), &name)
+            .map_err(|e| Error::output_write(target, format!("the folder takes no file ({e})")))?;
+        Ok(Self { folder, target: target.to_path_buf(), overwrite })
+    }
+
+    /// The folder beside the output, for other things that go when the run ends.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Opens the file for writing and reading.
+    pub fn open(&self) -> Result<File> {
+        let file = OpenOptions::new().read(true).write(true).create_new(true).open(self.unfinished());
+        file.map_err(|e| Error::output_write(&self.target, format!("the folder takes no file ({e})")))
     }
 
     /// Makes the written file durable and gives it its name.
@@ -51,26 +41,24 @@ impl PendingFile {
         file.sync_all().map_err(failed)?;
         drop(file);
         check_target(&self.target, self.overwrite)?;
-        let mut files = pending();
-        fs::rename(&self.temporary, &self.target).map_err(failed)?;
-        files.retain(|f| *f != self.temporary);
+        let held = folder::hold();
+        fs::rename(self.unfinished(), &self.target).map_err(failed)?;
+        drop(held);
         // The rename itself is durable once the folder is; a file system that cannot say so is no error.
-        let folder = self.target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        if let Ok(folder) = File::open(folder) {
+        if let Ok(folder) = File::open(parent(&self.target)) {
             let _ = folder.sync_all();
         }
         Ok(())
     }
+
+    fn unfinished(&self) -> PathBuf {
+        self.folder.path().join("output")
+    }
 }
 
-impl Drop for PendingFile {
-    fn drop(&mut self) {
-        let mut files = pending();
-        if files.contains(&self.temporary) {
-            let _ = fs::remove_file(&self.temporary);
-            files.retain(|f| *f != self.temporary);
-        }
-    }
+/// The folder that a file stands in.
+pub fn parent(target: &Path) -> &Path {
+    target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Refuses an output that must not or cannot be written, before any work.
@@ -100,7 +88,8 @@ mod tests {
     fn appears_only_when_committed() {
         let folder = tempfile::tempdir().unwrap();
         let target = folder.path().join("a.laz");
-        let (output, mut file) = PendingFile::create(&target, false).unwrap();
+        let output = PendingFile::create(&target, false).unwrap();
+        let mut file = output.open().unwrap();
         file.write_all(b"whole").unwrap();
         assert!(!target.exists());
         output.commit(file).unwrap();
@@ -114,7 +103,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let target = folder.path().join("a.laz");
         fs::write(&target, b"old").unwrap();
-        drop(PendingFile::create(&target, true).unwrap());
+        let output = PendingFile::create(&target, true).unwrap();
+        drop(output.open().unwrap());
+        drop(output);
         assert_eq!(names(folder.path()), ["a.laz"]);
         assert_eq!(fs::read(&target).unwrap(), b"old");
     }

@@ -1,12 +1,8 @@
 //! Attribute statistics of all points, the second of Groma's records.
 
 use crate::record::fields::Field;
-use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// Records summed up at a time. A fixed number, so that float sums do not depend on the number of threads.
-const BLOCK: usize = 65_536;
 
 /// Byte of the return number and of the classification in the formats 6 to 8.
 const RETURN_AT: usize = 14;
@@ -37,14 +33,8 @@ pub struct Attribute {
 }
 
 impl Statistics {
-    /// `fields` of records of `length` bytes; values that are not finite do not count.
-    pub fn of(records: &[u8], length: usize, fields: &[Field]) -> Self {
-        let partial: Vec<_> =
-            records.par_chunks(length * BLOCK).map(|block| Partial::of(block, length, fields)).collect();
-        let mut total = Partial::empty(fields.len());
-        for part in &partial {
-            total.add(part);
-        }
+    /// What the sums over all records say.
+    pub fn of(total: &Tally, fields: &[Field]) -> Self {
         let attributes: Vec<_> =
             fields.iter().zip(&total.sums).filter_map(|(f, sum)| sum.finish(f)).collect();
         let brightest = attributes.iter().filter(|a| matches!(a.name.as_str(), "red" | "green" | "blue"));
@@ -54,7 +44,7 @@ impl Statistics {
         };
         Self {
             version: 1,
-            points: (records.len() / length) as u64,
+            points: total.points,
             rgb_bits: brightest.filter(|max| *max > 0.0).map(|max| if max > 255.0 { 16 } else { 8 }),
             attributes,
             classes: present(&total.classes),
@@ -93,37 +83,44 @@ impl Sum {
     }
 }
 
-struct Partial {
+/// Sums over some records. Those of pieces of the input are added up in the input's order, so that float sums depend
+/// on nothing else.
+#[derive(Debug, Clone)]
+pub struct Tally {
+    points: u64,
     sums: Vec<Sum>,
     classes: [u64; 256],
     returns: [u64; 16],
 }
 
-impl Partial {
-    fn empty(fields: usize) -> Self {
-        Self { sums: vec![Sum::EMPTY; fields], classes: [0; 256], returns: [0; 16] }
+impl Tally {
+    pub fn empty(fields: usize) -> Self {
+        Self { points: 0, sums: vec![Sum::EMPTY; fields], classes: [0; 256], returns: [0; 16] }
     }
 
-    fn of(block: &[u8], length: usize, fields: &[Field]) -> Self {
-        let mut partial = Self::empty(fields.len());
-        for (field, sum) in fields.iter().zip(&mut partial.sums) {
-            for value in block.chunks_exact(length).filter_map(|record| field.stored(record)) {
+    /// Sums up whole records of `length` bytes; values that are not finite do not count.
+    pub fn of(block: &[u8], length: usize, fields: &[Field]) -> Self {
+        let mut tally = Self::empty(fields.len());
+        tally.points = (block.len() / length) as u64;
+        for (field, sum) in fields.iter().zip(&mut tally.sums) {
+            field.each(block, length, |value| {
                 if value.is_finite() {
                     sum.min = sum.min.min(value);
                     sum.max = sum.max.max(value);
                     sum.total += value;
                     sum.count += 1;
                 }
-            }
+            });
         }
         for record in block.chunks_exact(length) {
-            partial.classes[usize::from(record[CLASS_AT])] += 1;
-            partial.returns[usize::from(record[RETURN_AT] & 15)] += 1;
+            tally.classes[usize::from(record[CLASS_AT])] += 1;
+            tally.returns[usize::from(record[RETURN_AT] & 15)] += 1;
         }
-        partial
+        tally
     }
 
-    fn add(&mut self, other: &Self) {
+    pub fn add(&mut self, other: &Self) {
+        self.points += other.points;
         for (mine, its) in self.sums.iter_mut().zip(&other.sums) {
             mine.min = mine.min.min(its.min);
             mine.max = mine.max.max(its.max);
@@ -155,7 +152,7 @@ mod tests {
             record[30] = 200;
         }
         let all = fields(Target::Rgb, [0.01, 1.0, 1.0], [10.0, 0.0, 0.0], &[], 36);
-        let statistics = Statistics::of(&records, 36, &all);
+        let statistics = Statistics::of(&Tally::of(&records, 36, &all), &all);
         let x = statistics.attribute("x").unwrap();
         assert_eq!((x.min, x.max, x.mean), (10.0, 12.0, 11.0));
         let time = statistics.attribute("gpsTime").unwrap();
@@ -170,6 +167,6 @@ mod tests {
     #[test]
     fn black_is_no_colour() {
         let all = fields(Target::Rgb, [1.0; 3], [0.0; 3], &[], 36);
-        assert_eq!(Statistics::of(&[0; 72], 36, &all).rgb_bits, None);
+        assert_eq!(Statistics::of(&Tally::of(&[0; 72], 36, &all), &all).rgb_bits, None);
     }
 }

@@ -2,17 +2,37 @@
 
 use laz::record::{LayeredPointRecordCompressor, RecordCompressor};
 use laz::{LazVlr, LazVlrBuilder};
+use std::io::Cursor;
 
 /// The compression of an output: chunks of any number of points.
 pub fn parameters(point_format: u8, extra: u16) -> laz::Result<LazVlr> {
     Ok(LazVlrBuilder::default().with_point_format(point_format, extra)?.with_variable_chunk_size().build())
 }
 
-/// Compresses whole records of format 6, 7 or 8.
+/// A chunk that is being made of records of format 6, 7 or 8.
+pub struct Compressor(LayeredPointRecordCompressor<'static, Cursor<Vec<u8>>>);
+
+impl Compressor {
+    pub fn new(vlr: &LazVlr) -> laz::Result<Self> {
+        let mut compressor = LayeredPointRecordCompressor::new(Cursor::new(Vec::new()));
+        compressor.set_fields_from(vlr.items())?;
+        Ok(Self(compressor))
+    }
+
+    /// Appends whole records.
+    pub fn add(&mut self, records: &[u8]) -> laz::Result<()> {
+        Ok(self.0.compress_many(records)?)
+    }
+
+    pub fn finish(mut self) -> laz::Result<Vec<u8>> {
+        self.0.done()?;
+        Ok(self.0.into_inner().into_inner())
+    }
+}
+
+/// Compresses whole records.
 pub fn compress(records: &[u8], vlr: &LazVlr) -> laz::Result<Vec<u8>> {
-    let mut compressor = LayeredPointRecordCompressor::new(Vec::with_capacity(records.len() / 4));
-    compressor.set_fields_from(vlr.items())?;
-    compressor.compress_many(records)?;
-    compressor.done()?;
-    Ok(compressor.into_inner())
+    let mut compressor = Compressor::new(vlr)?;
+    compressor.add(records)?;
+    compressor.finish()
 }

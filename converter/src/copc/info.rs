@@ -1,7 +1,6 @@
 //! The COPC information record: user id `copc`, record id 1, the first record after the header.
 
-use crate::octree::cube::Cube;
-use crate::octree::sample::GRID;
+use crate::octree::cube::{Cube, GRID};
 use crate::scan::variable_record::{COPC, COPC_INFO, VariableRecord};
 
 /// Bytes of the record's data.

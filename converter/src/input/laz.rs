@@ -1,17 +1,16 @@
 //! LAZ: where the chunks are, and how one is decoded without trusting it.
 
-use super::Block;
 use super::contain::contained;
+use super::{Block, Sink};
 use crate::error::{Error, Result};
 use crate::scan::Scan;
 use laz::laszip::{ChunkTable, CompressorType};
 use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};
 use laz::{LasZipDecompressor, LazItemRecordBuilder, LazItemType, LazVlr};
 use std::fs::File;
-use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
 
-/// Points decoded at a time where there is no chunk table.
-const STREAM_POINTS: usize = 65_536;
 /// Bytes of the position of the chunk table, with which the point data begins.
 const TABLE_POSITION: u64 = 8;
 /// Bytes before the entries of the chunk table: version and number of chunks.
@@ -141,46 +140,64 @@ fn read_table(
     table.map(|t| t.as_ref().to_vec()).map_err(|e| Error::corrupt(path, format!("chunk table: {e}")))
 }
 
-/// Decodes one whole chunk into `out`, a whole number of records. The error is a cause in words.
-pub fn decode_chunk(chunk: &[u8], vlr: &LazVlr, out: &mut [u8]) -> std::result::Result<(), String> {
-    let layered = vlr.items().first().is_some_and(|item| item.version() >= 3);
-    if layered {
-        check_layers(chunk, vlr)?;
+/// Whether the chunks are those of LASzip 3, whose layers must be in memory as a whole.
+pub fn is_layered(vlr: &LazVlr) -> bool {
+    vlr.items().first().is_some_and(|item| item.version() >= 3)
+}
+
+/// Decodes one chunk, at whose first byte `source` stands.
+pub fn decode_chunk<R: Read + Seek + Send + Sync>(
+    mut source: R,
+    block: &Block,
+    path: &Path,
+    vlr: &LazVlr,
+    sink: &mut Sink,
+) -> Result<()> {
+    let fail = |cause: String| {
+        Error::corrupt(path, format!("a chunk of {} bytes cannot be decoded ({cause})", block.bytes))
+    };
+    if is_layered(vlr) {
+        check_layers(&mut source, block.bytes, vlr).map_err(fail)?;
+        decode(LayeredPointRecordDecompressor::new(source), block.points, vlr, sink, fail)
+    } else {
+        decode(SequentialPointRecordDecompressor::new(source), block.points, vlr, sink, fail)
     }
-    contained(|| {
-        let source = Cursor::new(chunk);
-        if layered {
-            let mut decoder = LayeredPointRecordDecompressor::new(source);
-            decoder.set_fields_from(vlr.items())?;
-            decoder.decompress_many(out)?;
-        } else {
-            let mut decoder = SequentialPointRecordDecompressor::new(source);
-            decoder.set_fields_from(vlr.items())?;
-            decoder.decompress_many(out)?;
-        }
-        Ok(())
-    })
-    .map_err(|cause| format!("a chunk of {} bytes cannot be decoded ({cause})", chunk.len()))
+}
+
+fn decode<R>(
+    mut decoder: impl RecordDecompressor<R>,
+    points: u64,
+    vlr: &LazVlr,
+    sink: &mut Sink,
+    fail: impl Fn(String) -> Error,
+) -> Result<()> {
+    contained(|| decoder.set_fields_from(vlr.items())).map_err(&fail)?;
+    sink.fill(points, |raw| contained(|| Ok(decoder.decompress_many(raw)?)).map_err(&fail))
 }
 
 /// The decoder allocates each layer by its announced size, so the sizes must lie in the chunk.
 ///
 /// A layered chunk (LASzip 3): one plain record, the number of points (u32), the size of each layer (u32),
 /// then the layers.
-fn check_layers(chunk: &[u8], vlr: &LazVlr) -> std::result::Result<(), String> {
+fn check_layers(
+    source: &mut (impl Read + Seek),
+    bytes: u64,
+    vlr: &LazVlr,
+) -> std::result::Result<(), String> {
     let layers: usize = vlr.items().iter().map(|item| layers_of(item.item_type())).sum();
     let record: usize = vlr.items().iter().map(|item| usize::from(item.size())).sum();
     let sizes_at = record + 4;
-    let body = sizes_at + layers * 4;
-    let Some(sizes) = chunk.get(sizes_at..body) else {
-        return Err(format!("a chunk of {} bytes is shorter than its own description", chunk.len()));
-    };
-    let total: u64 = sizes.as_chunks::<4>().0.iter().map(|b| u64::from(u32::from_le_bytes(*b))).sum();
-    if total > (chunk.len() - body) as u64 {
-        return Err(format!(
-            "the layers of a chunk of {} bytes are announced with {total} bytes",
-            chunk.len()
-        ));
+    let mut head = vec![0; sizes_at + layers * 4];
+    let body = bytes.checked_sub(head.len() as u64).ok_or("it is shorter than its own description")?;
+    let back = -(head.len() as i64);
+    source
+        .read_exact(&mut head)
+        .and_then(|()| source.seek(SeekFrom::Current(back)))
+        .map_err(|e| e.to_string())?;
+    let sizes = head[sizes_at..].as_chunks::<4>().0;
+    let total: u64 = sizes.iter().map(|b| u64::from(u32::from_le_bytes(*b))).sum();
+    if total > body {
+        return Err(format!("its layers are announced with {total} bytes"));
     }
     Ok(())
 }
@@ -194,25 +211,15 @@ fn layers_of(item: LazItemType) -> usize {
     }
 }
 
-/// Decodes a file without chunk table, some ten thousand points at a time; `each` gets the decoded records and
-/// their part of `out`.
-pub fn stream(
-    scan: &Scan,
-    vlr: &LazVlr,
-    out: &mut [u8],
-    target_length: usize,
-    mut each: impl FnMut(&[u8], &mut [u8]) -> Result<()>,
-) -> Result<()> {
+/// Decodes a file without chunk table from start to end.
+pub fn stream(scan: &Scan, vlr: &LazVlr, sink: &mut Sink) -> Result<()> {
     let path = &scan.path;
     let mut file = File::open(path).map(BufReader::new).map_err(|e| Error::reading(path, &e))?;
     file.seek(SeekFrom::Start(scan.header.offset_to_point_data.into()))
         .map_err(|e| Error::reading(path, &e))?;
     let decoder = contained(|| LasZipDecompressor::new(Forward(file), vlr.clone()));
     let mut decoder = decoder.map_err(|cause| Error::corrupt(path, cause))?;
-    let source_length = usize::from(scan.header.point_data_record_length);
-    let mut raw = vec![0; STREAM_POINTS * source_length];
-    for part in out.chunks_mut(STREAM_POINTS * target_length) {
-        let raw = &mut raw[..part.len() / target_length * source_length];
+    sink.fill(scan.points, |raw| {
         let mut early = false;
         let decoded = contained(|| {
             decoder.decompress_many(raw).map_err(|e| {
@@ -221,12 +228,11 @@ pub fn stream(
             })
         });
         match decoded {
-            Err(_) if early => return Err(Error::truncated(path, "the compressed points end early")),
-            Err(cause) => return Err(Error::corrupt(path, cause)),
-            Ok(()) => each(raw, part)?,
+            Err(_) if early => Err(Error::truncated(path, "the compressed points end early")),
+            Err(cause) => Err(Error::corrupt(path, cause)),
+            Ok(()) => Ok(()),
         }
-    }
-    Ok(())
+    })
 }
 
 /// A source that is read from here on and nowhere else: given a seekable one, the decoder looks for the chunk
@@ -249,6 +255,7 @@ impl Seek for Forward {
 mod tests {
     use super::*;
     use laz::LazVlrBuilder;
+    use std::io::Cursor;
 
     fn chunk(points: &[u8], format: u8) -> (Vec<u8>, LazVlr) {
         let vlr =
@@ -257,18 +264,28 @@ mod tests {
         (bytes, vlr)
     }
 
+    fn decoded(bytes: &[u8], vlr: &LazVlr, out: &mut [u8]) -> std::result::Result<(), String> {
+        let mut source = Cursor::new(bytes);
+        check_layers(&mut source, bytes.len() as u64, vlr)?;
+        contained(|| {
+            let mut decoder = LayeredPointRecordDecompressor::new(source);
+            decoder.set_fields_from(vlr.items())?;
+            Ok(decoder.decompress_many(out)?)
+        })
+    }
+
     #[test]
     fn garbage_is_an_error_and_never_a_panic() {
         let points: Vec<u8> = (0..30 * 36u32).map(|i| (i * i % 251) as u8).collect();
         let (good, vlr) = chunk(&points, 7);
         let mut out = vec![0; points.len()];
-        decode_chunk(&good, &vlr, &mut out).unwrap();
+        decoded(&good, &vlr, &mut out).unwrap();
         assert_eq!(out, points);
         for at in (0..good.len()).step_by(11) {
             let mut bad = good.clone();
             bad[at] ^= 0x55;
-            let _ = decode_chunk(&bad, &vlr, &mut out);
-            assert!(decode_chunk(&good[..at], &vlr, &mut out).is_err() || at + 8 > good.len(), "cut at {at}");
+            let _ = decoded(&bad, &vlr, &mut out);
+            assert!(decoded(&good[..at], &vlr, &mut out).is_err() || at + 8 > good.len(), "cut at {at}");
         }
     }
 
@@ -276,6 +293,6 @@ mod tests {
     fn lying_layer_sizes_are_refused_before_allocation() {
         let (mut bytes, vlr) = chunk(&[0; 360], 7);
         bytes[40..44].copy_from_slice(&u32::MAX.to_le_bytes());
-        assert!(decode_chunk(&bytes, &vlr, &mut [0; 360]).unwrap_err().contains("announced"));
+        assert!(decoded(&bytes, &vlr, &mut [0; 360]).unwrap_err().contains("announced"));
     }
 }

@@ -10,8 +10,12 @@ use crate::scan::variable_record::{GEOTIFF_ASCII, GEOTIFF_DIRECTORY, GEOTIFF_DOU
 /// Bit of the global encoding that tells adjusted standard GPS time from GPS week time.
 const GPS_TIME_TYPE: u16 = 1;
 
+/// Inputs of one coordinate reference system that an error names; of more, it gives the number.
+const NAMED: usize = 3;
+
 /// Prepares all inputs for the first one's record form, scale and offset, or refuses: `INPUT_MIXED`.
 pub fn unify(sources: &mut [Source]) -> Result<()> {
+    check_systems(sources)?;
     let Some((first, others)) = sources.split_first_mut() else { return Ok(()) };
     for other in others {
         if let Some(difference) = difference(first, other) {
@@ -30,7 +34,55 @@ pub fn unify(sources: &mut [Source]) -> Result<()> {
     Ok(())
 }
 
-/// What two inputs may not differ in.
+/// Refuses inputs of several coordinate reference systems, naming all of these and who has them.
+fn check_systems(sources: &[Source]) -> Result<()> {
+    let mut systems: Vec<(System, Vec<&Source>)> = Vec::new();
+    for source in sources {
+        let system = System { wkt: source.scan.wkt(), geo_tiff: geo_tiff(&source.scan) };
+        match systems.iter_mut().find(|(known, _)| *known == system) {
+            Some((_, members)) => members.push(source),
+            None => systems.push((system, vec![source])),
+        }
+    }
+    let [_, (_, strangers), ..] = systems.as_slice() else { return Ok(()) };
+    let list: Vec<_> = systems
+        .iter()
+        .map(|(system, members)| {
+            let mut names: Vec<_> =
+                members.iter().take(NAMED).map(|source| source.scan.path.display().to_string()).collect();
+            if members.len() > NAMED {
+                names.push(format!("{} more", members.len() - NAMED));
+            }
+            format!("{} ({})", system.name(), names.join(", "))
+        })
+        .collect();
+    let cause = format!(
+        "the inputs have {} coordinate reference systems, which differ: {}",
+        systems.len(),
+        list.join("; ")
+    );
+    Err(Error::mixed(&strangers[0].scan.path, cause))
+}
+
+/// What a file says of its coordinate reference system.
+#[derive(PartialEq)]
+struct System<'a> {
+    wkt: Option<String>,
+    geo_tiff: [Option<&'a [u8]>; 3],
+}
+
+impl System<'_> {
+    /// The name that the WKT gives, or in words what there is.
+    fn name(&self) -> &str {
+        match &self.wkt {
+            Some(wkt) => wkt.split('"').nth(1).unwrap_or(wkt),
+            None if self.geo_tiff.iter().any(Option::is_some) => "GeoTIFF keys",
+            None => "none declared",
+        }
+    }
+}
+
+/// What two inputs may not differ in, besides their coordinate reference systems.
 fn difference(first: &Source, other: &Source) -> Option<&'static str> {
     let (a, b) = (&first.scan, &other.scan);
     if first.mapping.target() != other.mapping.target() {
@@ -38,9 +90,6 @@ fn difference(first: &Source, other: &Source) -> Option<&'static str> {
     }
     if first.mapping.extra() != other.mapping.extra() || a.extra_bytes() != b.extra_bytes() {
         return Some("the extra bytes");
-    }
-    if a.wkt() != b.wkt() || geo_tiff(a) != geo_tiff(b) {
-        return Some("the coordinate reference systems");
     }
     let timed = has_gps_time(a.point_format) && has_gps_time(b.point_format);
     if timed && time_type(a) != time_type(b) {

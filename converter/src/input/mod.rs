@@ -6,15 +6,24 @@ mod laz;
 pub mod merge;
 
 use crate::error::{Error, Result};
-use crate::progress::Meter;
 use crate::record::exact::ExactChange;
 use crate::record::mapping::Mapping;
 use crate::scan::Scan;
 use ::laz::LazVlr;
-use rayon::prelude::*;
 use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
-use std::path::Path;
+use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
+
+/// Points of a piece, if their records are not too long for [`PIECE_BYTES`].
+const PIECE_POINTS: usize = 65_536;
+const PIECE_BYTES: usize = 1 << 22;
+
+/// A chunk with more bytes is not read into memory before it is decoded.
+const LARGE_CHUNK: u64 = 1 << 22;
+
+/// Records that are handed on at a time, a number that depends on nothing but their length.
+pub fn piece_points(record_length: usize) -> usize {
+    (PIECE_BYTES / record_length.max(1)).clamp(1, PIECE_POINTS)
+}
 
 /// Points per block of an uncompressed file.
 const BLOCK_POINTS: u64 = 65_536;
@@ -79,61 +88,65 @@ impl Source {
         Ok(Self { scan, mapping, change: None, storage, blocks })
     }
 
-    /// Decodes every point into `out`: zeroed, as many records of [`Mapping::target_length`] as there are points.
+    /// Gives up the variable length records, which reading points does not need.
+    pub fn forget_records(&mut self) {
+        self.scan.vlrs = Vec::new();
+        self.scan.evlrs = Vec::new();
+    }
+
+    /// Number of runs of points that decode on their own, see [`Self::read`].
+    pub fn parts(&self) -> usize {
+        if matches!(self.storage, Storage::Stream(_)) { 1 } else { self.blocks.len() }
+    }
+
+    /// Bytes of memory that reading a part takes, besides the pieces.
+    pub fn part_bytes(&self) -> u64 {
+        let largest = self.blocks.iter().map(|block| block.bytes).max().unwrap_or(0);
+        match &self.storage {
+            Storage::Chunks(vlr) if laz::is_layered(vlr) => largest,
+            _ => largest.min(LARGE_CHUNK),
+        }
+    }
+
+    /// Decodes a part, and hands on its records in the output's form, piece by piece and in order. `pieces` are
+    /// buffers that may serve again.
     ///
     /// Errors: `INPUT_CORRUPT`, `INPUT_TRUNCATED`, `INPUT_MIXED` (a coordinate that the output's scale and offset
-    /// cannot hold exactly).
-    pub fn read(&self, out: &mut [u8], meter: &Meter) -> Result<()> {
-        if let Storage::Stream(vlr) = &self.storage {
-            return laz::stream(&self.scan, vlr, out, self.mapping.target_length(), |raw, part| {
-                self.finish(raw, part)?;
-                meter.add((raw.len() / self.mapping.source_length()) as u64);
-                Ok(())
-            });
-        }
-        let mut rest = out;
-        let mut work = Vec::with_capacity(self.blocks.len());
-        for block in &self.blocks {
-            let length = block.points as usize * self.mapping.target_length();
-            let (part, after) = rest.split_at_mut(length);
-            work.push((block, part));
-            rest = after;
-        }
-        work.into_par_iter().try_for_each(|(block, part)| {
-            self.read_block(block, part)?;
-            meter.add(block.points);
-            Ok(())
-        })
-    }
-
-    fn read_block(&self, block: &Block, out: &mut [u8]) -> Result<()> {
+    /// cannot hold exactly), and those of `each`.
+    pub fn read(
+        &self,
+        part: usize,
+        pieces: &mut Pieces,
+        mut each: impl FnMut(&[u8]) -> Result<()>,
+    ) -> Result<()> {
+        let each: &mut Each = &mut each;
         let path = &self.scan.path;
-        let bytes = read_range(path, block)?;
-        match &self.storage {
-            Storage::Plain => self.finish(&bytes, out),
-            Storage::Chunks(vlr) | Storage::Stream(vlr) if self.mapping.is_identity() => {
-                laz::decode_chunk(&bytes, vlr, out).map_err(|cause| Error::corrupt(path, cause))?;
-                self.change_positions(out)
-            }
-            Storage::Chunks(vlr) | Storage::Stream(vlr) => {
-                let mut raw = vec![0; block.points as usize * self.mapping.source_length()];
-                laz::decode_chunk(&bytes, vlr, &mut raw).map_err(|cause| Error::corrupt(path, cause))?;
-                self.finish(&raw, out)
-            }
+        let vlr = match &self.storage {
+            Storage::Stream(vlr) => return laz::stream(&self.scan, vlr, &mut self.sink(pieces, each)),
+            Storage::Plain => return self.read_plain(&self.blocks[part], &mut self.sink(pieces, each)),
+            Storage::Chunks(vlr) => vlr,
+        };
+        let block = &self.blocks[part];
+        let mut file = File::open(path).map_err(|e| Error::reading(path, &e))?;
+        file.seek(SeekFrom::Start(block.at)).map_err(|e| Error::reading(path, &e))?;
+        let mut sink = self.sink(pieces, each);
+        if block.bytes > LARGE_CHUNK {
+            return laz::decode_chunk(BufReader::with_capacity(1 << 18, file), block, path, vlr, &mut sink);
         }
+        let mut bytes = vec![0; block.bytes as usize];
+        file.read_exact(&mut bytes).map_err(|e| Error::reading(path, &e))?;
+        laz::decode_chunk(Cursor::new(bytes), block, path, vlr, &mut sink)
     }
 
-    /// Maps decoded records of the input's format into records of the output.
-    fn finish(&self, raw: &[u8], out: &mut [u8]) -> Result<()> {
-        let records = raw.chunks_exact(self.mapping.source_length());
-        if self.mapping.is_identity() {
-            out.copy_from_slice(raw);
-        } else {
-            for (from, to) in records.zip(out.chunks_exact_mut(self.mapping.target_length())) {
-                self.mapping.apply(from, to);
-            }
-        }
-        self.change_positions(out)
+    fn read_plain(&self, block: &Block, sink: &mut Sink) -> Result<()> {
+        let path = &self.scan.path;
+        let mut file = File::open(path).map_err(|e| Error::reading(path, &e))?;
+        file.seek(SeekFrom::Start(block.at)).map_err(|e| Error::reading(path, &e))?;
+        sink.fill(block.points, |raw| file.read_exact(raw).map_err(|e| Error::reading(path, &e)))
+    }
+
+    fn sink<'a>(&'a self, pieces: &'a mut Pieces, each: &'a mut Each<'a>) -> Sink<'a> {
+        Sink { source: self, pieces, each }
     }
 
     fn change_positions(&self, out: &mut [u8]) -> Result<()> {
@@ -143,6 +156,52 @@ impl Source {
                 let cause = "a coordinate cannot be stored with the first input's scale and offset";
                 Error::mixed(&self.scan.path, cause)
             })?;
+        }
+        Ok(())
+    }
+}
+
+/// Who gets the records.
+type Each<'a> = dyn FnMut(&[u8]) -> Result<()> + 'a;
+
+/// Buffers for one piece.
+#[derive(Debug, Default)]
+pub struct Pieces {
+    raw: Vec<u8>,
+    mapped: Vec<u8>,
+}
+
+/// Maps decoded records of the input's form into the output's, and hands them on.
+struct Sink<'a> {
+    source: &'a Source,
+    pieces: &'a mut Pieces,
+    each: &'a mut Each<'a>,
+}
+
+impl Sink<'_> {
+    /// Has pieces of `points` records in all decoded into the buffer, one after the other.
+    fn fill(&mut self, points: u64, mut decode: impl FnMut(&mut [u8]) -> Result<()>) -> Result<()> {
+        let mapping = &self.source.mapping;
+        let (from, to) = (mapping.source_length(), mapping.target_length());
+        let Pieces { raw, mapped } = &mut *self.pieces;
+        let mut left = points;
+        while left > 0 {
+            let count = left.min(piece_points(from.max(to)) as u64) as usize;
+            raw.resize(count * from, 0);
+            decode(raw)?;
+            let records = if mapping.is_identity() {
+                &mut *raw
+            } else {
+                mapped.clear();
+                mapped.resize(count * to, 0);
+                for (record, out) in raw.chunks_exact(from).zip(mapped.chunks_exact_mut(to)) {
+                    mapping.apply(record, out);
+                }
+                &mut *mapped
+            };
+            self.source.change_positions(records)?;
+            (self.each)(records)?;
+            left -= count as u64;
         }
         Ok(())
     }
@@ -174,16 +233,4 @@ fn plain_blocks(scan: &Scan) -> Result<Vec<Block>> {
         Block { at: start + first * length, bytes: points * length, points }
     });
     Ok(blocks.collect())
-}
-
-/// The bytes of one block, which planning has seen to lie in the file.
-fn read_range(path: &Path, block: &Block) -> Result<Vec<u8>> {
-    let read = || {
-        let mut file = File::open(path)?;
-        file.seek(SeekFrom::Start(block.at))?;
-        let mut bytes = vec![0; block.bytes as usize];
-        file.read_exact(&mut bytes)?;
-        Ok(bytes)
-    };
-    read().map_err(|e: std::io::Error| Error::reading(path, &e))
 }

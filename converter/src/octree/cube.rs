@@ -1,6 +1,10 @@
 //! The root cube.
 
-use super::key::{BITS, morton};
+use super::key::{BITS, Key, morton};
+use crate::sampling::Cell;
+
+/// Cells along the edge of a node's cube: the spacing of a node's points is its side by this number.
+pub const GRID: u32 = 128;
 
 /// Smallest and largest coordinate on each axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,19 +56,51 @@ impl Cube {
         self.half_size * 2.0
     }
 
-    /// The Morton code of a position; positions outside get that of the nearest cell.
+    /// The cube of a node.
+    pub fn cell(&self, key: Key) -> Cell {
+        let side = self.side() / f64::from(1u32 << key.level);
+        let min = self.min();
+        let at = [key.x, key.y, key.z];
+        Cell {
+            min: std::array::from_fn(|i| min[i] + f64::from(at[i]) * side),
+            side,
+            spacing: side / f64::from(GRID),
+        }
+    }
+
+    /// The finest grid of places in the cube.
+    pub fn grid(&self) -> Grid {
+        let cells = f64::from(1u32 << BITS);
+        Grid { min: self.min(), factor: cells / self.side(), last: cells - 1.0 }
+    }
+
+    /// The Morton code of a position, see [`Grid::code`].
+    pub fn code(&self, position: [f64; 3]) -> u64 {
+        self.grid().code(position)
+    }
+}
+
+/// The finest grid of places in a root cube.
+#[derive(Debug, Clone, Copy)]
+pub struct Grid {
+    min: [f64; 3],
+    /// Cells per unit.
+    factor: f64,
+    last: f64,
+}
+
+impl Grid {
+    /// The Morton code of a position; one outside the cube gets that of the nearest cell.
     #[inline]
     pub fn code(&self, position: [f64; 3]) -> u64 {
-        let cells = f64::from(1u32 << BITS);
-        let (min, factor) = (self.min(), cells / self.side());
-        let cell = |i: usize| ((position[i] - min[i]) * factor).clamp(0.0, cells - 1.0) as u32;
+        let cell = |i: usize| ((position[i] - self.min[i]) * self.factor).clamp(0.0, self.last) as u32;
         morton([cell(0), cell(1), cell(2)])
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::key::Key;
+    use super::super::place::Frame;
     use super::*;
     use proptest::prelude::*;
 
@@ -96,11 +132,14 @@ mod tests {
             offset in proptest::array::uniform3(-5_000_000i32..5_000_000),
             scale in proptest::sample::select(vec![0.01, 0.001, 0.25, 1.0]),
         ) {
+            let frame = Frame { scale: [scale; 3], offset: offset.map(f64::from) };
             let place = |p: &[i32; 3]| [0, 1, 2].map(|i| f64::from(p[i]) * scale + f64::from(offset[i]));
             let points: Vec<_> = integers.iter().map(place).collect();
             let cube = cube_of(&points, [scale; 3]);
-            for point in &points {
-                let code = cube.code(*point);
+            let locator = frame.locator(&cube);
+            for (integers, point) in integers.iter().zip(&points) {
+                let record: Vec<u8> = integers.iter().flat_map(|v| v.to_le_bytes()).collect();
+                let code = locator.code(&record);
                 for level in 0..8 {
                     let key = Key::of(code, level);
                     let size = cube.side() / f64::from(1u32 << level);

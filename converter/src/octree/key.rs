@@ -30,6 +30,30 @@ impl Key {
         }
     }
 
+    /// The node that this one lies in; the root's is the root.
+    pub fn parent(self) -> Self {
+        Self { level: self.level.saturating_sub(1), x: self.x >> 1, y: self.y >> 1, z: self.z >> 1 }
+    }
+
+    /// The 26 cubes around this one that lie in the root cube.
+    pub fn neighbours(self) -> impl Iterator<Item = Self> {
+        let last = (1i64 << self.level) - 1;
+        let beside = move |value: u32, step: i64| {
+            u32::try_from(i64::from(value) + step).ok().filter(|v| i64::from(*v) <= last)
+        };
+        (0..27i64).filter(|i| *i != 13).filter_map(move |i| {
+            let x = beside(self.x, i % 3 - 1)?;
+            let y = beside(self.y, i / 3 % 3 - 1)?;
+            let z = beside(self.z, i / 9 - 1)?;
+            Some(Self { level: self.level, x, y, z })
+        })
+    }
+
+    /// One of eight numbers; nodes of a level with the same one do not touch.
+    pub fn colour(self) -> u32 {
+        self.x & 1 | (self.y & 1) << 1 | (self.z & 1) << 2
+    }
+
     /// The key's place in the order of the nodes of its level along the Morton curve.
     pub fn morton(self) -> u64 {
         morton([self.x, self.y, self.z])
@@ -92,6 +116,16 @@ mod tests {
             let (low, high) = (a.min(b), a.max(b));
             prop_assert!(Key::of(low, level).morton() <= Key::of(high, level).morton());
         }
+    }
+
+    #[test]
+    fn neighbours_touch_and_have_other_colours() {
+        let inner = Key { level: 2, x: 1, y: 2, z: 1 };
+        assert_eq!(inner.neighbours().count(), 26);
+        assert!(inner.neighbours().all(|key| key.colour() != inner.colour()));
+        assert_eq!(Key { level: 2, x: 3, y: 0, z: 3 }.neighbours().count(), 7);
+        assert_eq!(Key::ROOT.neighbours().count(), 0);
+        assert_eq!(inner.child(6).parent(), inner);
     }
 
     #[test]

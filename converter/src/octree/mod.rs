@@ -1,5 +1,6 @@
-//! The octree: which node each point goes to. Knows positions, not files.
+//! The octree: names of nodes and the cubes that they stand for. Knows positions, not files.
 
 pub mod cube;
 pub mod key;
-pub mod sample;
+pub mod limits;
+pub mod place;

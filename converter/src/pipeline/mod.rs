@@ -1,27 +1,32 @@
 //! One conversion, as stages whose order the types enforce:
 //! `Pipeline::scan(..)?.validate()?.distribute()?.build()?.write()?`.
 //!
-//! Between `distribute` and `write` all records are held in memory.
+//! Whatever the number of points, memory stays within what the options allow: what has no room waits in scratch files.
 
 pub mod answer;
 pub mod options;
-mod points;
+pub mod plan;
 
+use crate::build::{self, Node};
 use crate::copc;
 use crate::copc::header::Points;
 use crate::copc::info::Info;
 use crate::copc::records::{self, Additions};
+use crate::distribute::{self, Distribution, Inputs};
 use crate::error::{Error, Result};
 use crate::input::{Source, merge};
-use crate::memory;
-use crate::octree::cube::Cube;
-use crate::octree::sample::{self, Entry, Node};
+use crate::memory::Budget;
+use crate::octree::place::Frame;
 use crate::output::{self, PendingFile};
 use crate::progress::{Meter, Progress, Stage};
 use crate::record::{fields, has_gps_time, has_waveform};
 use crate::scan::Scan;
 use crate::statistics::Statistics;
+use crate::temporary::folder::TempFolder;
+use crate::temporary::store::Store;
+use laz::LazVlr;
 use options::Options;
+use plan::{Plan, Shares};
 use serde::Serialize;
 use std::path::Path;
 
@@ -35,31 +40,39 @@ pub struct Pipeline<'a, S> {
 /// The headers are read.
 pub struct Scanned(Vec<Scan>);
 
-/// The inputs fit together, the memory suffices, and the files that the options name are read.
+/// The inputs fit together, memory and disk suffice, and the files that the options name are read.
 pub struct Validated {
-    sources: Vec<Source>,
-    points: u64,
+    inputs: Inputs,
     additions: Additions,
+    budget: Budget,
+    shares: Shares,
 }
 
-/// All records are in memory in the output's format, and sorted along the Morton curve of the root cube.
+/// All records are in the output's form and in cells of the octree.
 pub struct Distributed {
-    sources: Vec<Source>,
+    inputs: Inputs,
     additions: Additions,
-    data: Vec<u8>,
-    bounds: crate::octree::cube::Bounds,
-    cube: Cube,
-    entries: Vec<Entry>,
+    shares: Shares,
+    distribution: Distribution,
+    site: Workplace,
 }
 
-/// Every point has its node.
+/// Every point has its node, and every node is compressed.
 pub struct Built {
-    sources: Vec<Source>,
-    additions: Additions,
-    data: Vec<u8>,
     points: Points,
     info: Info,
+    laz: LazVlr,
+    additions: Additions,
+    first: Scan,
     nodes: Vec<Node>,
+    site: Workplace,
+}
+
+/// Where the run works. The store goes before the folders that it writes to.
+struct Workplace {
+    store: Store,
+    _temporary: Option<TempFolder>,
+    output: PendingFile,
 }
 
 /// What stands at the end.
@@ -89,70 +102,73 @@ impl<'a> Pipeline<'a, Scanned> {
         }
         let mut sources = scans.into_iter().map(Source::plan).collect::<Result<Vec<_>>>()?;
         merge::unify(&mut sources)?;
-        let points = sources.iter().map(|s| s.scan.points).fold(0, u64::saturating_add);
-        memory::check(points, record_length(&sources) as u64, options.memory)?;
+        let inputs = inputs(sources)?;
+        let budget = Budget::new(options.memory);
+        let shares = plan::shares(&inputs, budget, options.workers())?;
+        plan::check_space(temp_dir(options), plan::temp_bytes(&inputs, &shares))?;
         let additions = options.additions()?;
-        Ok(Pipeline { options, progress, stage: Validated { sources, points, additions } })
+        Ok(Pipeline { options, progress, stage: Validated { inputs, additions, budget, shares } })
     }
 }
 
 impl<'a> Pipeline<'a, Validated> {
-    /// Decodes all points, finds the root cube around them and orders them.
+    /// What the conversion will take.
+    pub fn plan(&self) -> Plan {
+        let Validated { inputs, budget, shares, .. } = &self.stage;
+        plan::plan(inputs, shares, *budget, temp_dir(self.options), self.options.rules.sampling)
+    }
+
+    /// Decodes all points and brings them to the cells of the octree.
     pub fn distribute(self) -> Result<Pipeline<'a, Distributed>> {
-        let Self { options, progress, stage: Validated { sources, points, additions } } = self;
-        let length = record_length(&sources);
-        let mut data = vec![0; points as usize * length];
-        let meter = Meter::start(progress, Stage::Read, points);
-        let mut rest = data.as_mut_slice();
-        for source in &sources {
-            let (part, after) = rest.split_at_mut(source.scan.points as usize * length);
-            source.read(part, &meter)?;
-            rest = after;
-        }
-        meter.finish();
-        let first = &sources[0].scan;
-        let (scale, offset) = (first.scale(), first.offset());
-        let bounds = points::bounds(&data, length, scale, offset);
+        let Self { options, progress, stage: Validated { inputs, additions, shares, .. } } = self;
+        let output = PendingFile::create(&options.output, options.overwrite)?;
+        let name = options.output.file_name().unwrap_or_default().to_string_lossy();
+        let make =
+            |parent: &Path| TempFolder::create(parent, &name).map_err(|e| Error::temporary(parent, &e));
+        let temporary = options.temp_dir.as_deref().map(make).transpose()?;
+        let folder = temporary.as_ref().map_or(output.folder(), TempFolder::path);
+        let store = Store::new(folder, shares.store);
+        let distribution = distribute::distribute(&inputs, shares.readers, &store, progress)?;
         if options.wait_for_record {
-            progress.bounds(bounds.min, bounds.max);
+            progress.bounds(distribution.bounds.min, distribution.bounds.max);
         }
-        let cube = Cube::around(&bounds, scale);
-        let entries = points::entries(&data, length, scale, offset, &cube);
-        let stage = Distributed { sources, additions, data, bounds, cube, entries };
+        let site = Workplace { store, _temporary: temporary, output };
+        let stage = Distributed { inputs, additions, shares, distribution, site };
         Ok(Pipeline { options, progress, stage })
     }
 }
 
 impl<'a> Pipeline<'a, Distributed> {
-    /// Gives every point its node and sums up the attributes.
+    /// Gives every point its node and compresses the nodes.
     pub fn build(self) -> Result<Pipeline<'a, Built>> {
         let Self { options, progress, stage } = self;
-        let Distributed { sources, mut additions, data, bounds, cube, entries } = stage;
-        let count = entries.len() as u64;
-        let meter = Meter::start(progress, Stage::Build, count);
-        let nodes = sample::build(entries, &|points| meter.add(points));
+        let Distributed { inputs, mut additions, shares, distribution, site } = stage;
+        let Distribution { cells, cube, bounds, tally } = distribution;
+        let first = &inputs.sources[0];
+        let failed = |e: std::io::Error| Error::output_write(&options.output, e);
+        let laz = copc::chunk::parameters(inputs.target.id(), first.mapping.extra() as u16)
+            .map_err(|e| failed(std::io::Error::other(e)))?;
+        let meter = Meter::start(progress, Stage::Build, inputs.points);
+        let nodes =
+            build::build(&inputs, cube, cells, options.rules, &laz, shares.force, &site.store, &meter)?;
         meter.finish();
 
-        let (first, length) = (&sources[0].scan, record_length(&sources));
-        let target = sources[0].mapping.target();
-        let mut fields = fields::fields(target, first.scale(), first.offset(), &first.extra_bytes(), length);
-        if sources.iter().all(|source| !has_gps_time(source.scan.point_format)) {
-            fields.retain(|field| field.name != "gpsTime");
-        }
-        let statistics = Statistics::of(&data, length, &fields);
+        let statistics = Statistics::of(&tally, &inputs.fields);
         let time = statistics.attribute("gpsTime").map_or([0.0; 2], |t| [t.min, t.max]);
-        let json = serde_json::to_vec(&statistics).map_err(|e| Error::output_write(&options.output, e))?;
-        additions.statistics = json;
-        let record_length = u16::try_from(length).map_err(|_| {
-            Error::corrupt(
-                &first.path,
-                format!("records of {length} bytes are too long for point format {}", target.id()),
-            )
-        })?;
+        additions.statistics =
+            serde_json::to_vec(&statistics).map_err(|e| Error::output_write(&options.output, e))?;
         let by_return = statistics.points_by_return();
-        let points = Points { target, record_length, count, by_return, bounds };
+        let points = Points {
+            target: inputs.target,
+            record_length: inputs.length as u16,
+            count: inputs.points,
+            by_return,
+            bounds,
+        };
         let info = Info { cube, root_page: (0, 0), gps_time: time };
-        let stage = Built { sources, additions, data, points, info, nodes };
+        let first = inputs.sources.into_iter().next().map(|source| source.scan);
+        let first = first.ok_or_else(|| Error::option("USAGE", "no input"))?;
+        let stage = Built { points, info, laz, additions, first, nodes, site };
         Ok(Pipeline { options, progress, stage })
     }
 }
@@ -161,44 +177,62 @@ impl Pipeline<'_, Built> {
     /// Writes the file; it has its name only when all of it is on disk.
     pub fn write(self) -> Result<Summary> {
         let Self { options, progress, stage } = self;
-        let Built { sources, mut additions, data, points, info, nodes } = stage;
+        let Built { points, info, laz, mut additions, first, nodes, site } = stage;
         if options.wait_for_record {
             answer::read(std::io::stdin().lock(), &options.output, &mut additions)?;
         }
-        let failed = |e: std::io::Error| Error::output_write(&options.output, e);
-        let first = &sources[0];
-        let extra = first.mapping.extra() as u16;
-        let laz = copc::chunk::parameters(points.target.id(), extra)
-            .map_err(|e| failed(std::io::Error::other(e)))?;
-        let records = records::collect(&first.scan, &laz, &additions).map_err(failed)?;
+        let records = records::collect(&first, &laz, &additions)
+            .map_err(|e| Error::output_write(&options.output, e))?;
         if !records.has_wkt() {
             progress.warn(
                 "the output has no WKT: readers of LAS 1.4 will not know its coordinate reference system",
             );
         }
         let meter = Meter::start(progress, Stage::Write, points.count);
-        let summary = (points.count, nodes.len());
-        let header = &first.scan.header;
-        let (pending, mut file) = PendingFile::create(&options.output, options.overwrite)?;
+        let nodes = copc::write::ordered(nodes);
+        let (count, number) = (points.count, nodes.len());
+        let Workplace { store, _temporary, output } = site;
+        let mut file = output.open()?;
         let content = copc::write::Content {
-            input: header,
+            input: &first.header,
             points,
             info,
             laz: &laz,
             records: &records,
-            data: &data,
-            nodes: &nodes,
+            nodes,
+            store: &store,
         };
-        let bytes = copc::write::write(&mut file, &content, &meter).map_err(failed)?;
-        pending.commit(file)?;
+        let bytes = copc::write::write(&mut file, &content, &options.output, &meter)?;
+        output.commit(file)?;
         meter.finish();
-        Ok(Summary { points: summary.0, nodes: summary.1, bytes })
+        Ok(Summary { points: count, nodes: number, bytes })
     }
 }
 
-/// Bytes of a record of the output; the same for all sources once they are unified.
-fn record_length(sources: &[Source]) -> usize {
-    sources.first().map_or(0, |source| source.mapping.target_length())
+/// What is to be distributed. Errors: `INPUT_CORRUPT` where the output's records would be too long.
+fn inputs(mut sources: Vec<Source>) -> Result<Inputs> {
+    // The records between header and points are the first input's; those of ten thousand others would fill memory.
+    for other in sources.iter_mut().skip(1) {
+        other.forget_records();
+    }
+    let first = &sources[0];
+    let (target, length) = (first.mapping.target(), first.mapping.target_length());
+    if u16::try_from(length).is_err() {
+        let cause = format!("records of {length} bytes are too long for point format {}", target.id());
+        return Err(Error::corrupt(&first.scan.path, cause));
+    }
+    let frame = Frame { scale: first.scan.scale(), offset: first.scan.offset() };
+    let mut fields = fields::fields(target, frame.scale, frame.offset, &first.scan.extra_bytes(), length);
+    if sources.iter().all(|source| !has_gps_time(source.scan.point_format)) {
+        fields.retain(|field| field.name != "gpsTime");
+    }
+    let points = sources.iter().map(|s| s.scan.points).fold(0, u64::saturating_add);
+    Ok(Inputs { sources, points, length, target, frame, fields })
+}
+
+/// Where scratch files go.
+fn temp_dir(options: &Options) -> &Path {
+    options.temp_dir.as_deref().unwrap_or_else(|| output::parent(&options.output))
 }
 
 fn is_same_file(a: &Path, b: &Path) -> bool {

@@ -1,5 +1,6 @@
 //! What a conversion is told.
 
+use crate::build::Rules;
 use crate::copc::records::Additions;
 use crate::error::{Error, Result};
 use std::path::{Path, PathBuf};
@@ -7,9 +8,9 @@ use std::path::{Path, PathBuf};
 /// Longest data of a variable length record.
 const LONGEST_RECORD: usize = u16::MAX as usize;
 
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Options {
-    /// At least one.
+    /// At least one, in the order that their points keep.
     pub inputs: Vec<PathBuf>,
     pub output: PathBuf,
     /// File whose bytes become the georeference record.
@@ -22,11 +23,39 @@ pub struct Options {
     /// File with the WKT that the output carries instead of the input's.
     pub wkt: Option<PathBuf>,
     pub overwrite: bool,
-    /// Bytes; default: what is available.
+    /// How a node's points are chosen.
+    pub rules: Rules,
+    /// Most threads to work with; default: all that there are.
+    pub threads: Option<usize>,
+    /// Bytes; default: most of what is available.
     pub memory: Option<u64>,
+    /// Folder for scratch files; default: the output's.
+    pub temp_dir: Option<PathBuf>,
 }
 
 impl Options {
+    /// A plain conversion of some files.
+    pub fn new(inputs: Vec<PathBuf>, output: PathBuf) -> Self {
+        Self {
+            inputs,
+            output,
+            record: None,
+            transformation: None,
+            wait_for_record: false,
+            wkt: None,
+            overwrite: false,
+            rules: Rules::default(),
+            threads: None,
+            memory: None,
+            temp_dir: None,
+        }
+    }
+
+    /// Threads to work with.
+    pub fn workers(&self) -> usize {
+        self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+    }
+
     /// Reads the files that the options name. Errors: `OPTION_RECORD`, `OPTION_TRANSFORMATION`, `OPTION_WKT`.
     pub fn additions(&self) -> Result<Additions> {
         let wkt = self.wkt.as_deref().map(|path| read("WKT", path)).transpose()?.map(wkt).transpose()?;

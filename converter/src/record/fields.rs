@@ -97,6 +97,29 @@ impl Field {
     }
 }
 
+impl Field {
+    /// Hands on the stored numbers of whole records, one after the other.
+    #[inline]
+    pub fn each(&self, records: &[u8], length: usize, mut hand: impl FnMut(f64)) {
+        // A loop for each of the common kinds, which asks nothing per record.
+        let at = self.at;
+        let records = records.chunks_exact(length);
+        match self.kind {
+            _ if self.no_data.is_some() => records.filter_map(|record| self.stored(record)).for_each(hand),
+            Kind::U8 => records.for_each(|r| hand(f64::from(r[at]))),
+            Kind::LowNibble => records.for_each(|r| hand(f64::from(r[at] & 15))),
+            Kind::HighNibble => records.for_each(|r| hand(f64::from(r[at] >> 4))),
+            Kind::U16 => records.for_each(|r| hand(f64::from(u16::from_le_bytes([r[at], r[at + 1]])))),
+            Kind::I32 => {
+                records.for_each(|r| {
+                    hand(f64::from(i32::from_le_bytes([r[at], r[at + 1], r[at + 2], r[at + 3]])))
+                });
+            }
+            _ => records.filter_map(|record| self.stored(record)).for_each(hand),
+        }
+    }
+}
+
 /// The attributes of a record: the standard ones (names of the LAS 1.4 tables in camel case; scan angle in
 /// degrees), then the numeric extra bytes under their own names.
 pub fn fields(

@@ -54,6 +54,26 @@ pub fn has_gps_time(format: u8) -> bool {
     !matches!(format, 0 | 2)
 }
 
+/// Byte of red in a record of the formats 7 and 8; green and blue follow.
+const COLOUR_AT: usize = 30;
+
+/// Whether the records of an output hold colours.
+pub fn has_colour(target: Target) -> bool {
+    target != Target::Plain
+}
+
+/// Red, green and blue of a record of the formats 7 and 8.
+pub fn colour(record: &[u8]) -> [u16; 3] {
+    std::array::from_fn(|i| u16::from_le_bytes([record[COLOUR_AT + 2 * i], record[COLOUR_AT + 2 * i + 1]]))
+}
+
+/// Replaces red, green and blue of a record of the formats 7 and 8.
+pub fn set_colour(record: &mut [u8], colour: [u16; 3]) {
+    for (bytes, value) in record[COLOUR_AT..].as_chunks_mut::<2>().0.iter_mut().zip(colour) {
+        *bytes = value.to_le_bytes();
+    }
+}
+
 /// X, Y and Z of a record of any format, as stored.
 #[inline]
 pub fn position(record: &[u8]) -> [i32; 3] {

@@ -1,7 +1,6 @@
 //! LAS and LAZ files to order, runs of the binary, and what a run left behind.
 
-use groma_core::input::Source;
-use groma_core::progress::{Meter, Silent, Stage};
+use groma_core::input::{Pieces, Source};
 use groma_core::scan::Scan;
 use groma_core::scan::variable_record::VariableRecord;
 use las::Version;
@@ -22,6 +21,10 @@ pub struct Las {
     pub offset: [f64; 3],
     pub records: Vec<u8>,
     pub vlrs: Vec<VariableRecord>,
+    /// What the header says of the bounds; default: the truth.
+    pub bounds: Option<[[f64; 3]; 2]>,
+    /// Points of a LAZ chunk; none: as many as the writer likes in each.
+    pub chunk: Option<u32>,
 }
 
 impl Las {
@@ -47,7 +50,23 @@ impl Las {
             offset: [1000.0, -2000.0, 0.0],
             records,
             vlrs: Vec::new(),
+            bounds: None,
+            chunk: Some(500),
         }
+    }
+
+    /// The bounds of the points.
+    fn true_bounds(&self) -> [[f64; 3]; 2] {
+        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for record in self.records.chunks_exact(self.length()) {
+            let position = groma_core::record::position(record);
+            for axis in 0..3 {
+                let value = f64::from(position[axis]) * self.scale[axis] + self.offset[axis];
+                bounds[0][axis] = bounds[0][axis].min(value);
+                bounds[1][axis] = bounds[1][axis].max(value);
+            }
+        }
+        bounds
     }
 
     fn length(&self) -> usize {
@@ -65,7 +84,14 @@ impl Las {
         vlrs.iter().for_each(|record| record.write(&mut area).unwrap());
         let version = Version::new(1, self.minor);
         let count = (self.records.len() / self.length()) as u64;
+        let [min, max] = self.bounds.unwrap_or_else(|| self.true_bounds());
         let header = Header {
+            min_x: min[0],
+            min_y: min[1],
+            min_z: min[2],
+            max_x: max[0],
+            max_y: max[1],
+            max_z: max[2],
             version,
             header_size: version.header_size(),
             offset_to_point_data: u32::from(version.header_size()) + area.len() as u32,
@@ -94,7 +120,20 @@ impl Las {
                 let mut out = Cursor::new(bytes);
                 out.set_position(out.get_ref().len() as u64);
                 let mut compressor = LasZipCompressor::new(&mut out, vlr).unwrap();
-                compressor.compress_many(&self.records).unwrap();
+                if self.chunk.is_some() {
+                    compressor.compress_many(&self.records).unwrap();
+                } else {
+                    let mut rest = self.records.as_slice();
+                    for points in (1..).map(|i| scatter(i) as usize % 700 + 1) {
+                        let (now, later) = rest.split_at(rest.len().min(points * self.length()));
+                        compressor.compress_many(now).unwrap();
+                        rest = later;
+                        if rest.is_empty() {
+                            break;
+                        }
+                        compressor.finish_current_chunk().unwrap();
+                    }
+                }
                 compressor.done().unwrap();
                 drop(compressor);
                 bytes = out.into_inner();
@@ -107,10 +146,12 @@ impl Las {
         self.file(None)
     }
 
-    /// With chunks of 500 points.
     pub fn laz(&self) -> Vec<u8> {
         let builder = LazVlrBuilder::default().with_point_format(self.format, self.extra).unwrap();
-        self.file(Some(builder.with_fixed_chunk_size(500).build()))
+        self.file(Some(match self.chunk {
+            Some(points) => builder.with_fixed_chunk_size(points).build(),
+            None => builder.with_variable_chunk_size().build(),
+        }))
     }
 }
 
@@ -210,8 +251,14 @@ pub fn lines(output: &Output) -> Vec<Value> {
 pub fn records(path: &Path) -> Vec<Vec<u8>> {
     let source = Source::plan(Scan::read(path).unwrap()).unwrap();
     let length = source.mapping.target_length();
-    let mut data = vec![0; source.scan.points as usize * length];
-    source.read(&mut data, &Meter::start(&Silent, Stage::Read, source.scan.points)).unwrap();
+    let mut data = Vec::with_capacity(source.scan.points as usize * length);
+    for part in 0..source.parts() {
+        let mut keep = |records: &[u8]| {
+            data.extend_from_slice(records);
+            Ok(())
+        };
+        source.read(part, &mut Pieces::default(), &mut keep).unwrap();
+    }
     data.chunks_exact(length).map(<[u8]>::to_vec).collect()
 }
 

@@ -2,4 +2,7 @@
 
 mod bench;
 mod conversion;
+mod limits;
 mod refusals;
+mod samples;
+mod temporary;

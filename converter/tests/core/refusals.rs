@@ -94,6 +94,10 @@ fn inputs_that_do_not_fit_together() {
     assert_eq!(other("far.las", |las| las.offset = [1e9, 0.0, 0.0]), "INPUT_MIXED");
     let crs = |las: &mut Las| las.vlrs = vec![VariableRecord::new(PROJECTION, WKT, "", b"OTHER[]".to_vec())];
     assert_eq!(other("crs.las", crs), "INPUT_MIXED");
+    bench.put("b.las", &small().las());
+    let (_, lines) = bench.run(&["convert", "a.las", "crs.las", "b.las", "out.copc.laz"]);
+    let cause = lines.last().unwrap()["cause"].as_str().unwrap();
+    assert!(cause.contains("none declared (a.las, b.las); OTHER[] (crs.las)"), "{cause}");
     bench.put("format.las", &Las::at(1, 0, &[[0; 3]]).las());
     assert_eq!(bench.refused(&["a.las", "format.las", "out.copc.laz"]), "INPUT_MIXED");
     bench.put("extra.las", &Las::at(3, 2, &[[0; 3]]).las());
@@ -116,6 +120,8 @@ fn outputs_and_options() {
     assert_eq!(bench.refused(&["a.las", "out.laz", "--temp-dir", "nowhere"]), "OPTION_TEMP_DIR");
     assert_eq!(bench.refused(&["a.las", "out.laz", "--record", "nowhere"]), "OPTION_RECORD");
     assert_eq!(bench.refused(&["a.las", "out.laz", "--wkt", "nowhere"]), "OPTION_WKT");
+    assert_eq!(bench.refused(&["a.las", "out.laz", "--memory", "255MB"]), "OPTION_MEMORY");
+    assert_eq!(bench.refused(&["a.las", "out.laz", "--threads", "0"]), "OPTION_THREADS");
     assert_eq!(bench.refused(&["a.las"]), "OPTION_USAGE");
     assert_eq!(std::fs::read(bench.path("old.laz")).unwrap(), b"old");
     bench.convert(&["a.las", "old.laz", "--overwrite"]);
@@ -130,10 +136,10 @@ fn a_stopped_run_leaves_nothing_behind() {
     bench.put("in.las", &Las::at(7, 0, &cloud(2_000_000, [90_000, 90_000, 3000])).las());
     for signal in ["-TERM", "-INT"] {
         let mut command = bench.command();
-        command.args(["convert", "in.las", "out.copc.laz"]).env("RAYON_NUM_THREADS", "1");
+        command.args(["convert", "in.las", "out.copc.laz", "--threads", "1"]);
         let child = command.stdout(std::process::Stdio::piped()).spawn().unwrap();
         let start = Instant::now();
-        while !bench.names().iter().any(|name| name.ends_with(".tmp")) {
+        while !bench.names().iter().any(|name| name.starts_with(".groma-out.copc.laz-")) {
             assert!(start.elapsed() < Duration::from_secs(60), "{:?}", bench.names());
             std::thread::sleep(Duration::from_millis(2));
         }

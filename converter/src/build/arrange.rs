@@ -1,0 +1,85 @@
+//! The order of the points in a node. LAZ stores differences, so it is worth a sixth of the file which points follow each
+//! other: those of a scanner best in the order in which it saw them, others along a curve through space.
+
+use super::site::Site;
+use crate::copc::chunk;
+use crate::error::Result;
+
+/// Points that are compressed both ways to find out.
+const PROBE: usize = 2_048;
+
+/// How the points of a node follow each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// As they came.
+    Input,
+    /// Along the Morton curve.
+    Morton,
+}
+
+/// The order of the nodes of one job, found out with the first of them.
+#[derive(Debug, Default)]
+pub struct Arranger {
+    order: Option<Order>,
+    keys: Vec<(u64, u32)>,
+}
+
+/// Some of the records of a job.
+#[derive(Clone, Copy)]
+pub struct Selection<'a> {
+    pub records: &'a [u8],
+    /// The Morton codes of all records.
+    pub codes: &'a [u64],
+    /// The numbers of the selected ones, in the input's order.
+    pub numbers: &'a [u32],
+}
+
+impl Arranger {
+    /// Copies of selected records in the better order.
+    pub fn arrange(&mut self, site: &Site, selection: Selection) -> Result<Vec<u8>> {
+        let Selection { records, codes, numbers } = selection;
+        let length = site.inputs.length;
+        let input = match self.order {
+            Some(Order::Morton) => Vec::new(),
+            _ => gather(records, numbers.iter().copied(), length),
+        };
+        if self.order == Some(Order::Input) {
+            return Ok(input);
+        }
+        self.keys.clear();
+        self.keys.extend(numbers.iter().map(|number| (codes[*number as usize], *number)));
+        self.keys.sort_unstable();
+        let morton = gather(records, self.keys.iter().map(|(_, number)| *number), length);
+        let order = match self.order {
+            Some(order) => order,
+            None => *self.order.insert(better(&input, &morton, site)?),
+        };
+        Ok(if order == Order::Morton { morton } else { input })
+    }
+
+    /// Forgets what was found out: another job begins.
+    pub fn reset(&mut self) {
+        self.order = None;
+    }
+}
+
+/// Copies of records of `length` bytes.
+pub fn gather(records: &[u8], numbers: impl ExactSizeIterator<Item = u32>, length: usize) -> Vec<u8> {
+    let mut copies = Vec::with_capacity(numbers.len() * length);
+    for number in numbers {
+        copies.extend_from_slice(&records[number as usize * length..][..length]);
+    }
+    copies
+}
+
+/// Compresses as many points from the middle of both.
+fn better(input: &[u8], morton: &[u8], site: &Site) -> Result<Order> {
+    let length = site.inputs.length;
+    let points = input.len() / length;
+    let start = points.saturating_sub(PROBE) / 2 * length;
+    let size = |records: &[u8]| -> Result<usize> {
+        let part = &records[start..records.len().min(start + PROBE * length)];
+        Ok(chunk::compress(part, site.laz).map_err(Site::uncompressed)?.len())
+    };
+    Ok(if size(morton)? < size(input)? { Order::Morton } else { Order::Input })
+}

@@ -1,0 +1,69 @@
+//! A node's choice among the points of its children.
+
+use super::site::{Desk, Site};
+use crate::error::Result;
+use crate::octree::key::Key;
+use crate::record::colour;
+use crate::sampling::{self, Strategy};
+
+/// Points that a node chooses among: records, in order.
+pub struct Candidates<'a> {
+    pub records: &'a mut [u8],
+    /// Numbers of the candidates among the records, ascending.
+    pub numbers: &'a [u32],
+    /// Of all records: how many points each stands for; empty where nothing is averaged.
+    pub weights: &'a mut [u32],
+}
+
+/// Chooses a node's points: the numbers of their records, ascending. No more than a node may hold; of more, those with
+/// the smallest seeds, which of a Poisson sample leaves one of fewer points, and as even. Colours are averaged
+/// where the rules say so.
+pub fn choose(site: &Site, key: Key, candidates: Candidates, desk: &mut Desk) -> Result<Vec<u32>> {
+    let Candidates { records, numbers, weights } = candidates;
+    let (length, cell) = (site.inputs.length, site.cube.cell(key));
+    let Desk { positions, seeds, near, scratch, .. } = desk;
+    let record = |number: u32| &records[number as usize * length..][..length];
+    positions.clear();
+    positions.extend(
+        numbers.iter().map(|number| site.inputs.frame.coordinates(crate::record::position(record(*number)))),
+    );
+    seeds.clear();
+    let salt = hash(key.morton() ^ u64::from(key.level) << 60);
+    seeds.extend(numbers.iter().map(|number| hash(salt ^ u64::from(*number))));
+    near.clear();
+    let keeps_distance = site.rules.sampling == Strategy::Poisson;
+    if keeps_distance {
+        site.borders.near(key, &cell, site.store, near)?;
+    }
+    let mut chosen = sampling::choose(site.rules.sampling, &cell, positions, seeds, near, scratch);
+    let most = site.limits.node as usize;
+    if chosen.len() > most {
+        chosen.select_nth_unstable_by_key(most, |index| (seeds[*index as usize], *index));
+        chosen.truncate(most);
+        chosen.sort_unstable();
+    }
+    if keeps_distance {
+        let taken = chosen.iter().map(|index| positions[*index as usize]);
+        site.borders.keep(key, &cell, taken, site.store)?;
+    }
+    if site.averages() {
+        let colours: Vec<_> = numbers.iter().map(|number| colour(record(*number))).collect();
+        let counts: Vec<_> = numbers.iter().map(|number| weights[*number as usize]).collect();
+        let means = sampling::average(&cell, positions, &colours, &counts, &chosen);
+        for (index, (mean, count)) in chosen.iter().zip(means) {
+            let number = numbers[*index as usize] as usize;
+            crate::record::set_colour(&mut records[number * length..][..length], mean);
+            weights[number] = count;
+        }
+    }
+    chosen.iter_mut().for_each(|index| *index = numbers[*index as usize]);
+    Ok(chosen)
+}
+
+/// A number with no visible relation to another (SplitMix64: Steele, Lea, Flood 2014).
+fn hash(value: u64) -> u64 {
+    let mut v = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    v = (v ^ v >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    v = (v ^ v >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    v ^ v >> 31
+}

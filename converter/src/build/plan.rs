@@ -1,0 +1,121 @@
+//! Which nodes are built in which order.
+
+use super::site::Pending;
+use crate::distribute::cells::{Cell, Cells};
+use crate::octree::key::Key;
+use crate::octree::limits::Limits;
+use std::collections::HashMap;
+
+/// A part of the tree that is built at once.
+pub enum Job {
+    /// A cell with too many points for a leaf: all nodes below it.
+    Split { key: Key, cell: Cell },
+    /// A cell whose points all have one code.
+    Pile { key: Key, cell: Cell },
+    /// A node whose children are there.
+    Merge { key: Key, children: u32 },
+    /// The root has no parent that would take anything.
+    Root,
+}
+
+impl Job {
+    /// Points that it holds in memory at a time, at most.
+    pub fn points(&self, limits: &Limits) -> u64 {
+        match self {
+            Self::Split { cell, .. } => cell.points,
+            Self::Pile { .. } | Self::Root => limits.node,
+            Self::Merge { children, .. } => u64::from(*children) * limits.node,
+        }
+    }
+}
+
+/// The jobs, and the nodes for which there is nothing to do until their parents come.
+pub struct Plan {
+    /// The jobs of a phase may be done at once: no two of its nodes touch.
+    pub phases: Vec<Vec<Job>>,
+    pub pending: HashMap<Key, Pending>,
+}
+
+/// What is below a node.
+#[derive(Debug, Clone, Copy)]
+struct Total {
+    points: u64,
+    codes: (u64, u64),
+}
+
+/// From the deepest level up, and on each level the nodes of one colour after those of another.
+pub fn plan(cells: Cells, limits: &Limits) -> Plan {
+    let cells: Vec<_> = cells.into_cells().collect();
+    let totals = totals(&cells);
+    let is_leaf = |key: Key| totals[&key].points <= limits.leaf;
+    let is_pile = |key: Key| totals[&key].codes.0 == totals[&key].codes.1;
+    let mut pending: HashMap<Key, Vec<Cell>> = HashMap::new();
+    let mut jobs = Vec::new();
+    let mut merges: HashMap<Key, u32> = HashMap::new();
+    let mut cells = cells;
+    cells.sort_by_key(|(_, cell)| cell.codes.0);
+    for (key, cell) in cells {
+        if let Some(leaf) = topmost(key, is_leaf) {
+            pending.entry(leaf).or_default().push(cell);
+        } else if let Some(key) = topmost(key, is_pile) {
+            jobs.push((key, Job::Pile { key, cell }));
+        } else {
+            jobs.push((key, Job::Split { key, cell }));
+        }
+    }
+    let mut open: Vec<Key> = pending.keys().copied().chain(jobs.iter().map(|(key, _)| *key)).collect();
+    while let Some(key) = open.pop() {
+        if key.level == 0 {
+            continue;
+        }
+        let children = merges.entry(key.parent()).or_insert(0);
+        *children += 1;
+        if *children == 1 {
+            open.push(key.parent());
+        }
+    }
+    jobs.extend(merges.into_iter().map(|(key, children)| (key, Job::Merge { key, children })));
+    jobs.sort_by_key(|(key, _)| (std::cmp::Reverse(key.level), key.colour(), key.morton()));
+    let mut phases: Vec<Vec<Job>> = Vec::new();
+    let mut last = None;
+    for (key, job) in jobs {
+        if last != Some((key.level, key.colour())) {
+            last = Some((key.level, key.colour()));
+            phases.push(Vec::new());
+        }
+        if let Some(phase) = phases.last_mut() {
+            phase.push(job);
+        }
+    }
+    phases.push(vec![Job::Root]);
+    let pending = pending.into_iter().map(|(key, cells)| (key, Pending::of_cells(cells))).collect();
+    Plan { phases, pending }
+}
+
+fn totals(cells: &[(Key, Cell)]) -> HashMap<Key, Total> {
+    let mut totals: HashMap<Key, Total> = HashMap::new();
+    for (key, cell) in cells {
+        let mut key = *key;
+        loop {
+            let total = totals.entry(key).or_insert(Total { points: 0, codes: cell.codes });
+            total.points += cell.points;
+            total.codes = (total.codes.0.min(cell.codes.0), total.codes.1.max(cell.codes.1));
+            if key.level == 0 {
+                break;
+            }
+            key = key.parent();
+        }
+    }
+    totals
+}
+
+/// The highest node above a key, or itself, of which something holds that holds of every node below.
+fn topmost(mut key: Key, holds: impl Fn(Key) -> bool) -> Option<Key> {
+    if !holds(key) {
+        return None;
+    }
+    while key.level > 0 && holds(key.parent()) {
+        key = key.parent();
+    }
+    Some(key)
+}

@@ -1,0 +1,234 @@
+//! What all jobs of a build share.
+
+use super::arrange::{Arranger, Selection};
+use super::board::Board;
+use super::borders::Borders;
+use crate::copc::chunk;
+use crate::distribute::Inputs;
+use crate::distribute::cells::Cell;
+use crate::error::{Error, Result};
+use crate::octree::cube::Cube;
+use crate::octree::key::Key;
+use crate::octree::limits::Limits;
+use crate::progress::Meter;
+use crate::record::has_colour;
+use crate::sampling::{Scratch, Strategy};
+use crate::temporary::store::{Held, Store};
+use laz::LazVlr;
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// How nodes are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rules {
+    pub sampling: Strategy,
+    /// Whether a sampled point has the mean colour of the points that it stands for, instead of its own.
+    pub average_colors: bool,
+}
+
+/// Poisson samples, no colour changed.
+impl Default for Rules {
+    fn default() -> Self {
+        Self { sampling: Strategy::Poisson, average_colors: false }
+    }
+}
+
+/// A finished node: its LAZ chunk.
+#[derive(Debug)]
+pub struct Node {
+    pub key: Key,
+    pub points: u64,
+    pub chunk: Held,
+}
+
+/// Records of a node that has only to be compressed.
+pub struct Finish {
+    pub key: Key,
+    pub records: Vec<u8>,
+}
+
+impl Finish {
+    pub fn bytes(&self) -> u64 {
+        self.records.len() as u64
+    }
+}
+
+/// Points of a node whose parent has not chosen yet.
+pub enum Pending {
+    /// A leaf's, as distributed.
+    Cells(Vec<Cell>),
+    /// Records, then a u32 each of the points that they stand for, where colours are averaged.
+    Held(Held),
+}
+
+impl Pending {
+    pub fn of_cells(cells: Vec<Cell>) -> Self {
+        Self::Cells(cells)
+    }
+}
+
+/// Records with the numbers of points that they stand for, which are missing where nothing is averaged.
+#[derive(Debug, Default)]
+pub struct Batch {
+    pub records: Vec<u8>,
+    pub weights: Vec<u32>,
+}
+
+/// Buffers of one thread.
+#[derive(Debug, Default)]
+pub struct Desk {
+    pub positions: Vec<[f64; 3]>,
+    pub seeds: Vec<u64>,
+    pub near: Vec<[f64; 3]>,
+    pub scratch: Scratch,
+    pub arranger: Arranger,
+}
+
+pub struct Site<'a> {
+    pub inputs: &'a Inputs,
+    pub cube: Cube,
+    pub limits: Limits,
+    pub rules: Rules,
+    pub laz: &'a LazVlr,
+    pub store: &'a Store,
+    pub borders: Borders,
+    meter: &'a Meter<'a>,
+    board: &'a Board,
+    pending: Mutex<HashMap<Key, Pending>>,
+    nodes: Mutex<Vec<Node>>,
+}
+
+impl<'a> Site<'a> {
+    #[expect(clippy::too_many_arguments, reason = "all that a build is about, said once")]
+    pub fn new(
+        inputs: &'a Inputs,
+        cube: Cube,
+        limits: Limits,
+        rules: Rules,
+        laz: &'a LazVlr,
+        store: &'a Store,
+        meter: &'a Meter<'a>,
+        pending: HashMap<Key, Pending>,
+        board: &'a Board,
+    ) -> Self {
+        let (pending, nodes) = (Mutex::new(pending), Mutex::new(Vec::new()));
+        Self {
+            inputs,
+            cube,
+            limits,
+            rules,
+            laz,
+            store,
+            borders: Borders::default(),
+            meter,
+            board,
+            pending,
+            nodes,
+        }
+    }
+
+    /// Whether colours are averaged: asked for, and there.
+    pub fn averages(&self) -> bool {
+        self.rules.average_colors && has_colour(self.inputs.target)
+    }
+
+    /// Weights of points of the input.
+    pub fn weights(&self, points: usize) -> Vec<u32> {
+        if self.averages() { vec![1; points] } else { Vec::new() }
+    }
+
+    /// Keeps the points of a node until its parent chooses.
+    pub fn keep(&self, key: Key, batch: Batch) -> Result<()> {
+        let mut bytes = batch.records;
+        batch.weights.iter().for_each(|weight| bytes.extend(weight.to_le_bytes()));
+        let held = self.store.keep(bytes)?;
+        self.pending().insert(key, Pending::Held(held));
+        Ok(())
+    }
+
+    /// Takes back the points of a node; none where there is no such node.
+    pub fn take(&self, key: Key) -> Result<Batch> {
+        let length = self.inputs.length;
+        let pending = self.pending().remove(&key);
+        match pending {
+            None => Ok(Batch::default()),
+            Some(Pending::Cells(cells)) => {
+                let mut records = Vec::new();
+                for cell in cells {
+                    records.append(&mut cell.load(length, self.store)?);
+                }
+                let weights = self.weights(records.len() / length);
+                Ok(Batch { records, weights })
+            }
+            Some(Pending::Held(held)) => {
+                let mut records = self.store.take(held)?;
+                let mut weights = Vec::new();
+                if self.averages() {
+                    let count = records.len() / (length + 4);
+                    weights.extend(
+                        records[count * length..].as_chunks::<4>().0.iter().map(|b| u32::from_le_bytes(*b)),
+                    );
+                    records.truncate(count * length);
+                }
+                Ok(Batch { records, weights })
+            }
+        }
+    }
+
+    /// Gives a node its records for good.
+    pub fn finish(&self, key: Key, selection: Selection, arranger: &mut Arranger) -> Result<()> {
+        if selection.numbers.is_empty() {
+            return Ok(());
+        }
+        let records = arranger.arrange(self, selection)?;
+        match self.board.queue(Finish { key, records }) {
+            Some(finish) => self.compress(finish),
+            None => Ok(()),
+        }
+    }
+
+    /// The Morton codes of records.
+    pub fn codes(&self, records: &[u8]) -> Vec<u64> {
+        let locator = self.inputs.frame.locator(&self.cube);
+        records.chunks_exact(self.inputs.length).map(|record| locator.code(record)).collect()
+    }
+
+    pub fn finish_root(&self, arranger: &mut Arranger) -> Result<()> {
+        let Batch { records, .. } = self.take(Key::ROOT)?;
+        let codes = self.codes(&records);
+        let numbers: Vec<u32> = (0..codes.len() as u32).collect();
+        let selection = Selection { records: &records, codes: &codes, numbers: &numbers };
+        self.finish(Key::ROOT, selection, arranger)
+    }
+
+    /// Compresses a node's records.
+    pub fn compress(&self, finish: Finish) -> Result<()> {
+        let bytes = chunk::compress(&finish.records, self.laz);
+        let points = finish.bytes() / self.inputs.length as u64;
+        self.add(finish.key, points, bytes.map_err(Self::uncompressed)?)
+    }
+
+    /// Adds a node whose chunk is there.
+    pub fn add(&self, key: Key, points: u64, chunk: Vec<u8>) -> Result<()> {
+        let mut chunk = chunk;
+        chunk.shrink_to_fit();
+        let chunk = self.store.record(chunk)?;
+        self.nodes.lock().unwrap_or_else(PoisonError::into_inner).push(Node { key, points, chunk });
+        self.meter.add(points);
+        Ok(())
+    }
+
+    /// A compression that failed.
+    pub fn uncompressed(error: laz::LasZipError) -> Error {
+        Error::output_write(Path::new("LAZ"), error)
+    }
+
+    pub fn into_nodes(self) -> Vec<Node> {
+        self.nodes.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn pending(&self) -> MutexGuard<'_, HashMap<Key, Pending>> {
+        self.pending.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,162 @@
+//! Memory and threads change no byte; inputs of awkward shape go through them all the same.
+
+use crate::bench::{Bench, Las, cloud, records, scatter, sorted};
+use groma_core::build::Rules;
+use groma_core::pipeline::Pipeline;
+use groma_core::pipeline::options::Options;
+use groma_core::progress::Silent;
+use groma_core::sampling::Strategy;
+use proptest::prelude::*;
+
+/// Converts with given memory, which may be far less than the binary takes, and threads.
+fn converted(bench: &Bench, inputs: &[&str], memory: u64, threads: usize, rules: Rules) -> Vec<u8> {
+    let output = bench.path("limited.copc.laz");
+    let options = Options {
+        overwrite: true,
+        memory: Some(memory),
+        threads: Some(threads),
+        rules,
+        ..Options::new(inputs.iter().map(|name| bench.path(name)).collect(), output.clone())
+    };
+    let distributed = Pipeline::scan(&options, &Silent).unwrap().validate().unwrap().distribute().unwrap();
+    distributed.build().unwrap().write().unwrap();
+    std::fs::read(output).unwrap()
+}
+
+/// A rolling surface with a dense spot, in no order.
+fn surface(count: u64) -> Vec<[i32; 3]> {
+    (0..count)
+        .map(|i| {
+            let side = if i % 4 == 0 { 9_000 } else { 200_000 };
+            let (x, y) = (scatter(2 * i) % side, scatter(2 * i + 1) % side);
+            let z = (x as f64 / 9000.0).sin() * 700.0 + (y as f64 / 7000.0).cos() * 500.0;
+            [x as i32, y as i32, z as i32]
+        })
+        .collect()
+}
+
+#[test]
+fn memory_and_threads_change_no_byte() {
+    let bench = Bench::new();
+    bench.put("a.laz", &Las::at(7, 3, &surface(700_000)).laz());
+    bench.put("b.las", &Las::at(7, 3, &cloud(150_000, [190_000, 100_000, 60_000])).las());
+    let inputs = ["a.laz", "b.las"];
+    for (sampling, average_colors) in [(Strategy::Poisson, false), (Strategy::Grid, true)] {
+        let rules = Rules { sampling, average_colors };
+        let expected = converted(&bench, &inputs, 4 << 30, 1, rules);
+        for (memory, threads) in [(0, 1), (0, 3), (70 << 20, 2), (4 << 30, 5)] {
+            assert!(converted(&bench, &inputs, memory, threads, rules) == expected, "{memory} {threads}");
+        }
+        assert_eq!(bench.names(), ["a.laz", "b.las", "limited.copc.laz"]);
+        if !average_colors {
+            let input = [records(&bench.path("a.laz")), records(&bench.path("b.las"))].concat();
+            assert!(sorted(input) == sorted(records(&bench.path("limited.copc.laz"))));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+    #[test]
+    fn every_point_is_in_exactly_one_node(
+        count in 1u64..400_000,
+        size in proptest::array::uniform3(1u64..2_000_000_000),
+        repeated in 1u64..40,
+        format in proptest::sample::select(vec![1u8, 6, 8]),
+    ) {
+        let bench = Bench::new();
+        let positions: Vec<_> =
+            cloud(count, size).into_iter().flat_map(|p| std::iter::repeat_n(p, repeated as usize)).take(count as usize).collect();
+        let input = bench.put("in.las", &Las::at(format, 0, &positions).las());
+        let expected = converted(&bench, &["in.las"], 4 << 30, 2, Rules::default());
+        prop_assert!(sorted(records(&input)) == sorted(records(&bench.path("limited.copc.laz"))));
+        prop_assert!(converted(&bench, &["in.las"], 0, 3, Rules::default()) == expected);
+    }
+}
+
+#[test]
+fn chunks_of_any_size() {
+    let bench = Bench::new();
+    for format in [1, 3, 6, 7] {
+        for chunk in [None, Some(200_000), Some(1)] {
+            let count = if chunk == Some(1) { 300 } else { 70_000 };
+            let mut las = Las::at(format, 1, &surface(count));
+            las.chunk = chunk;
+            let input = bench.put("in.laz", &las.laz());
+            bench.convert(&["in.laz", "out.copc.laz", "--overwrite"]);
+            assert!(sorted(records(&input)) == sorted(records(&bench.path("out.copc.laz"))));
+        }
+    }
+}
+
+#[test]
+fn bounds_in_a_header_are_not_believed() {
+    let bench = Bench::new();
+    let mut las = Las::at(7, 0, &surface(120_000));
+    bench.put("in.las", &las.las());
+    bench.convert(&["in.las", "truth.copc.laz"]);
+    let truth = std::fs::read(bench.path("truth.copc.laz")).unwrap();
+    let lies = [
+        [[0.0; 3], [0.0; 3]],
+        [[f64::NAN; 3], [f64::NAN; 3]],
+        [[1e300; 3], [-1e300; 3]],
+        [[-1e6; 3], [1e6; 3]],
+        [[1000.0, -2000.0, -20.0], [1500.0, -1500.0, 20.0]],
+    ];
+    for bounds in lies {
+        las.bounds = Some(bounds);
+        bench.put("in.las", &las.las());
+        let lines = bench.convert(&["in.las", "out.copc.laz", "--overwrite"]);
+        assert!(lines.iter().any(|line| line["event"] == "warning"));
+        assert!(std::fs::read(bench.path("out.copc.laz")).unwrap() == truth, "{bounds:?}");
+    }
+}
+
+#[test]
+fn long_records_have_small_nodes() {
+    let bench = Bench::new();
+    let input = bench.put("in.laz", &Las::at(6, 192, &surface(60_000)).laz());
+    bench.convert(&["in.laz", "out.copc.laz", "--memory", "256MB"]);
+    assert!(sorted(records(&input)) == sorted(records(&bench.path("out.copc.laz"))));
+}
+
+#[test]
+fn inputs_from_a_list() {
+    let bench = Bench::new();
+    let mut list = String::new();
+    for index in 0..120 {
+        let name = format!("tile {index}.las");
+        bench.put(&name, &Las::at(1, 0, &[[index * 100, 7, 1], [index * 100 + 50, 9, 2]]).las());
+        list.push_str(&format!("{name}\n\n"));
+    }
+    bench.put("list.txt", list.as_bytes());
+    bench.put("first.las", &Las::at(1, 0, &[[-9, -9, -9]]).las());
+    bench.convert(&["first.las", "out.copc.laz", "--list", "list.txt"]);
+    assert_eq!(records(&bench.path("out.copc.laz")).len(), 241);
+    bench.convert(&["only.copc.laz", "--list", "list.txt"]);
+    assert_eq!(records(&bench.path("only.copc.laz")).len(), 240);
+    assert_eq!(bench.refused(&["x.copc.laz", "--list", "nowhere"]), "OPTION_LIST");
+}
+
+#[test]
+fn a_dry_run_plans_and_writes_nothing() {
+    let bench = Bench::new();
+    bench.put("in.las", &Las::at(3, 0, &surface(1000)).las());
+    let before = bench.names();
+    let lines =
+        bench.convert(&["in.las", "out.copc.laz", "--dry-run", "--memory", "256MB", "--threads", "2"]);
+    let plan = lines.last().unwrap();
+    assert_eq!(plan["event"], "plan");
+    assert_eq!(
+        (&plan["points"], &plan["recordLength"], &plan["inputs"]),
+        (&1000.into(), &36.into(), &1.into())
+    );
+    assert_eq!((&plan["memory"], &plan["tempBytes"]), (&(256u64 << 20).into(), &0.into()));
+    assert_eq!(
+        (&plan["sampling"], &plan["levels"], &plan["threads"]),
+        (&"poisson".into(), &1.into(), &2.into())
+    );
+    assert!(["cells", "tempFree", "outputBytes"].iter().all(|key| plan[key].is_u64()), "{plan}");
+    assert!(plan["tempDir"].is_string());
+    assert_eq!(bench.names(), before);
+}
