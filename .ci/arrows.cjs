@@ -36,7 +36,9 @@ module.exports = {
     layer("octree", ["sources", "errors"]),
     layer("workers", ["sources", "errors"]),
     layer("cloud", ["octree", "workers", "sources", "errors"]),
-    layer("cesium", ["cloud", "octree", "workers", "sources", "errors"]),
+    layer("clips", ["octree", "errors"]),
+    layer("effects", ["clips", "octree", "errors"]),
+    layer("cesium", ["effects", "clips", "cloud", "octree", "workers", "sources", "errors"]),
     {
       name: "only-cesium-rooms-know-cesium",
       severity: "error",

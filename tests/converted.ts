@@ -18,8 +18,12 @@ export function converted(scan: string): string {
   const newest = Math.max(...[groma, core, scan].map((file) => statSync(file).mtimeMs));
   if (existsSync(output) && statSync(output).mtimeMs > newest) return output;
   mkdirSync(folder, { recursive: true });
-  execFileSync(process.execPath, [groma, "convert", scan, output, "--overwrite", "--progress", "json"], {
-    stdio: "pipe",
-  });
+  convert(scan, output);
   return output;
+}
+
+/** Runs `groma convert`. @throws Error with what the command printed, when it fails */
+export function convert(scan: string, output: string, options: readonly string[] = []): void {
+  const args = [groma, "convert", scan, output, "--overwrite", "--progress", "json", ...options];
+  execFileSync(process.execPath, args, { stdio: "pipe" });
 }

@@ -3,9 +3,6 @@ import { GromaError } from "@groma/georef";
 /** An address or an option in the page's own address cannot be used. Codes start with `PAGE_`. */
 export class PageError extends GromaError {}
 
-/** Colourings that the page's address may name. */
-export const COLOURS = ["rgb", "elevation", "intensity"] as const;
-
 /** What the page's own address asks for. */
 export interface PageOptions {
   /** Absolute `http:` or `https:` address of the cloud. */
@@ -14,7 +11,8 @@ export interface PageOptions {
   readonly budget?: number;
   /** Point size, CSS pixels. */
   readonly size?: number;
-  readonly color?: (typeof COLOURS)[number];
+  /** What the colours show: `rgb`, `levelOfDetail`, or the name of an attribute. */
+  readonly color?: string;
   /** Coordinate system of the cloud, in place of what the file says. */
   readonly crs?: string;
   /** Height reference of the cloud: `EPSG:5728` or `ellipsoidal`. */
@@ -36,14 +34,14 @@ export function readPageOptions(page: string): PageOptions {
   const cloud = query.get("cloud");
   const budget = number(query, "budget", { least: 1, most: MOST_POINTS, whole: true });
   const size = number(query, "size", { least: 1, most: 64, whole: false });
-  const color = word(query, "color", COLOURS);
+  const color = query.get("color");
   const crs = query.get("crs");
   const vertical = query.get("vertical");
   return {
     ...(cloud !== null && { cloud: cloudAddress(cloud, page) }),
     ...(budget !== undefined && { budget }),
     ...(size !== undefined && { size }),
-    ...(color !== undefined && { color }),
+    ...(color && { color }),
     ...(crs && { crs }),
     ...(vertical && { vertical }),
     fly: word(query, "fly", ["0", "1"]) !== "0",

@@ -5,16 +5,25 @@ import type { PointCloudLayer } from "@groma/layer/cesium";
 import type { Viewer } from "cesium";
 import { cloudAddress, PageError, type PageOptions, readPageOptions } from "./address.js";
 import { type Flight, goToCloud } from "./camera.js";
+import { ClipBox } from "./clip-box.js";
 import { CloudSlot, type OpenOptions } from "./open.js";
 import type { Groma } from "./page-global.js";
 import { Chooser } from "./panel/chooser.js";
+import { Classes } from "./panel/classes.js";
+import { clipGroup } from "./panel/clip-fields.js";
 import { Controls } from "./panel/controls.js";
+import { Drawing } from "./panel/drawing.js";
 import { byId } from "./panel/elements.js";
 import { showFacts } from "./panel/facts.js";
 import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
+import { Ledger } from "./panel/ledger.js";
 import { Message } from "./panel/message.js";
+import { Picked } from "./panel/picked.js";
 import { Progress } from "./panel/progress.js";
+import { STYLE_GROUPS } from "./panel/style-fields.js";
+import { VIEW_GROUPS } from "./panel/view-fields.js";
+import { Picking } from "./picking.js";
 import { addBaseMap, createViewer } from "./viewer.js";
 
 const message = new Message();
@@ -39,6 +48,22 @@ function start(viewer: Viewer): void {
   const controls = new Controls((aspect) => {
     if (slot.layer) void goToCloud(viewer, slot.layer, { aspect, free: freeArea(), way: way("fly") });
   });
+  const box = new ClipBox();
+  const groups = [...STYLE_GROUPS, ...VIEW_GROUPS, clipGroup(box)];
+  const drawing = new Drawing(groups, (thrown) => message.show(thrown));
+  const classes = new Classes();
+  const ledger = new Ledger();
+  const picked = new Picked();
+  const picking = new Picking(
+    viewer,
+    () => slot.layer,
+    (hit) => {
+      picked.show(hit);
+      if (hit) box.moveTo(hit.position);
+    },
+    (thrown) => message.show(thrown),
+  );
+  byId("unpick", HTMLButtonElement).addEventListener("click", () => picking.clear());
   const heights = new Heights(reopen);
   const chooser = new Chooser({
     file: (file) => void choose(file, file.name),
@@ -81,8 +106,13 @@ function start(viewer: Viewer): void {
   async function reopen(vertical: string | undefined): Promise<boolean> {
     if (!opened || !slot.layer) return false;
     const { from, name, how, crs } = opened;
-    const { style, heightOffset, show } = slot.layer;
-    const layer = await open(from, name, { ...how, style, heightOffset, show, crs, vertical }, "stay");
+    const { style, filter, heightOffset, show } = slot.layer;
+    const layer = await open(
+      from,
+      name,
+      { ...how, style, filter, heightOffset, show, crs, vertical },
+      "stay",
+    );
     if (layer) rememberCloud(opened);
     return layer !== undefined;
   }
@@ -91,8 +121,10 @@ function start(viewer: Viewer): void {
   function lasting(): OpenOptions {
     const { budget, size } = options;
     return {
+      clips: box.clips,
       ...(budget !== undefined && { pointBudget: budget }),
-      style: size === undefined ? {} : { pointSize: size },
+      // Closed surfaces where nothing else is asked for.
+      style: size === undefined ? { size: "adaptive" } : { pointSize: size },
     };
   }
 
@@ -138,6 +170,11 @@ function start(viewer: Viewer): void {
     showFacts(layer.cloud, { given: crs !== undefined });
     heights.attach(layer.cloud, how.vertical);
     controls.attach(layer);
+    box.attach(layer);
+    drawing.attach(layer);
+    classes.attach(layer);
+    ledger.attach(layer);
+    picking.clear();
     progress.follow(layer);
     tellFailures(layer);
     if (wanted !== "stay") {

@@ -1,20 +1,32 @@
 export {
+  type BoxClip,
+  Clip,
+  type ClipPlace,
+  ClipSet,
+  type PlaneClip,
+  type PolygonClip,
+} from "./clips/index.js";
+export {
+  type AttributeInfo,
   guessHeights,
   type HeightData,
   PointCloud,
   type PointCloudOptions,
+  type PointRecord,
+  type RecordValue,
   type SourceBox,
   type StreamLimits,
 } from "./cloud/index.js";
 export { DecodeError, FormatError, SourceError, StyleError } from "./errors/index.js";
+export { SharedBudget, type SharedBudgetOptions } from "./octree/index.js";
 export type { ByteSource, CloudStatistics, HttpOptions, ReadOptions, SourceLike } from "./sources/index.js";
 export {
+  type Column,
   LazDecoder,
   type LazPerf,
   LocalExecutor,
   type NodeExecutor,
   type NodeVertices,
   type PoolOptions,
-  VERTEX_STRIDE,
   WorkerPool,
 } from "./workers/index.js";

@@ -30,10 +30,10 @@ const geoidMissing = truth.missing ?? grids.missing ?? projMissing;
 function told(page: Page) {
   return page.evaluate(async () => {
     const { cloud } = window.groma.layer;
-    const { vertices, frame, bound } = await cloud.loadNode("0-0-0-0");
+    const { positions, frame, bound } = await cloud.loadNode("0-0-0-0");
     const [x, y, z] = cloud.boundingBox.min;
     return {
-      vertices: [...new Uint8Array(vertices)],
+      positions: [...positions],
       frame: [...frame.origin, ...frame.rotation],
       ...{ bound, place: [...cloud.place(x, y, z)], accuracy: cloud.accuracy },
     };
@@ -185,12 +185,11 @@ describe.skipIf(pythonMissing)(
           const { places, drawn, bound } = await page.evaluate(async (all) => {
             const { cloud } = window.groma.layer;
             const places = all.map(([x, y, z]) => [...cloud.place(x!, y!, z!)]);
-            const { vertices, frame, count, bound } = await cloud.loadNode("0-0-0-0");
-            const view = new DataView(vertices);
+            const { positions, columns, frame, count, bound } = await cloud.loadNode("0-0-0-0");
             const drawn: number[][] = [];
             for (let point = 0; point < count; point++) {
-              const local = [0, 4, 8].map((at) => view.getFloat32(20 * point + at, true));
-              drawn[view.getUint16(20 * point + 16, true)] = [0, 1, 2].map((axis) =>
+              const local = [...positions.slice(3 * point, 3 * point + 3)];
+              drawn[columns.intensity!.data[point]!] = [0, 1, 2].map((axis) =>
                 local.reduce(
                   (sum, metres, c) => sum + frame.rotation[3 * c + axis] * metres,
                   frame.origin[axis],

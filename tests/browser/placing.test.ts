@@ -60,9 +60,10 @@ describe.skipIf(missing)(`places in the page against PROJ${missing ? ` (skipped:
           for (const key of new Set(points.map((point) => point.key)))
             nodes.set(key, await cloud.loadNode(key));
           return points.map(({ key, index }) => {
-            const { vertices, frame } = nodes.get(key)!;
+            const { positions, order, frame } = nodes.get(key)!;
             // The very float32 that the GPU gets, taken to ECEF by the node's float64 frame.
-            const [east, north, up] = new Float32Array(vertices.slice(20 * index, 20 * index + 12));
+            const drawn = order.indexOf(index);
+            const [east, north, up] = positions.subarray(3 * drawn, 3 * drawn + 3);
             const { origin, rotation } = frame;
             const ecef = [0, 1, 2].map(
               (axis) =>

@@ -57,17 +57,15 @@ describe.skipIf(pythonMissing)(
           const drawn = async ({ cloud }: PointCloudLayer, names: string[]) => {
             const places: [number, number, number][] = [];
             for (const name of names) {
-              const { vertices, frame, count } = await cloud.loadNode(name);
-              const view = new DataView(vertices);
+              const { positions, columns, frame, count } = await cloud.loadNode(name);
               for (let point = 0; point < count; point++) {
                 const place: [number, number, number] = [frame.origin[0], frame.origin[1], frame.origin[2]];
                 for (const axis of [0, 1, 2] as const) {
                   for (const along of [0, 1, 2]) {
-                    const metres = view.getFloat32(20 * point + 4 * along, true);
-                    place[axis] += frame.rotation[3 * along + axis] * metres;
+                    place[axis] += frame.rotation[3 * along + axis]! * positions[3 * point + along]!;
                   }
                 }
-                places[view.getUint16(20 * point + 16, true)] = place;
+                places[columns.intensity!.data[point]!] = place;
               }
             }
             return places;

@@ -4,10 +4,16 @@ import type { Engine } from "./engine-types.js";
 declare module "cesium" {
   export const Buffer: Engine["Buffer"];
   export const BufferUsage: Engine["BufferUsage"];
+  export const ClearCommand: Engine["ClearCommand"];
   export const DrawCommand: Engine["DrawCommand"];
+  export const Framebuffer: Engine["Framebuffer"];
   export const Pass: Engine["Pass"];
+  export const PassState: Engine["PassState"];
   export const RenderState: Engine["RenderState"];
+  export const Sampler: Engine["Sampler"];
   export const ShaderProgram: Engine["ShaderProgram"];
   export const ShaderSource: Engine["ShaderSource"];
+  export const Sync: Engine["Sync"];
+  export const Texture: Engine["Texture"];
   export const VertexArray: Engine["VertexArray"];
 }

@@ -22,15 +22,41 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
     expect(own.Buffer.createVertexBuffer).toBeTypeOf("function");
     expect(own.BufferUsage.STATIC_DRAW).toBeTypeOf("number");
     expect(own.Pass.OPAQUE).toBeTypeOf("number");
+    expect(own.Pass.TRANSLUCENT).toBeTypeOf("number");
+    expect(own.Sampler.NEAREST).toBeTypeOf("object");
+    expect(own.ShaderSource.replaceMain).toBeTypeOf("function");
+    expect(own.Sync.create).toBeTypeOf("function");
     expect(own.RenderState.fromCache).toBeTypeOf("function");
     expect(own.RenderState.removeFromCache).toBeTypeOf("function");
     expect(own.ShaderProgram.fromCache).toBeTypeOf("function");
   });
 
   it.each([
-    ["Renderer/Context.js", ["createPickId", "this._gl", "drawingBufferHeight"]],
+    [
+      "Renderer/Context.js",
+      [
+        "createPickId",
+        "this._gl",
+        "drawingBufferHeight",
+        "drawingBufferWidth",
+        "prototype.readPixelsToPBO",
+        "prototype.endFrame",
+        "uniformState",
+        "colorBufferHalfFloat",
+      ],
+    ],
+    ["Renderer/UniformState.js", ["prototype.update = ", "prototype.updateFrustum = "]],
+    ["Renderer/Buffer.js", ["this.vertexArrayDestroyable = true", "prototype.getBufferData"]],
+    ["Renderer/Framebuffer.js", ["options.colorTextures", "options.depthTexture", "this.destroyAttachments"]],
+    ["Renderer/Texture.js", ["source.arrayBufferView", "prototype.copyFrom", "sizeInBytes"]],
+    ["Renderer/Sync.js", ["prototype.getStatus"]],
+    ["Renderer/PassState.js", ["this.framebuffer", "this.viewport"]],
     ["Renderer/PickId.js", ["this.color", "destroy()"]],
-    ["Renderer/VertexArray.js", ["vertexArrayDestroyable", "strideInBytes", "componentsPerAttribute"]],
+    // Constant attributes are set at each draw, since they are no part of a vertex array.
+    [
+      "Renderer/VertexArray.js",
+      ["vertexArrayDestroyable", "setConstantAttributes", "componentsPerAttribute"],
+    ],
     ["Scene/DerivedCommand.js", ["czm_log_depth_main", "czm_non_pick_main", "createLogDepthCommand"]],
     [
       "Renderer/DrawCommand.js",
@@ -43,6 +69,8 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
         "afterRender",
         "cullingVolume",
         "occluder",
+        "pixelRatio",
+        "useLogDepth",
         "passes",
         "render: false",
         "pick: false",
@@ -54,14 +82,30 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
     expect(words.filter((word) => !text.includes(word))).toEqual([]);
   });
 
+  it("takes nothing but clear commands into every frustum, in the order of the list", () => {
+    expect(source("Scene/View.js")).toMatch(/command instanceof ClearCommand[\s\S]{0,200}frustum\.near/);
+    expect(source("Scene/Scene.js")).toMatch(/command instanceof ClearCommand\) \{\s+command\.execute/);
+  });
+
+  it("leaves a fragment shader alone that writes logarithmic depth itself", () => {
+    expect(source("Scene/DerivedCommand.js")).toContain("writeLogDepthRegex = /\\s+czm_writeLogDepth\\(/");
+  });
+
   it("asks for another frame where a function of afterRender returns true", () => {
     expect(source("Scene/Scene.js")).toMatch(/afterRender[\s\S]{0,400}requestRender/);
   });
 
   it("knows the built-in uniforms and functions that the shaders use", () => {
     const uniforms = source("Renderer/AutomaticUniforms.js");
-    for (const name of ["czm_modelView", "czm_projection", "czm_pixelRatio"])
+    for (const name of [
+      "czm_modelView",
+      "czm_projection",
+      "czm_pixelRatio",
+      "czm_viewport",
+      "czm_currentFrustum",
+    ])
       expect(uniforms).toContain(name);
-    expect(source("Shaders/Builtin/CzmBuiltins.js")).toContain("czm_gammaCorrect");
+    for (const name of ["czm_gammaCorrect", "czm_vertexLogDepth", "czm_writeLogDepth"])
+      expect(source("Shaders/Builtin/CzmBuiltins.js")).toContain(name);
   });
 });

@@ -1,12 +1,54 @@
-import type { BoundingSphere, Camera, Cartesian2, Color, CullingVolume, Matrix4 } from "cesium";
+import type { BoundingRectangle, BoundingSphere, Camera, Color, CullingVolume, Matrix4 } from "cesium";
+import type {
+  Buffer,
+  BufferOptions,
+  ContextHandle,
+  Framebuffer,
+  FramebufferOptions,
+  Sampler,
+  ShaderProgram,
+  ShaderProgramOptions,
+  ShaderSource,
+  Sync,
+  Texture,
+  TextureOptions,
+  VertexArray,
+  VertexAttribute,
+} from "./engine-resource-types.js";
 
 /** Types of what `cesium-private.ts` takes from Cesium; only that file and the augmentation name this one. */
 
 /** `Renderer/Context`: the WebGL context. */
-export interface Context {
+export interface Context extends ContextHandle {
+  readonly drawingBufferWidth: number;
   readonly drawingBufferHeight: number;
-  readonly _gl: { isContextLost(): boolean };
+  /** Whether half-float colours can be drawn into. */
+  readonly colorBufferHalfFloat: boolean;
+  readonly uniformState: UniformState;
   createPickId(object: object): PickId;
+  /** Starts the read-back of a rectangle into a buffer on the GPU. */
+  readPixelsToPBO(options: {
+    readonly x: number;
+    readonly y: number;
+    readonly width: number;
+    readonly height: number;
+    readonly framebuffer: Framebuffer;
+  }): Buffer;
+  /** Unbinds what drawing left bound. */
+  endFrame(): void;
+}
+
+/** A frustum as the uniforms take it. */
+export interface FrustumLike {
+  near: number;
+  far: number;
+  readonly projectionMatrix: Matrix4;
+}
+
+/** `Renderer/UniformState`: the values behind `czm_…`. */
+export interface UniformState {
+  update(frameState: FrameState): void;
+  updateFrustum(frustum: FrustumLike): void;
 }
 
 /** `Renderer/PickId`: a colour that stands for an object in the pick pass. */
@@ -18,10 +60,13 @@ export interface PickId {
 /** `Scene/FrameState`: what a primitive is told of the frame. */
 export interface FrameState {
   readonly context: Context;
-  readonly commandList: DrawCommand[];
+  readonly commandList: Command[];
   readonly mode: number;
+  readonly frameNumber: number;
   readonly camera: Camera;
   readonly cullingVolume: CullingVolume;
+  readonly pixelRatio: number;
+  readonly useLogDepth: boolean;
   /** Present where the globe hides what lies behind it. */
   readonly occluder: object | undefined;
   readonly passes: { readonly render: boolean; readonly pick: boolean; readonly depth: boolean };
@@ -29,19 +74,11 @@ export interface FrameState {
   readonly afterRender: (() => boolean | undefined)[];
 }
 
-/** `Renderer/Buffer`. */
-export interface VertexBuffer {
-  readonly sizeInBytes: number;
-}
-
-/** `Renderer/VertexArray`; destroys the buffers it was made of. */
-export interface VertexArray {
-  destroy(): void;
-}
-
-/** `Renderer/ShaderProgram`, counted by the context's shader cache. */
-export interface ShaderProgram {
-  destroy(): void;
+/** `Renderer/PassState`: where a command draws, unless it says so itself. */
+export interface PassState {
+  readonly context: Context;
+  framebuffer: Framebuffer | undefined;
+  viewport: BoundingRectangle | undefined;
 }
 
 /** `Renderer/RenderState`, shared through a cache. */
@@ -49,8 +86,29 @@ export interface RenderState {
   readonly id: number;
 }
 
+/** The states that the layer sets; what is left out keeps Cesium's default. */
+export interface RenderStateOptions {
+  readonly depthTest?: { readonly enabled: boolean; readonly func?: number };
+  readonly depthMask?: boolean;
+  readonly colorMask?: {
+    readonly red: boolean;
+    readonly green: boolean;
+    readonly blue: boolean;
+    readonly alpha: boolean;
+  };
+  readonly blending?: {
+    readonly enabled: boolean;
+    readonly equationRgb?: number;
+    readonly equationAlpha?: number;
+    readonly functionSourceRgb?: number;
+    readonly functionSourceAlpha?: number;
+    readonly functionDestinationRgb?: number;
+    readonly functionDestinationAlpha?: number;
+  };
+}
+
 /** Values of uniforms by name, asked for at each draw. */
-export type UniformMap = Readonly<Record<string, () => number | Color | Cartesian2>>;
+export type UniformMap = Readonly<Record<string, () => unknown>>;
 
 /** Options of `Renderer/DrawCommand` that the layer sets. */
 export interface DrawCommandOptions {
@@ -60,58 +118,69 @@ export interface DrawCommandOptions {
   readonly uniformMap: UniformMap;
   readonly primitiveType: number;
   readonly count: number;
-  readonly pass: number;
-  readonly modelMatrix: Matrix4;
-  readonly boundingVolume: BoundingSphere;
+  readonly pass?: number;
+  readonly modelMatrix?: Matrix4;
+  readonly boundingVolume?: BoundingSphere;
   readonly owner: object;
   /** GLSL expression of the pick colour. */
-  readonly pickId: string;
+  readonly pickId?: string;
+}
+
+/** What can stand in a frame's list of commands. */
+export interface Command {
+  execute(context: Context, passState?: PassState): void;
 }
 
 /** `Renderer/DrawCommand`. */
-export interface DrawCommand {
+export interface DrawCommand extends Command {
+  vertexArray: VertexArray;
   shaderProgram: ShaderProgram;
+  renderState: RenderState;
+  count: number;
+  pass: number;
   /** Compared by identity: another matrix has to be another object. */
   modelMatrix: Matrix4;
   boundingVolume: BoundingSphere;
 }
 
-/** One attribute of a {@link VertexArray}. */
-export interface VertexAttribute {
-  readonly index: number;
-  readonly vertexBuffer: VertexBuffer;
-  readonly componentsPerAttribute: number;
-  readonly componentDatatype: number;
-  readonly normalize: boolean;
-  readonly offsetInBytes: number;
-  readonly strideInBytes: number;
+/** `Renderer/ClearCommand`; Cesium executes it in every frustum, in the order of its pass. */
+export interface ClearCommand extends Command {
+  framebuffer: Framebuffer | undefined;
+}
+
+/** Options of `Renderer/ClearCommand`. */
+export interface ClearCommandOptions {
+  readonly color?: Color;
+  readonly depth?: number;
+  readonly framebuffer?: Framebuffer;
+  readonly pass?: number;
+  readonly owner?: object;
 }
 
 /** The constructors and enumerations behind those types. */
 export interface Engine {
   readonly Buffer: {
-    createVertexBuffer(options: {
-      context: Context;
-      typedArray: ArrayBufferView;
-      usage: number;
-    }): VertexBuffer;
+    createVertexBuffer(options: BufferOptions): Buffer;
   };
   readonly BufferUsage: { readonly STATIC_DRAW: number };
+  readonly ClearCommand: new (options: ClearCommandOptions) => ClearCommand;
   readonly DrawCommand: new (options: DrawCommandOptions) => DrawCommand;
-  readonly Pass: { readonly OPAQUE: number };
+  readonly Framebuffer: new (options: FramebufferOptions) => Framebuffer;
+  readonly Pass: { readonly OPAQUE: number; readonly TRANSLUCENT: number };
+  readonly PassState: new (context: Context) => PassState;
   readonly RenderState: {
-    fromCache(state: { depthTest: { enabled: boolean; func: number } }): RenderState;
+    fromCache(state: RenderStateOptions): RenderState;
     removeFromCache(state: RenderState): void;
   };
-  readonly ShaderProgram: {
-    fromCache(options: {
-      context: Context;
-      vertexShaderSource: object;
-      fragmentShaderSource: object;
-      attributeLocations: Readonly<Record<string, number>>;
-    }): ShaderProgram;
+  readonly Sampler: { readonly NEAREST: Sampler };
+  readonly ShaderProgram: { fromCache(options: ShaderProgramOptions): ShaderProgram };
+  readonly ShaderSource: {
+    new (options: { sources: readonly string[]; defines?: readonly string[] }): ShaderSource;
+    /** Renames `main` in a shader. */
+    replaceMain(source: string, name: string): string;
   };
-  readonly ShaderSource: new (options: { sources: readonly string[]; defines?: readonly string[] }) => object;
+  readonly Sync: { create(options: { context: Context }): Sync };
+  readonly Texture: new (options: TextureOptions) => Texture;
   readonly VertexArray: new (options: {
     context: Context;
     attributes: readonly VertexAttribute[];

@@ -1,10 +1,44 @@
 export {
+  type BoxClip,
+  Clip,
+  type ClipPlace,
+  ClipSet,
+  type PlaneClip,
+  type PolygonClip,
+} from "../clips/index.js";
+export {
+  type AttributeInfo,
   guessHeights,
-  type HeightData,
   PointCloud,
   type PointCloudOptions,
+  type PointRecord,
+  type RecordValue,
   type StreamProgress,
 } from "../cloud/index.js";
-export { type LayerStatistics, PointCloudLayer, type PointCloudLayerOptions } from "./point-cloud-layer.js";
+export {
+  ASPRS_CLASSES,
+  type ClassTable,
+  type ColourBy,
+  EFFECT_NAMES,
+  type EffectName,
+  type EyeDomeLighting,
+  eyeDomeOf,
+  type Forced,
+  GRADIENTS,
+  type GradientName,
+  type GradientStop,
+  type LedgerRow,
+  type MeasuredCost,
+  type PointCloudStyle,
+  type PointFilter,
+  type PointShape,
+  type ReturnKind,
+  type SizeMode,
+  type StyleParts,
+} from "../effects/index.js";
+export { SharedBudget, type SharedBudgetOptions } from "../octree/index.js";
+export type { GpuCounts, GpuKind } from "./gpu-objects.js";
+export type { LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
+export type { PickOptions } from "./layer-renderer.js";
+export { PointCloudLayer } from "./point-cloud-layer.js";
 export type { LayerSource } from "./source-from-resource.js";
-export type { ColourBy, PointCloudStyle } from "./style.js";

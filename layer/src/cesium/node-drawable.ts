@@ -1,96 +1,170 @@
-import { BoundingSphere, Cartesian3, ComponentDatatype, Matrix4, PrimitiveType } from "cesium";
-import { type NodeVertices, VERTEX_STRIDE } from "../workers/index.js";
+import { BoundingSphere, Cartesian3, Matrix4, PrimitiveType } from "cesium";
+import type { AttributeDeclaration } from "../effects/index.js";
+import type { NodeVertices } from "../workers/index.js";
 import {
-  Buffer,
-  BufferUsage,
-  type Context,
+  type Buffer,
   DrawCommand,
-  Pass,
   type RenderState,
-  type ShaderProgram,
   type UniformMap,
-  VertexArray,
+  type VertexArray,
 } from "./cesium-private.js";
-import { ATTRIBUTE_LOCATIONS } from "./shaders.js";
+import type { GpuObjects } from "./gpu-objects.js";
+import type { PointProgram } from "./point-programs.js";
+import { bufferAttribute, constantAttribute, POSITION, signatureOf } from "./vertex-attributes.js";
 
-/** What all nodes of a layer are drawn with. */
-export interface DrawShared {
+/** How a node is drawn: by which program, where to, and with which values. */
+export interface NodeDress {
   readonly owner: object;
-  readonly shaderProgram: ShaderProgram;
+  readonly program: PointProgram;
   readonly renderState: RenderState;
   readonly uniformMap: UniformMap;
-}
-
-/** A node on the GPU: one buffer, and the command that draws it. */
-export interface NodeDrawable {
-  readonly command: DrawCommand;
-  readonly count: number;
-  readonly bytes: number;
-  /** Draws the node so many metres above its place from now on. */
-  lift(heightOffset: number): void;
-  /** Frees the buffer. */
-  destroy(): void;
+  /** One of Cesium's passes. */
+  readonly pass: number;
 }
 
 /**
- * Puts a node's vertices on the GPU.
- * @param heightOffset metres above its place at which it is drawn
+ * A node on the GPU: a buffer for its places and one for each attribute that is asked for, the vertex arrays that
+ * programs read them through, and two commands: one for Cesium's list, one for pictures of the layer's own.
  */
-export function createDrawable(
-  context: Context,
-  node: NodeVertices,
-  shared: DrawShared,
-  heightOffset: number,
-): NodeDrawable {
-  const vertexBuffer = Buffer.createVertexBuffer({
-    context,
-    typedArray: new Uint8Array(node.vertices),
-    usage: BufferUsage.STATIC_DRAW,
-  });
-  const vertexArray = new VertexArray({ context, attributes: attributesOf(vertexBuffer) });
-  const { frame, box, count, vertices } = node;
-  const command = new DrawCommand({
-    ...shared,
-    vertexArray,
-    primitiveType: PrimitiveType.POINTS,
-    count,
-    pass: Pass.OPAQUE,
-    ...placeOf({ frame, box }, heightOffset),
-    pickId: "u_pickColor",
-  });
-  return {
-    command,
-    count,
-    bytes: vertices.byteLength,
-    lift: (metres) => void Object.assign(command, placeOf({ frame, box }, metres)),
-    destroy: () => vertexArray.destroy(),
-  };
-}
+export class NodeDrawable {
+  readonly vertices: NodeVertices;
+  readonly #objects: GpuObjects;
+  readonly #buffers = new Map<string, Buffer>();
+  readonly #arrays = new Map<string, VertexArray>();
+  #place: ReturnType<typeof placeOf>;
+  #sceneCommand: DrawCommand | undefined;
+  #ownCommand: DrawCommand | undefined;
+  #bytes = 0;
 
-/** The interleaved layout of `NodeVertices.vertices` in WebGL's terms. */
-function attributesOf(vertexBuffer: ReturnType<typeof Buffer.createVertexBuffer>) {
-  const attribute = (
-    index: number,
-    componentsPerAttribute: number,
-    componentDatatype: number,
-    normalize: boolean,
-    offsetInBytes: number,
-  ) => ({
-    index,
-    vertexBuffer,
-    componentsPerAttribute,
-    componentDatatype,
-    normalize,
-    offsetInBytes,
-    strideInBytes: VERTEX_STRIDE,
-  });
-  const { FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT } = ComponentDatatype;
-  return [
-    attribute(ATTRIBUTE_LOCATIONS.a_position, 3, FLOAT, false, 0),
-    attribute(ATTRIBUTE_LOCATIONS.a_color, 4, UNSIGNED_BYTE, true, 12),
-    attribute(ATTRIBUTE_LOCATIONS.a_intensity, 1, UNSIGNED_SHORT, true, 16),
-    attribute(ATTRIBUTE_LOCATIONS.a_elevation, 1, UNSIGNED_SHORT, true, 18),
-  ];
+  /** @param heightOffset metres above its place at which it is drawn */
+  constructor(objects: GpuObjects, vertices: NodeVertices, heightOffset: number) {
+    this.#objects = objects;
+    this.vertices = vertices;
+    this.#place = placeOf(vertices, heightOffset);
+  }
+
+  /** Bytes on the GPU. */
+  get bytes(): number {
+    return this.#bytes;
+  }
+
+  /** Sphere around the node as it is drawn, ECEF, metres. */
+  get sphere(): BoundingSphere {
+    return this.#place.boundingVolume;
+  }
+
+  /** Bytes that have to go to the GPU before a program with these attributes can draw the node. */
+  missingBytes(attributes: readonly AttributeDeclaration[]): number {
+    let bytes = 0;
+    for (const { column } of attributes) {
+      if (!this.#buffers.has(column)) bytes += this.#data(column)?.byteLength ?? 0;
+    }
+    return bytes;
+  }
+
+  /** Puts on the GPU what these attributes read. */
+  upload(attributes: readonly AttributeDeclaration[]): void {
+    for (const { column } of attributes) this.#buffer(column);
+  }
+
+  /** Frees what none of these attributes reads. */
+  keep(attributes: readonly AttributeDeclaration[]): void {
+    const kept = new Set([POSITION, ...attributes.map(({ column }) => column)]);
+    const unused = [...this.#buffers].filter(([column]) => !kept.has(column));
+    if (unused.length === 0) return;
+    // Vertex arrays are made again from the buffers that stay.
+    for (const array of this.#arrays.values()) this.#objects.free(array);
+    this.#arrays.clear();
+    this.#sceneCommand = undefined;
+    this.#ownCommand = undefined;
+    for (const [column, buffer] of unused) {
+      this.#buffers.delete(column);
+      this.#bytes -= buffer.sizeInBytes;
+      this.#objects.free(buffer);
+    }
+  }
+
+  /** Draws the node so many metres above its place from now on. */
+  lift(heightOffset: number): void {
+    this.#place = placeOf(this.vertices, heightOffset);
+    if (this.#sceneCommand) Object.assign(this.#sceneCommand, this.#place);
+    if (this.#ownCommand) Object.assign(this.#ownCommand, this.#place);
+  }
+
+  /** The command for Cesium's list; it derives those for depth, colour range and `scene.pick` from it. */
+  sceneCommand(dress: NodeDress, count: number): DrawCommand {
+    this.#sceneCommand = this.#command(this.#sceneCommand, dress, count);
+    return this.#sceneCommand;
+  }
+
+  /** A command that only the layer itself executes. */
+  ownCommand(dress: NodeDress, count: number): DrawCommand {
+    this.#ownCommand = this.#command(this.#ownCommand, dress, count);
+    return this.#ownCommand;
+  }
+
+  /** Frees all that the node has on the GPU. */
+  destroy(): void {
+    for (const array of this.#arrays.values()) this.#objects.free(array);
+    for (const buffer of this.#buffers.values()) this.#objects.free(buffer);
+    this.#arrays.clear();
+    this.#buffers.clear();
+    this.#bytes = 0;
+  }
+
+  #command(command: DrawCommand | undefined, dress: NodeDress, count: number): DrawCommand {
+    const { owner, program, renderState, uniformMap, pass } = dress;
+    const vertexArray = this.#array(program);
+    const shaderProgram = program.program;
+    if (command)
+      return Object.assign(command, { vertexArray, shaderProgram, renderState, uniformMap, pass, count });
+    return new DrawCommand({
+      owner,
+      vertexArray,
+      shaderProgram,
+      renderState,
+      uniformMap,
+      pass,
+      count,
+      primitiveType: PrimitiveType.POINTS,
+      ...this.#place,
+      pickId: "u_pickColor",
+    });
+  }
+
+  #array({ shader: { attributes } }: PointProgram): VertexArray {
+    const signature = signatureOf(attributes);
+    const found = this.#arrays.get(signature);
+    if (found) return found;
+    const made = attributes.map((attribute) => {
+      const buffer = this.#buffer(attribute.column);
+      const data = this.#data(attribute.column);
+      return buffer && data
+        ? bufferAttribute(attribute, buffer, data)
+        : constantAttribute(attribute, this.vertices.columns[attribute.column]);
+    });
+    const array = this.#objects.vertexArray(made);
+    this.#arrays.set(signature, array);
+    return array;
+  }
+
+  #buffer(column: string): Buffer | undefined {
+    const found = this.#buffers.get(column);
+    if (found) return found;
+    const data = this.#data(column);
+    if (!data) return undefined;
+    const buffer = this.#objects.vertexBuffer(data);
+    this.#buffers.set(column, buffer);
+    this.#bytes += buffer.sizeInBytes;
+    return buffer;
+  }
+
+  /** The numbers of a column; undefined where all points share one value. */
+  #data(column: string) {
+    if (column === POSITION) return this.vertices.positions;
+    const data = this.vertices.columns[column]?.data;
+    return data && data.length > 0 ? data : undefined;
+  }
 }
 
 /** Where a command draws a node: so many metres above its place, along its own up. */

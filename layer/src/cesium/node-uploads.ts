@@ -1,7 +1,8 @@
+import type { AttributeDeclaration } from "../effects/index.js";
 import type { OctreeNode } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
-import type { Context, ShaderProgram } from "./cesium-private.js";
-import { createDrawable, type DrawShared, type NodeDrawable } from "./node-drawable.js";
+import type { GpuObjects } from "./gpu-objects.js";
+import { NodeDrawable } from "./node-drawable.js";
 
 /** How much of a frame may go into uploads; whichever comes first ends it, one node always goes through. */
 export interface UploadBudget {
@@ -16,62 +17,55 @@ const DEFAULT_BUDGET: UploadBudget = { milliseconds: 4, bytes: 4 * 1024 * 1024 }
 /** The nodes of a layer that are on the GPU. */
 export class NodeUploads {
   readonly #drawables = new Map<OctreeNode, NodeDrawable>();
-  #bytes = 0;
   #heightOffset = 0;
-
-  /** GPU buffers that are alive. */
-  get buffers(): number {
-    return this.#drawables.size;
-  }
-
-  /** Bytes in them. */
-  get bytes(): number {
-    return this.#bytes;
-  }
 
   /** Metres above their places at which nodes are drawn. */
   get heightOffset(): number {
     return this.#heightOffset;
   }
 
-  get(node: OctreeNode): NodeDrawable | undefined {
-    return this.#drawables.get(node);
+  /** The node, where all that these attributes read is on the GPU. */
+  ready(node: OctreeNode, attributes: readonly AttributeDeclaration[]): NodeDrawable | undefined {
+    const drawable = this.#drawables.get(node);
+    return drawable && drawable.missingBytes(attributes) === 0 ? drawable : undefined;
   }
 
   /**
-   * Uploads what is ready and not on the GPU yet, in the order given, within the budget.
-   * @returns nodes that are ready but have to wait for a later frame
+   * Uploads what is here and not on the GPU yet, in the order given, within the budget.
+   * @returns nodes that are here but have to wait for a later frame
    */
   upload(
-    context: Context,
+    objects: GpuObjects,
     nodes: Iterable<OctreeNode>,
     vertices: (node: OctreeNode) => NodeVertices | undefined,
-    shared: DrawShared,
+    attributes: readonly AttributeDeclaration[],
     budget: UploadBudget = DEFAULT_BUDGET,
   ): number {
     const end = performance.now() + budget.milliseconds;
     let left = budget.bytes;
     let waiting = 0;
     for (const node of nodes) {
-      if (this.#drawables.has(node)) continue;
-      const content = vertices(node);
+      let drawable = this.#drawables.get(node);
+      if (drawable && drawable.missingBytes(attributes) === 0) continue;
+      const content = drawable?.vertices ?? vertices(node);
       if (!content) continue;
+      drawable ??= new NodeDrawable(objects, content, this.#heightOffset);
+      const bytes = drawable.missingBytes(attributes);
       const first = left === budget.bytes;
-      if (!first && (performance.now() >= end || content.vertices.byteLength > left)) {
+      if (!first && (bytes > left || performance.now() >= end)) {
         waiting++;
         continue;
       }
-      const drawable = createDrawable(context, content, shared, this.#heightOffset);
+      drawable.upload(attributes);
       this.#drawables.set(node, drawable);
-      this.#bytes += drawable.bytes;
-      left -= drawable.bytes;
+      left -= bytes;
     }
     return waiting;
   }
 
-  /** Gives all commands another program. */
-  setProgram(program: ShaderProgram): void {
-    for (const { command } of this.#drawables.values()) command.shaderProgram = program;
+  /** Frees of all nodes what none of these attributes reads. */
+  keep(attributes: readonly AttributeDeclaration[]): void {
+    for (const drawable of this.#drawables.values()) drawable.keep(attributes);
   }
 
   /** Draws all nodes so many metres above their places, those to come as well. */
@@ -81,17 +75,20 @@ export class NodeUploads {
     for (const drawable of this.#drawables.values()) drawable.lift(heightOffset);
   }
 
-  /** Frees a node's buffer, if it has one. */
+  /** Nodes that are not among those shown, the one uploaded longest ago first. */
+  idle(shown: ReadonlySet<OctreeNode>): OctreeNode[] {
+    return [...this.#drawables.keys()].filter((node) => !shown.has(node));
+  }
+
+  /** Frees what a node has on the GPU. */
   free(node: OctreeNode): void {
-    const drawable = this.#drawables.get(node);
-    if (!drawable) return;
+    this.#drawables.get(node)?.destroy();
     this.#drawables.delete(node);
-    this.#bytes -= drawable.bytes;
-    drawable.destroy();
   }
 
   /** Frees all. */
   destroy(): void {
-    for (const node of [...this.#drawables.keys()]) this.free(node);
+    for (const drawable of this.#drawables.values()) drawable.destroy();
+    this.#drawables.clear();
   }
 }

@@ -1,47 +1,34 @@
 import { BoundingSphere, type Camera, Cartesian3, Event, SceneMode } from "cesium";
+import type { ClipSet } from "../clips/index.js";
 import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
-import type { OctreeNode, Selection } from "../octree/index.js";
-import type { Context, DrawCommand, FrameState } from "./cesium-private.js";
+import {
+  type CloudPlacing,
+  checkFilter,
+  cloudPlacing,
+  completeStyle,
+  defaultStyle,
+  type EffectName,
+  type Forced,
+  type LedgerRow,
+  type PointCloudStyle,
+  type PointFilter,
+  placingFacts,
+  planEffects,
+  type StyleParts,
+} from "../effects/index.js";
+import type { NodeBounds, Selection, SharedBudget } from "../octree/index.js";
+import type { Context, FrameState } from "./cesium-private.js";
+import { ContextWatch } from "./context-watch.js";
+import { CostMeter } from "./cost-meter.js";
 import { viewOfFrame } from "./frame-view.js";
+import { NO_OBJECTS } from "./gpu-objects.js";
 import { checkHeightOffset, liftOf } from "./height-offset.js";
-import { LayerResources } from "./layer-resources.js";
-import { NodeUploads } from "./node-uploads.js";
+import type { LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
+import { LayerRenderer, type PickOptions } from "./layer-renderer.js";
+import { sceneFacts } from "./scene-facts.js";
 import { type LayerSource, resolveSource } from "./source-from-resource.js";
-import { completeStyle, defaultStyle, type PointCloudStyle } from "./style.js";
 
-/** How a layer draws; all can be changed later. */
-export interface PointCloudLayerOptions {
-  /** Default: true. */
-  readonly show?: boolean;
-  readonly style?: Partial<PointCloudStyle>;
-  /** Pixels between neighbouring points above which the next level is drawn. Default: 2. */
-  readonly maximumScreenSpaceError?: number;
-  /** Most points drawn at once. Default: 1,000,000. */
-  readonly pointBudget?: number;
-  /** Metres above their places at which points are drawn, for looks only. Default: 0. */
-  readonly heightOffset?: number;
-  /** What `scene.pick` returns as `id`. Default: the cloud's name. */
-  readonly id?: unknown;
-}
-
-/** Numbers about the frame drawn last. */
-export interface LayerStatistics {
-  /** Nodes with points that the view wants. */
-  readonly nodesVisible: number;
-  /** Of these, drawn. */
-  readonly nodesLoaded: number;
-  /** Of these, failed; hierarchy pages that cannot be read count as well. Never counted as loaded. */
-  readonly nodesFailed: number;
-  readonly pointsDrawn: number;
-  /** True where the point budget, not the screen-space error, ended the refinement. */
-  readonly budgetReached: boolean;
-  /** Nodes and pages being loaded. */
-  readonly requestsPending: number;
-  /** Bytes of vertices on the GPU. */
-  readonly gpuBytes: number;
-  /** GPU buffers alive; 0 after `destroy()`. */
-  readonly gpuBuffers: number;
-}
+const NOTHING: StreamProgress = { wanted: 0, ready: 0, failed: 0, pending: 0 };
 
 /**
  * A georeferenced point cloud for `viewer.scene.primitives`.
@@ -56,6 +43,12 @@ export class PointCloudLayer {
   maximumScreenSpaceError: number;
   /** Most points drawn at once. */
   pointBudget: number;
+  /** Points and bytes that this layer shares with others. */
+  budget: SharedBudget | undefined;
+  /** Volumes that cut or highlight. */
+  clips: ClipSet | undefined;
+  /** Effects that are on or off whatever the scene calls for. */
+  forced: Forced;
   /** The data set. */
   readonly cloud: PointCloud;
   /** Sphere around all points as they are drawn, to fly to; moves with {@link heightOffset}. */
@@ -71,32 +64,39 @@ export class PointCloudLayer {
 
   readonly #ownsCloud: boolean;
   readonly #picked: object;
-  readonly #uploads = new NodeUploads();
+  readonly #placing: CloudPlacing;
   readonly #unsubscribe: () => void;
+  readonly #costs = new CostMeter();
+  readonly #watch = new ContextWatch(() => this.#release());
   #style: PointCloudStyle;
+  #filter: PointFilter | undefined;
   #heightOffset = 0;
-  #resources: LayerResources | undefined;
-  #context: Context | undefined;
-  #commands: DrawCommand[] = [];
+  #renderer: LayerRenderer | undefined;
   #selection: Selection | undefined;
-  #progress: StreamProgress = { wanted: 0, ready: 0, failed: 0, pending: 0 };
-  #points = 0;
-  #drawn = 0;
+  #ledger: readonly LedgerRow[] = [];
+  #progress = NOTHING;
   #complete = false;
   #settled = false;
   /** `show` as the last frame found it. */
   #shown: boolean | undefined;
   #camera: Camera | undefined;
   #pose = "";
+  #frameStart = 0;
+  #warned = false;
   #destroyed = false;
 
   /** @param ownsCloud whether `destroy()` destroys the cloud too; a cloud that several views share stays */
   private constructor(cloud: PointCloud, options: PointCloudLayerOptions, ownsCloud: boolean) {
     this.cloud = cloud;
+    this.#placing = cloudPlacing(cloud);
     this.#ownsCloud = ownsCloud;
     this.show = options.show ?? true;
     this.maximumScreenSpaceError = options.maximumScreenSpaceError ?? 2;
-    this.pointBudget = options.pointBudget ?? 1_000_000;
+    this.budget = options.budget;
+    this.pointBudget = options.pointBudget ?? (options.budget ? Number.POSITIVE_INFINITY : 1_000_000);
+    this.clips = options.clips;
+    this.filter = options.filter;
+    this.forced = options.forced ?? {};
     this.#style = defaultStyle(cloud.hasColour);
     this.style = options.style ?? {};
     this.#picked = { primitive: this, id: options.id ?? cloud.name };
@@ -105,7 +105,7 @@ export class PointCloudLayer {
     this.#unsubscribe = cloud.stream.subscribe({
       nodeLoaded: (node) => this.nodeLoaded.raiseEvent(node.name),
       nodeFailed: (node, error) => this.nodeFailed.raiseEvent(node.name, error),
-      nodeEvicted: (node) => this.#uploads.free(node),
+      nodeEvicted: (node) => this.#renderer?.free(node),
     });
   }
 
@@ -137,13 +137,19 @@ export class PointCloudLayer {
     return this.#style;
   }
 
-  set style(parts: Partial<PointCloudStyle>) {
-    const { hasColour, name } = this.cloud;
-    const style = completeStyle(parts, this.#style, hasColour, name);
-    if (style.color !== this.#style.color && this.#resources) {
-      this.#uploads.setProgram(this.#resources.program(style.color));
-    }
-    this.#style = style;
+  set style(parts: StyleParts) {
+    const { attributes, name } = this.cloud;
+    this.#style = completeStyle(parts, this.#style, { attributes, file: name });
+  }
+
+  /** Which points are drawn and picked; undefined: all. @throws StyleError STYLE_FILTER */
+  get filter(): PointFilter | undefined {
+    return this.#filter;
+  }
+
+  set filter(filter: PointFilter | undefined) {
+    const { attributes, name } = this.cloud;
+    this.#filter = filter && checkFilter(filter, { attributes, file: name });
   }
 
   /**
@@ -162,16 +168,30 @@ export class PointCloudLayer {
     Cartesian3.fromElements(bounds.x + x, bounds.y + y, bounds.z + z, this.boundingSphere.center);
   }
 
+  /**
+   * Every effect that the last frame could have had: how much it would change, what that is held against, whether it
+   * ran and why, and what it costs as far as frames with and without it were seen.
+   */
+  get ledger(): readonly LedgerRow[] {
+    return this.#costs.complete({
+      active: this.#renderer?.plan?.active ?? new Set<EffectName>(),
+      ledger: this.#ledger,
+    });
+  }
+
   get statistics(): LayerStatistics {
+    const renderer = this.#renderer;
+    const nodes = renderer?.nodes ?? [];
     return {
       nodesVisible: this.#progress.wanted,
-      nodesLoaded: this.#drawn,
+      nodesLoaded: nodes.length,
       nodesFailed: this.#progress.failed,
-      pointsDrawn: this.#points,
+      pointsDrawn: nodes.reduce((sum, { count }) => sum + count, 0),
       budgetReached: this.#selection?.limited ?? false,
       requestsPending: this.#destroyed ? 0 : this.cloud.stream.active,
-      gpuBytes: this.#uploads.bytes,
-      gpuBuffers: this.#uploads.buffers,
+      gpuBytes: renderer?.objects.bytes ?? 0,
+      gpuObjects: renderer?.objects.counts ?? NO_OBJECTS,
+      gpuMilliseconds: renderer?.gpuMilliseconds ?? { points: undefined, picture: undefined },
     };
   }
 
@@ -181,8 +201,28 @@ export class PointCloudLayer {
    */
   get settled(): boolean {
     const moved = this.#camera !== undefined && this.#pose !== poseOf(this.#camera);
-    const lifted = this.#uploads.heightOffset !== this.#heightOffset;
-    return this.#settled && this.#shown === this.show && !moved && !lifted;
+    const lifted = this.#renderer !== undefined && this.#renderer.heightOffset !== this.#heightOffset;
+    const restyled = this.#renderer?.style !== undefined && this.#renderer.style !== this.#style;
+    return this.#settled && this.#shown === this.show && !moved && !lifted && !restyled;
+  }
+
+  /**
+   * The point drawn nearest to a place of the canvas, as it is recorded in the file. Found among what the last frame
+   * drew, by the points' size and shape and what clips and filter leave; other primitives and the globe are not looked
+   * at. Waits for the GPU without stopping it; picks may overlap, and `scene.pick` is not touched.
+   * @param windowPosition CSS pixels from the upper left, as `scene.pick` takes it
+   * @returns undefined where there is no point
+   * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
+   */
+  async pick(
+    windowPosition: { readonly x: number; readonly y: number },
+    options: PickOptions = {},
+  ): Promise<PickResult<this> | undefined> {
+    const found = await this.#renderer?.pick(windowPosition, options);
+    if (!found || this.#destroyed) return undefined;
+    const { cloud } = this;
+    const record = await cloud.readPoint(found.drawn.node, found.index, { signal: options.signal });
+    return { ...record, layer: this, cloud, position: cloud.place(...record.source) };
   }
 
   /** Lets nodes that failed be asked for again. */
@@ -194,14 +234,16 @@ export class PointCloudLayer {
   update(frameState: FrameState): void {
     if (this.#destroyed) return;
     const { passes, context, mode } = frameState;
-    this.#uploads.lift(this.#heightOffset);
-    // A lost context takes no commands; what was on the GPU is gone until the page makes a new viewer.
+    this.#renderer?.lift(this.#heightOffset);
+    const flat = mode === SceneMode.SCENE2D || mode === SceneMode.COLUMBUS_VIEW;
+    if (flat && this.show) this.#warnOfFlatView();
+    // A lost context takes no commands.
     if (!this.show || mode !== SceneMode.SCENE3D || context._gl.isContextLost()) {
       this.#rest();
       return;
     }
-    if (passes.render) this.#refresh(frameState);
-    if (passes.render || passes.pick || passes.depth) frameState.commandList.push(...this.#commands);
+    if (passes.render) this.#render(frameState);
+    else if (passes.pick || passes.depth) this.#renderer?.repeat(frameState);
   }
 
   isDestroyed(): boolean {
@@ -214,44 +256,62 @@ export class PointCloudLayer {
     this.#destroyed = true;
     this.#rest();
     this.#unsubscribe();
-    this.#uploads.destroy();
-    this.#resources?.destroy();
-    this.#resources = undefined;
+    this.#release();
+    this.#watch.destroy();
     if (this.#ownsCloud) this.cloud.destroy();
     return undefined;
+  }
+
+  /** Frees all that is on the GPU. */
+  #release(): void {
+    this.#renderer?.destroy();
+    this.#renderer = undefined;
+    this.budget?.gpu.report(this, 0);
   }
 
   #rest(): void {
     this.#shown = this.show;
     if (this.#selection) this.cloud.stream.detach(this);
     this.#selection = undefined;
-    this.#commands = [];
-    this.#points = 0;
-    this.#drawn = 0;
-    this.#progress = { wanted: 0, ready: 0, failed: 0, pending: 0 };
+    this.#renderer?.rest();
+    this.#progress = NOTHING;
     this.#complete = false;
     // Where nothing is to be drawn, nothing is to be waited for.
     this.#settled = true;
     this.#camera = undefined;
   }
 
-  #refresh(frameState: FrameState): void {
+  #render(frameState: FrameState): void {
     const { context, afterRender } = frameState;
     const { stream } = this.cloud;
-    const resources = this.#resourcesFor(context);
-    const { maximumScreenSpaceError, pointBudget } = this;
+    const renderer = this.#rendererFor(context);
+    const { maximumScreenSpaceError, pointBudget, budget, clips } = this;
     const view = viewOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
-    const selection = stream.update(this, view, { maximumScreenSpaceError, pointBudget });
+    const volumes = clips && clips.size > 0 ? clips.over(this.cloud) : undefined;
+    const rejects = volumes && ((bounds: NodeBounds) => volumes.rejects(bounds));
+    const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
+    const selection = stream.update(this, view, options);
     this.#selection = selection;
-    const waiting = this.#uploads.upload(
-      context,
-      selection.nodes,
-      (node) => stream.vertices(node),
-      resources.shared(this.#style.color),
-    );
-    this.#collect(selection.nodes);
+    const facts = sceneFacts(frameState, selection, {
+      attributes: this.cloud.attributes,
+      clips: clips?.cutting ?? 0,
+      highlights: clips?.highlighting ?? 0,
+      filter: this.filter,
+      placing: placingFacts(
+        this.#placing,
+        selection.nodes.flatMap((node) => stream.vertices(node) ?? []),
+      ),
+    });
+    // Weighted sums need colours finer than bytes.
+    const forced = context.colorBufferHalfFloat ? this.forced : { ...this.forced, splats: false };
+    const plan = planEffects(this.#style, facts, forced);
+    this.#ledger = plan.ledger;
+    const { cloud, style } = this;
+    const waiting = renderer.render(frameState, { selection, cloud, plan, style, facts, clips });
+    if (budget) renderer.keepWithin(budget.gpu, this);
+    this.#measure(renderer);
     const changed = this.#report(stream.progress(this));
-    const done = this.#progress.pending === 0 && waiting === 0;
+    const done = this.#progress.pending === 0 && waiting === 0 && (budget?.balanced ?? true);
     const complete = done && this.#progress.failed === 0 && stream.active === 0;
     const finished = complete && !this.#complete;
     this.#complete = complete;
@@ -268,17 +328,14 @@ export class PointCloudLayer {
     });
   }
 
-  #collect(nodes: readonly OctreeNode[]): void {
-    this.#commands = [];
-    this.#points = 0;
-    this.#drawn = 0;
-    for (const node of nodes) {
-      const drawable = this.#uploads.get(node);
-      if (!drawable) continue;
-      this.#commands.push(drawable.command);
-      this.#points += drawable.count;
-      this.#drawn++;
-    }
+  /** Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other. */
+  #measure({ plan, measuresGpu, gpuMilliseconds: { points, picture = 0 } }: LayerRenderer): void {
+    const now = performance.now();
+    const interval = now - this.#frameStart;
+    this.#frameStart = now;
+    if (!plan) return;
+    if (points !== undefined) this.#costs.note(plan, points + picture, "timer query");
+    else if (!measuresGpu && interval < LONGEST_FRAME) this.#costs.note(plan, interval, "frame difference");
   }
 
   /** @returns whether the numbers changed */
@@ -293,27 +350,28 @@ export class PointCloudLayer {
     );
   }
 
-  #resourcesFor(context: Context): LayerResources {
-    if (this.#context !== context) {
+  #rendererFor(context: Context): LayerRenderer {
+    if (this.#renderer && this.#renderer.objects.context !== context) {
       // The primitive was moved to another scene: nothing of the first context can be used in it.
-      this.#uploads.destroy();
-      this.#resources?.destroy();
-      this.#resources = undefined;
-      this.#context = context;
+      this.#release();
     }
-    const { cloud } = this;
-    const style = () => this.#style;
-    this.#resources ??= new LayerResources(context, this, this.#picked, {
-      get style() {
-        return style();
-      },
-      get intensityRange() {
-        return cloud.intensityRange;
-      },
-    });
-    return this.#resources;
+    this.#watch.follow(context);
+    if (!this.#renderer) {
+      this.#renderer = new LayerRenderer(context, this, this.#picked, this.#watch.losses);
+      this.#renderer.lift(this.#heightOffset);
+    }
+    return this.#renderer;
+  }
+
+  #warnOfFlatView(): void {
+    if (this.#warned) return;
+    this.#warned = true;
+    console.warn(`${this.cloud.name}: point clouds are drawn in 3D only, not in 2D and Columbus view`);
   }
 }
+
+/** Milliseconds; what lies further apart are frames on demand, whose distance says nothing. */
+const LONGEST_FRAME = 1000;
 
 /** Where a camera is and looks, in a form that can be compared. */
 function poseOf({ positionWC, directionWC, upWC }: Camera): string {

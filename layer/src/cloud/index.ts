@@ -1,3 +1,4 @@
+export type { AttributeInfo, PointRecord, RecordValue } from "./attribute-info.js";
 export type { GeoreferenceOptions } from "./georeference.js";
 export type { HeightData } from "./height-data.js";
 export { guessHeights } from "./height-guess.js";

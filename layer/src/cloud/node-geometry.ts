@@ -1,6 +1,7 @@
-import { type Crs, type PointTransform, pointTransform, type Truth } from "@groma/georef";
-import type { NodeBounds, VoxelKey } from "../octree/index.js";
+import { type Crs, ecefToGeodetic, type PointTransform, pointTransform, type Truth } from "@groma/georef";
+import { ancestorAt, keyName, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
 import type { CopcInfo, LasHeader } from "../sources/index.js";
+import { type AffineMap, affineBounds, affineMap } from "./affine-bounds.js";
 
 /** Radius from which the sag of the ground between samples is reckoned, metres: the least of the WGS84 ellipsoid's. */
 const LEAST_RADIUS_OF_CURVATURE = 6_335_439;
@@ -8,12 +9,16 @@ const LEAST_RADIUS_OF_CURVATURE = 6_335_439;
 /** COPC writers give spacing as an edge's 128th or so; taken where the file leaves it at 0. */
 const CELLS_PER_EDGE = 128;
 
+/** Every so many levels nodes have maps that nodes below them may use. */
+const LEVELS_PER_MAP = 2;
+
 /** Cubes of octree nodes: in source coordinates as COPC lays them, and as spheres on the globe. */
 export class NodeGeometry {
   readonly #info: CopcInfo;
   readonly #header: LasHeader;
   readonly #transform: PointTransform;
   readonly #unit: number;
+  readonly #maps = new Map<string, AffineMap | undefined>();
 
   constructor(info: CopcInfo, header: LasHeader, truth: Truth, crs: Pick<Crs, "horizontalUnit">) {
     this.#info = info;
@@ -35,13 +40,49 @@ export class NodeGeometry {
     ];
   }
 
+  /** Least and greatest height above WGS84 of the file's bounding box, metres; zeros where it has no place. */
+  get heights(): readonly [number, number] {
+    const samples = this.#sample(this.#dataBox(ROOT_KEY));
+    if (!samples.every(Number.isFinite)) return [0, 0];
+    const heights: number[] = [];
+    const geodetic = new Float64Array(3);
+    for (let at = 0; at < samples.length; at += 3) {
+      ecefToGeodetic(samples[at], samples[at + 1], samples[at + 2], geodetic);
+      heights.push(geodetic[2]);
+    }
+    return [Math.min(...heights), Math.max(...heights)];
+  }
+
   /**
    * Sphere around the part of a node's cube in which the file has points, and the spacing of its points on the
    * ground; undefined where the data set's map has no such place. What the file's own transformation covers ends with
    * its bounding box, which cubes reach beyond.
+   *
+   * Sampling the map costs tens of microseconds, too much for thousands of nodes in a frame: small nodes get theirs
+   * from the affine map of a node above, which says how far it is off.
    */
   bounds(key: VoxelKey): NodeBounds | undefined {
     const box = this.#dataBox(key);
+    const spacing = this.#spacing(key.depth);
+    // The highest that is good enough serves the most nodes.
+    for (let depth = 0; depth < key.depth; depth += LEVELS_PER_MAP) {
+      const map = this.#mapOf(ancestorAt(key, depth));
+      const bounds = map && affineBounds(map, box, spacing);
+      if (bounds) return bounds;
+    }
+    return this.#sampledBounds(box, spacing);
+  }
+
+  #mapOf(above: VoxelKey): AffineMap | undefined {
+    const name = keyName(above);
+    if (!this.#maps.has(name)) {
+      const box = this.#dataBox(above);
+      this.#maps.set(name, affineMap(box, this.#sample(box), this.#unit));
+    }
+    return this.#maps.get(name);
+  }
+
+  #sampledBounds(box: readonly number[], spacing: number): NodeBounds | undefined {
     const samples = this.#sample(box);
     if (!samples.every(Number.isFinite)) return undefined;
     const point = (i: number, j: number, high: number) => {
@@ -60,7 +101,7 @@ export class NodeGeometry {
     const scaleX = distance(point(0, 1, 0), point(2, 1, 0)) / (box[3] - box[0]);
     const scaleY = distance(point(1, 0, 0), point(1, 2, 0)) / (box[4] - box[1]);
     const metresPerUnit = Math.max(...[scaleX, scaleY].filter(Number.isFinite), 0) || this.#unit;
-    return { x, y, z, radius, spacing: this.#spacing(key.depth) * metresPerUnit };
+    return { x, y, z, radius, spacing: spacing * metresPerUnit };
   }
 
   /** Spacing at a depth, source units. */

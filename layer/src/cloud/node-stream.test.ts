@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { NodeStore, type OctreeNode, type View } from "../octree/index.js";
+import { NodeStore, type OctreeNode, SharedBudget, type View } from "../octree/index.js";
 import type { HierarchyEntry } from "../sources/index.js";
 import type { NodeVertices } from "../workers/index.js";
 import { NodeStream } from "./node-stream.js";
@@ -12,7 +12,15 @@ const entry = (depth: number, x: number, pointCount = POINTS): HierarchyEntry =>
 });
 
 /** A root with `children` children along x, the last of them behind a further page if asked for. */
-function setUp(options: { children?: number; page?: boolean; requests?: number; cacheBytes?: number } = {}) {
+interface SetUp {
+  readonly children?: number;
+  readonly page?: boolean;
+  readonly requests?: number;
+  readonly cacheBytes?: number;
+  readonly budget?: SharedBudget;
+}
+
+function setUp(options: SetUp = {}) {
   const { children = 2, page = false } = options;
   const store = new NodeStore("a.copc.laz", 1e6, { offset: 500, length: 32 });
   store.root.become("opening");
@@ -34,14 +42,17 @@ function setUp(options: { children?: number; page?: boolean; requests?: number; 
       boundsOf: ({ key }) => ({ x: 100 * key.x, y: 0, z: 0, radius: 10, spacing: 10 / 2 ** key.depth }),
       loadVertices: async (node, signal) => {
         await wait(node.name, signal);
-        return { count: POINTS, vertices: new ArrayBuffer(BYTES) } as NodeVertices;
+        return { count: POINTS, bytes: BYTES } as NodeVertices;
       },
       openPage: async (node, signal) => {
         await wait(`page ${node.name}`, signal);
         store.insertPage(node, [entry(1, node.key.x)]);
       },
     },
-    { requests: options.requests ?? 8, cacheBytes: options.cacheBytes ?? 1e9 },
+    {
+      ...{ requests: options.requests ?? 8, cacheBytes: options.cacheBytes ?? 1e9 },
+      ...(options.budget && { budget: options.budget }),
+    },
   );
   const answer = async (name: string, error?: Error) => {
     const call = calls.get(name);
@@ -139,6 +150,43 @@ describe("NodeStream", () => {
     stream.update(viewer, viewAt(0), traversal);
     expect(evicted).toEqual(["1-1-0-0"]);
     expect(stream.bytes).toBe(2 * BYTES);
+  });
+
+  it("lets nodes end that have become too small by little, and asks for none of them anew", async () => {
+    const { stream, store, calls, answer } = setUp();
+    // A child is drawn from half the error on, and may end its way down to nine tenths of that.
+    const error = (pixels: number) => ({ ...traversal, maximumScreenSpaceError: pixels });
+    const [node] = stream.update(viewer, viewAt(), traversal).nodes.slice(1);
+    const size = stream.update(viewer, viewAt(), traversal).spacings[1];
+    stream.update(viewer, viewAt(), error(2.1 * size));
+    expect(calls.get(node.name)?.signal.aborted).toBe(false);
+    stream.update(viewer, viewAt(), error(2.3 * size));
+    expect(calls.get(node.name)?.signal.aborted).toBe(true);
+    await answer("0-0-0-0");
+    calls.clear();
+    stream.update(viewer, viewAt(), error(2.1 * size));
+    expect([calls.size, store.root.state]).toEqual([0, "ready"]);
+  });
+
+  it("gives up what is oldest where several clouds together pass their bytes", async () => {
+    const budget = new SharedBudget({ cpuBytes: 4 * BYTES });
+    const first = setUp({ budget });
+    const second = setUp({ budget });
+    const other = {};
+    first.stream.update(viewer, viewAt(), traversal);
+    for (const name of ["0-0-0-0", "1-0-0-0", "1-1-0-0"]) await first.answer(name);
+    second.stream.update(other, viewAt(0), traversal);
+    for (const name of ["0-0-0-0", "1-0-0-0"]) await second.answer(name);
+    expect(budget.cpu.used).toBe(5 * BYTES);
+    // The first view shrinks: what it no longer wants goes first, until a fifth of the room is free.
+    first.stream.update(viewer, viewAt(0), traversal);
+    expect([first.stream.bytes, second.stream.bytes, budget.cpu.used]).toEqual([
+      ...[2 * BYTES, 2 * BYTES, 4 * BYTES],
+    ]);
+    first.stream.detach(viewer);
+    second.stream.destroy();
+    expect(budget.cpu.used).toBe(first.stream.bytes);
+    expect(budget.granted).toBe(0);
   });
 
   it("loads once what two views want, and keeps it while one of them stays", async () => {

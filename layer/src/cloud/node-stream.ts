@@ -5,6 +5,7 @@ import {
   type NodeStore,
   type OctreeNode,
   type Selection,
+  type SharedBudget,
   selectNodes,
   type TraversalOptions,
   type View,
@@ -35,6 +36,8 @@ export interface StreamLimits {
   readonly requests?: number;
   /** Bytes of vertices that are kept. Default: 268,435,456. */
   readonly cacheBytes?: number;
+  /** Budget whose bytes several clouds share; holds beside `cacheBytes`. */
+  readonly budget?: SharedBudget;
 }
 
 /** How far what a view wants is here. */
@@ -56,18 +59,26 @@ export interface StreamProgress {
 export class NodeStream {
   readonly #source: StreamSource;
   readonly #requests: number;
+  readonly #budget: SharedBudget | undefined;
   readonly #cache: LruCache<OctreeNode, NodeVertices>;
   readonly #selections = new Map<object, Selection>();
+  readonly #budgets = new Map<object, SharedBudget | undefined>();
   readonly #queued = new Set<OctreeNode>();
   readonly #active = new Map<OctreeNode, AbortController>();
   readonly #failed = new Set<OctreeNode>();
   readonly #listeners = new Set<StreamListener>();
-  /** Nodes of all selections with their rank, 0 first. */
-  #wanted = new Map<OctreeNode, number>();
+  /** Nodes and pages that views want, first in rank first; each carries the number of this round, and its rank. */
+  #wanted: OctreeNode[] = [];
+  /** Index of the first of them that may still wait for its turn. */
+  #next = 0;
+  #round = 1;
+  /** Nodes and pages that may go on if they are on their way, though no view wants them. */
+  #fringe = new Set<OctreeNode>();
 
   constructor(source: StreamSource, limits: StreamLimits = {}) {
     this.#source = source;
     this.#requests = limits.requests ?? 8;
+    this.#budget = limits.budget;
     this.#cache = new LruCache({
       points: Number.POSITIVE_INFINITY,
       bytes: limits.cacheBytes ?? 268_435_456,
@@ -100,10 +111,10 @@ export class NodeStream {
    * @param viewer stands for the view; the same object in each call
    */
   update(viewer: object, view: View, options: TraversalOptions): Selection {
-    const selection = selectNodes(this.#source.store.root, view, options, this.#source.boundsOf);
+    const selection = selectNodes(this.#source.store.root, view, options, this.#source.boundsOf, viewer);
+    this.#budgets.set(viewer, options.budget);
     this.#selections.set(viewer, selection);
     this.#rank();
-    for (const node of selection.nodes) this.#cache.use(node);
     this.#cancelUnwanted();
     this.#queueWanted();
     this.#pump();
@@ -113,9 +124,12 @@ export class NodeStream {
 
   /** A view ends; what only it wanted is no longer loaded. */
   detach(viewer: object): void {
+    this.#budgets.get(viewer)?.release(viewer);
+    this.#budgets.delete(viewer);
     this.#selections.delete(viewer);
     this.#rank();
     this.#cancelUnwanted();
+    this.#trim();
   }
 
   progress(viewer: object): StreamProgress {
@@ -149,54 +163,71 @@ export class NodeStream {
 
   /** Stops all loading and gives up everything. */
   destroy(): void {
-    this.#selections.clear();
-    this.#rank();
-    this.#cancelUnwanted();
+    for (const viewer of [...this.#selections.keys()]) this.detach(viewer);
     this.#cache.limits = { points: 0, bytes: 0 };
     this.#trim();
+    this.#budget?.cpu.report(this, 0);
     this.#listeners.clear();
   }
 
+  /** Marks what views want; what none wants any more counts as used until now. */
   #rank(): void {
-    this.#wanted = new Map();
-    for (const { nodes, pages } of this.#selections.values()) {
+    const before = this.#wanted;
+    this.#wanted = [];
+    this.#fringe = new Set();
+    this.#round++;
+    for (const { nodes, pages, fringe } of this.#selections.values()) {
       // Pages come with the rank of the most important node: what lies behind them is not known yet.
-      for (const page of pages) this.#wanted.set(page, 0);
-      nodes.forEach((node, index) => {
-        this.#wanted.set(node, Math.min(index, this.#wanted.get(node) ?? index));
-      });
+      for (const page of pages) this.#want(page, 0);
+      for (let index = 0; index < nodes.length; index++) this.#want(nodes[index], index);
+      for (const node of fringe) this.#fringe.add(node);
     }
+    for (const node of before) if (!this.#wants(node)) this.#cache.use(node);
+  }
+
+  #want(node: OctreeNode, rank: number): void {
+    if (this.#wants(node)) {
+      node.rank = Math.min(node.rank, rank);
+      return;
+    }
+    node.round = this.#round;
+    node.rank = rank;
+    this.#wanted.push(node);
+  }
+
+  #wants(node: OctreeNode): boolean {
+    return node.round === this.#round;
   }
 
   #cancelUnwanted(): void {
-    for (const [node, controller] of this.#active) if (!this.#wanted.has(node)) controller.abort();
+    for (const [node, controller] of this.#active) {
+      if (!this.#wants(node) && !this.#fringe.has(node)) controller.abort();
+    }
     for (const node of this.#queued) {
-      if (this.#wanted.has(node)) continue;
+      if (this.#wants(node)) continue;
       this.#queued.delete(node);
       node.become("listed");
     }
   }
 
   #queueWanted(): void {
-    for (const node of this.#wanted.keys()) {
-      if (node.state !== "listed") continue;
-      node.become("queued");
-      this.#queued.add(node);
-    }
+    for (const node of this.#wanted) this.#queue(node);
+    if (this.#selections.size > 1) this.#wanted.sort((a, b) => a.rank - b.rank);
+    this.#next = 0;
   }
 
+  #queue(node: OctreeNode): void {
+    if (node.state !== "listed") return;
+    node.become("queued");
+    this.#queued.add(node);
+  }
+
+  /** Starts what is next in rank, as long as there is room. */
   #pump(): void {
-    if (this.#active.size >= this.#requests) return;
-    const candidates: OctreeNode[] = [];
-    for (const node of this.#wanted.keys()) {
-      if (node.state === "page" || node.state === "queued") candidates.push(node);
-    }
-    if (this.#selections.size > 1) {
-      candidates.sort((a, b) => (this.#wanted.get(a) ?? 0) - (this.#wanted.get(b) ?? 0));
-    }
-    for (const node of candidates) {
-      if (this.#active.size >= this.#requests) return;
-      void (node.state === "page" ? this.#open(node) : this.#load(node));
+    for (; this.#next < this.#wanted.length && this.#active.size < this.#requests; this.#next++) {
+      const node = this.#wanted[this.#next];
+      if (node.state === "page") void this.#open(node);
+      else if (node.state === "queued") void this.#load(node);
     }
   }
 
@@ -224,7 +255,8 @@ export class NodeStream {
     try {
       const vertices = await this.#source.loadVertices(node, controller.signal);
       controller.signal.throwIfAborted();
-      this.#cache.set(node, vertices, { points: vertices.count, bytes: vertices.vertices.byteLength });
+      this.#cache.set(node, vertices, { points: vertices.count, bytes: vertices.bytes });
+      this.#budget?.cpu.report(this, this.#cache.bytes);
       node.become("ready");
       for (const listener of this.#listeners) listener.nodeLoaded?.(node);
     } catch (thrown) {
@@ -237,7 +269,11 @@ export class NodeStream {
   /** What an answer leaves free is used at once, without waiting for the next frame. */
   #settle(node: OctreeNode): void {
     this.#active.delete(node);
-    this.#queueWanted();
+    if (this.#wants(node) && (node.state === "listed" || node.state === "page")) {
+      // Stopped, and wanted again since: its turn was passed over.
+      this.#queue(node);
+      this.#next = 0;
+    }
     this.#pump();
   }
 
@@ -249,9 +285,12 @@ export class NodeStream {
   }
 
   #trim(): void {
-    for (const [node] of this.#cache.trim((candidate) => this.#wanted.has(candidate))) {
+    const inUse = (node: OctreeNode) => this.#wants(node);
+    const evicted = this.#cache.trim(inUse, this.#budget?.cpu.excess ?? 0);
+    for (const [node] of evicted) {
       node.become("listed");
       for (const listener of this.#listeners) listener.nodeEvicted?.(node);
     }
+    if (evicted.length > 0) this.#budget?.cpu.report(this, this.#cache.bytes);
   }
 }

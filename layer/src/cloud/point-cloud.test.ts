@@ -2,7 +2,14 @@ import { encodeRecord, exactTransform, type GeoreferenceRecord, resolveCrs } fro
 import { describe, expect, it } from "vitest";
 import { BlobSource } from "../sources/index.js";
 import { type TinyCopc, tinyCopc } from "../sources/tiny-copc.fixture.js";
-import type { DataSetSpec, NodeExecutor, NodeJob, NodeVertices } from "../workers/index.js";
+import type {
+  ChunkJob,
+  DataSetSpec,
+  NodeExecutor,
+  NodeJob,
+  NodeRecords,
+  NodeVertices,
+} from "../workers/index.js";
 import { transformationBytes } from "../workers/transformation.fixture.js";
 import { PointCloud, type PointCloudOptions } from "./point-cloud.js";
 
@@ -25,7 +32,8 @@ class Recorder implements NodeExecutor {
   readonly specs: DataSetSpec[] = [];
   readonly jobs: NodeJob[] = [];
   readonly pending = 0;
-  colourMax = 65535;
+  readonly asked: ChunkJob[] = [];
+  rgbBits: 8 | 16 = 16;
 
   addDataSet(spec: DataSetSpec): number {
     return this.specs.push(spec);
@@ -37,8 +45,23 @@ class Recorder implements NodeExecutor {
 
   async run(job: NodeJob): Promise<NodeVertices> {
     this.jobs.push(job);
-    const seen = { colourMax: this.colourMax, intensityMin: 3, intensityMax: 700 };
-    return { count: job.pointCount, vertices: new ArrayBuffer(0), seen } as NodeVertices;
+    const seen = job.appearance ?? { rgbBits: this.rgbBits, ranges: { intensity: [3, 700] as const } };
+    return { count: job.pointCount, buffer: new ArrayBuffer(0), bytes: 0, seen } as NodeVertices;
+  }
+
+  /** Records whose x is their number, drawn last first. */
+  async records(job: ChunkJob): Promise<NodeRecords> {
+    this.asked.push(job);
+    const bytes = new Uint8Array(36 * job.pointCount);
+    const view = new DataView(bytes.buffer);
+    for (let record = 0; record < job.pointCount; record++) {
+      view.setInt32(36 * record, record, true);
+      view.setUint16(36 * record + 12, 7 * record, true);
+      view.setFloat64(36 * record + 22, 1e9 / 3 + record, true);
+      view.setUint16(36 * record + 32, 65535, true);
+    }
+    const order = Uint16Array.from({ length: job.pointCount }, (_, drawn) => job.pointCount - 1 - drawn);
+    return { bytes, order };
   }
 
   destroy(): void {}
@@ -137,16 +160,72 @@ describe("PointCloud", () => {
 
   it("judges colours and intensities by the node nearest the root, once for all", async () => {
     const { cloud, executor } = await open({ ...twoNodes, ...withRecord });
-    executor.colourMax = 200;
+    executor.rgbBits = 8;
     await cloud.loadNode("1-1-0-1");
-    executor.colourMax = 65535;
+    executor.rgbBits = 16;
     await cloud.loadNode("0-0-0-0");
-    expect(executor.jobs.map(({ node, rgbBits }) => [node, rgbBits])).toEqual([
+    expect(executor.jobs.map(({ node, appearance }) => [node, appearance?.rgbBits])).toEqual([
       ["0-0-0-0", undefined],
       ["1-1-0-1", 8],
       ["0-0-0-0", 8],
     ]);
-    expect(cloud.intensityRange).toEqual([3, 700]);
+    expect(cloud.attributes.find(({ name }) => name === "intensity")?.range).toEqual([3, 700]);
+  });
+
+  it("lists its attributes: heights by the header, the others by the statistics where there are any", async () => {
+    const statistics = {
+      ...{ version: 1, points: 10, rgbBits: 16, classes: {}, returns: {} },
+      attributes: [
+        { name: "intensity", min: 5, max: 90, mean: 40 },
+        { name: "gpsTime", min: 1e8, max: 2e8, mean: 1.5e8 },
+      ],
+    };
+    const content = new TextEncoder().encode(JSON.stringify(statistics));
+    const records: TinyCopc["records"] = [...(withRecord.records ?? []), ["groma", 2, content]];
+    const { cloud, executor } = await open({ ...twoNodes, records });
+    const byName = new Map(cloud.attributes.map((info) => [info.name, info]));
+    expect([...byName.keys()]).toEqual([
+      ...["color", "elevation", "ellipsoidalHeight", "intensity", "returnNumber", "numberOfReturns", "flags"],
+      ...["classification", "userData", "scanAngle", "pointSourceId", "gpsTime"],
+    ]);
+    expect(byName.get("color")).toMatchObject({ kind: "color", components: 4, range: undefined });
+    expect(byName.get("elevation")).toMatchObject({ kind: "scalar", unit: "foot", range: [0, 50] });
+    const [lowest = Number.NaN, highest] = byName.get("ellipsoidalHeight")?.range ?? [];
+    expect([lowest + 1, highest]).toEqual([expect.closeTo(1, 6), expect.closeTo(50 * 0.3048, 6)]);
+    expect(byName.get("intensity")?.range).toEqual([5, 90]);
+    expect(byName.get("classification")).toMatchObject({ kind: "class", range: undefined });
+    expect(byName.get("flags")?.kind).toBe("flags");
+    expect(cloud.attributes).toBe(cloud.attributes);
+    await cloud.loadNode("1-1-0-1");
+    expect(executor.jobs.map(({ node, appearance }) => [node, appearance?.ranges.gpsTime])).toEqual([
+      ["1-1-0-1", [1e8, 2e8]],
+    ]);
+  });
+
+  it("reads single points again, exactly as they are recorded", async () => {
+    const { cloud, executor } = await open({ ...twoNodes, ...withRecord });
+    const drawn = await cloud.readPoint("1-1-0-1", 0);
+    expect(drawn).toMatchObject({ node: "1-1-0-1", index: 3, integers: [3, 0, 0] });
+    expect(drawn.source[0]).toBeCloseTo(0.03, 12);
+    expect(drawn.attributes).toMatchObject({ intensity: 21, gpsTime: 1e9 / 3 + 3, green: 65535 });
+    const [recorded, other] = await Promise.all([
+      cloud.readPoint("1-1-0-1", { record: 0 }),
+      cloud.readPoint({ depth: 0, x: 0, y: 0, z: 0 }, { record: 5 }),
+    ]);
+    expect([recorded.index, other.node, other.index]).toEqual([0, "0-0-0-0", 5]);
+    // The chunk was decoded once for the two points of its node.
+    expect(executor.asked.map(({ node }) => node)).toEqual(["1-1-0-1", "0-0-0-0"]);
+  });
+
+  it("FORMAT_NODE for points that a node does not have, and the signal's reason once aborted", async () => {
+    const { cloud } = await open({ ...twoNodes, ...withRecord });
+    const missing = expect.objectContaining({ code: "FORMAT_NODE" });
+    for (const point of [4, -1, 0.5, { record: 4 }, { record: -1 }]) {
+      await expect(cloud.readPoint("1-1-0-1", point)).rejects.toThrow(missing);
+    }
+    await expect(cloud.readPoint("1-0-0-0", 0)).rejects.toThrow(missing);
+    const signal = AbortSignal.abort(new Error("no longer"));
+    await expect(cloud.readPoint("1-1-0-1", 0, { signal })).rejects.toThrow("no longer");
   });
 
   it("hands the worker a node's cube in source coordinates", async () => {

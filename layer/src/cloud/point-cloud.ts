@@ -12,8 +12,9 @@ import {
   keyName,
   type NodeBounds,
   NodeStore,
-  type OctreeNode,
+  OctreeNode,
   parseKey,
+  type SharedBudget,
   sameKey,
   type VoxelKey,
 } from "../octree/index.js";
@@ -26,11 +27,23 @@ import {
   readHierarchyPage,
   type SourceLike,
 } from "../sources/index.js";
-import { type NodeExecutor, type NodeVertices, type PoolOptions, WorkerPool } from "../workers/index.js";
-import { type Appearance, recordedAppearance, seenAppearance } from "./appearance.js";
+import {
+  type Appearance,
+  type NodeExecutor,
+  type NodeVertices,
+  type PoolOptions,
+  type RecordField,
+  recordFields,
+  WorkerPool,
+} from "../workers/index.js";
+import { recordedAppearance } from "./appearance.js";
+import type { AttributeInfo, PointRecord } from "./attribute-info.js";
+import { attributesOf } from "./attributes.js";
 import { type Georeference, type GeoreferenceOptions, georeferenceOf } from "./georeference.js";
 import { NodeGeometry } from "./node-geometry.js";
+import { NodeLoader, noNode } from "./node-loader.js";
 import { NodeStream, type StreamLimits } from "./node-stream.js";
+import { pointRecord } from "./point-record.js";
 
 /** How a data set is opened. */
 export interface PointCloudOptions extends GeoreferenceOptions, HttpOptions {
@@ -42,6 +55,8 @@ export interface PointCloudOptions extends GeoreferenceOptions, HttpOptions {
   readonly workers?: PoolOptions | undefined;
   /** How much is loaded at once and kept. */
   readonly limits?: StreamLimits | undefined;
+  /** Budget that several clouds share; its bytes hold for what is kept. Default: none. */
+  readonly budget?: SharedBudget | undefined;
 }
 
 /** Least and greatest corner in source coordinates. */
@@ -49,11 +64,6 @@ export interface SourceBox {
   readonly min: readonly [number, number, number];
   readonly max: readonly [number, number, number];
 }
-
-/** The node that decides for all how colours are read, loaded or not. */
-type Judged =
-  | { readonly node: OctreeNode; readonly vertices: NodeVertices }
-  | { readonly node: OctreeNode; readonly error: unknown };
 
 /** A data set, opened once, whatever number of views draw it. Knows no view and no library of views. */
 export class PointCloud {
@@ -77,6 +87,8 @@ export class PointCloud {
   readonly statistics: CloudStatistics | undefined;
   /** As the header declares it, source units. */
   readonly boundingBox: SourceBox;
+  /** Source units per step of the recorded integers, per axis. */
+  readonly scale: readonly [number, number, number];
   /** Sphere around all points, ECEF, metres; `spacing` is that of the root. */
   readonly bounds: NodeBounds;
   /** Whether the points have colours of their own. */
@@ -91,8 +103,13 @@ export class PointCloud {
   readonly #executor: NodeExecutor;
   readonly #ownsExecutor: boolean;
   readonly #dataSet: number;
-  #appearance: Appearance | undefined;
-  #judging: Promise<Judged> | undefined;
+  readonly #fields: readonly RecordField[];
+  #attributes:
+    | { readonly appearance: Appearance | undefined; readonly list: readonly AttributeInfo[] }
+    | undefined;
+  readonly #loader: NodeLoader;
+  /** Least and greatest height above WGS84, metres. */
+  readonly #heights: readonly [number, number];
   readonly #opening = new Map<OctreeNode, Promise<void>>();
 
   private constructor(copc: CopcFile, georeference: Georeference, options: PointCloudOptions) {
@@ -111,11 +128,13 @@ export class PointCloud {
     this.geoids = georeference.geoids;
     this.statistics = copc.statistics;
     this.boundingBox = { min: header.min, max: header.max };
+    this.scale = header.scale;
     this.hasColour = header.pointFormat !== 6 && copc.statistics?.rgbBits !== null;
     this.#store = new NodeStore(source.name, header.pointCount, info.rootPage);
     this.#geometry = new NodeGeometry(info, header, truth, crs);
     this.bounds = this.#rootBounds();
-    this.#appearance = recordedAppearance(copc);
+    this.#heights = this.#geometry.heights;
+    this.#fields = recordFields(header.pointFormat, copc.extraBytes);
     this.#ownsExecutor = options.executor === undefined;
     this.#executor = options.executor ?? new WorkerPool(options.workers);
     this.#dataSet = this.#executor.addDataSet({
@@ -126,16 +145,26 @@ export class PointCloud {
       scale: header.scale,
       offset: header.offset,
       heights: [header.min[2], header.max[2]],
+      extraBytes: copc.extraBytes,
+      ellipsoidalOrigin: this.#heights[0],
       tolerance,
+    });
+    this.#loader = new NodeLoader({
+      source,
+      executor: this.#executor,
+      dataSet: this.#dataSet,
+      geometry: this.#geometry,
+      root: this.#store.root,
+      appearance: recordedAppearance(copc, this.#fields),
     });
     this.stream = new NodeStream(
       {
         store: this.#store,
         boundsOf: (node) => this.#geometry.bounds(node.key) ?? this.bounds,
-        loadVertices: (node, signal) => this.#loadVertices(node, signal),
+        loadVertices: (node, signal) => this.#loader.vertices(node, signal),
         openPage: (node, signal) => this.#openPage(node, signal),
       },
-      options.limits,
+      { ...options.limits, ...(options.budget && { budget: options.budget }) },
     );
   }
 
@@ -157,9 +186,21 @@ export class PointCloud {
     return cloud;
   }
 
-  /** Least and greatest intensity: from the statistics, else from the first node that was loaded. */
-  get intensityRange(): readonly [number, number] {
-    return this.#appearance?.intensity ?? [0, 65535];
+  /** The attributes of the points, with their ranges as far as they are known. */
+  get attributes(): readonly AttributeInfo[] {
+    const { appearance } = this.#loader;
+    if (this.#attributes?.appearance !== appearance || !this.#attributes) {
+      this.#attributes = { appearance, list: this.#listAttributes(appearance) };
+    }
+    return this.#attributes.list;
+  }
+
+  #listAttributes(appearance: Appearance | undefined): readonly AttributeInfo[] {
+    const { min, max } = this.boundingBox;
+    return attributesOf({
+      ...{ fields: this.#fields, hasColour: this.hasColour, verticalUnit: this.crs.verticalUnit },
+      ...{ elevations: [min[2], max[2]], heights: this.#heights, appearance },
+    });
   }
 
   /**
@@ -185,11 +226,42 @@ export class PointCloud {
    */
   async loadNode(key: VoxelKey | string, options: { signal?: AbortSignal } = {}): Promise<NodeVertices> {
     const signal = options.signal ?? new AbortController().signal;
+    return this.#loader.vertices(await this.#nodeOf(key, signal), signal);
+  }
+
+  /**
+   * One point exactly as it is recorded: its integers and all attributes, decoded again from the file.
+   * @param from the node, its key or its name `depth-x-y-z`
+   * @param point how many-th point in drawing order, or the index of its record in the chunk
+   * @throws FormatError FORMAT_NODE where there is no such node or no such point in it
+   * @throws SourceError, DecodeError; the signal's reason when aborted
+   */
+  async readPoint(
+    from: OctreeNode | VoxelKey | string,
+    point: number | { readonly record: number },
+    options: { signal?: AbortSignal | undefined } = {},
+  ): Promise<PointRecord> {
+    const signal = options.signal ?? new AbortController().signal;
+    const node = from instanceof OctreeNode ? from : await this.#nodeOf(from, signal);
+    const records = await this.#loader.records(node, signal);
+    const index = typeof point === "number" ? records.order[point] : point.record;
+    if (index === undefined || !(index in records.order)) {
+      throw noNode(
+        `${node.name} with point ${typeof point === "number" ? point : index}`,
+        this.#copc.source.name,
+      );
+    }
+    return pointRecord(node.name, index, records, this.#copc.header, this.#fields);
+  }
+
+  /** The node with points that a key names; reads hierarchy pages on the way. @throws FormatError FORMAT_NODE */
+  async #nodeOf(key: VoxelKey | string, signal: AbortSignal): Promise<OctreeNode> {
+    const file = this.#copc.source.name;
     const wanted = typeof key === "string" ? parseKey(key) : key;
-    if (!wanted) throw this.#noNode(String(key));
+    if (!wanted) throw noNode(String(key), file);
     const node = await this.#reach(wanted, signal);
-    if (!sameKey(node.key, wanted) || node.pointCount === 0) throw this.#noNode(keyName(wanted));
-    return this.#loadVertices(node, signal);
+    if (!sameKey(node.key, wanted) || node.pointCount === 0) throw noNode(keyName(wanted), file);
+    return node;
   }
 
   /** The node with a key, or its closest ancestor that the octree has; reads the pages on the way. */
@@ -262,66 +334,6 @@ export class PointCloud {
     } finally {
       this.#opening.delete(node);
     }
-  }
-
-  async #loadVertices(node: OctreeNode, signal: AbortSignal): Promise<NodeVertices> {
-    if (!this.#appearance) {
-      this.#judging ??= this.#judge(this.#firstNode() ?? node);
-      const judged = await this.#judging;
-      signal.throwIfAborted();
-      if (judged.node === node) {
-        this.#judging = undefined;
-        if ("error" in judged) throw judged.error;
-        return judged.vertices;
-      }
-    }
-    return this.#run(node, signal);
-  }
-
-  /**
-   * Loads the node by which colours are judged. Not cancelled with whoever came first, since all others wait
-   * for it; should it be damaged, the next one decides.
-   */
-  async #judge(node: OctreeNode): Promise<Judged> {
-    try {
-      return { node, vertices: await this.#run(node, undefined) };
-    } catch (error) {
-      return { node, error };
-    }
-  }
-
-  /** The known node nearest to the root that has points. */
-  #firstNode(): OctreeNode | undefined {
-    const queue: OctreeNode[] = [this.#store.root];
-    for (let node = queue.shift(); node; node = queue.shift()) {
-      if (node.pointCount > 0) return node;
-      for (const child of node.children ?? []) if (child) queue.push(child);
-    }
-    return undefined;
-  }
-
-  async #run(node: OctreeNode, signal: AbortSignal | undefined): Promise<NodeVertices> {
-    const { address, pointCount } = node;
-    if (!address) throw this.#noNode(node.name);
-    const { source } = this.#copc;
-    const bytes = await source.read(address.offset, address.offset + address.length, { signal });
-    const chunk =
-      bytes.byteLength === bytes.buffer.byteLength ? (bytes.buffer as ArrayBuffer) : bytes.slice().buffer;
-    const cube = this.#geometry.cube(node.key);
-    const rgbBits = this.#appearance?.rgbBits;
-    const job = { dataSet: this.#dataSet, chunk, pointCount, node: node.name, cube, rgbBits };
-    const vertices = await this.#executor.run(job, signal);
-    this.#appearance ??= seenAppearance(vertices);
-    return vertices;
-  }
-
-  #noNode(name: string): FormatError {
-    return new FormatError({
-      code: "FORMAT_NODE",
-      file: this.#copc.source.name,
-      cause: `its octree has no node ${name} with points`,
-      fix: "Ask for a node that the octree lists",
-    });
   }
 }
 

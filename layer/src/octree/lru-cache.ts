@@ -69,14 +69,17 @@ export class LruCache<K, V> {
 
   /**
    * Where a limit is passed, takes out what was not used for longest and is not in use, until the low mark.
+   * @param excess bytes that are to go whatever the own limits are
    * @returns what was taken out
    */
-  trim(inUse: (key: K) => boolean): [K, V][] {
+  trim(inUse: (key: K) => boolean, excess = 0): [K, V][] {
     const { points, bytes, low = 0.8 } = this.limits;
     const removed: [K, V][] = [];
-    if (this.#points <= points && this.#bytes <= bytes) return removed;
+    if (this.#points <= points && this.#bytes <= bytes && excess <= 0) return removed;
+    const passed = this.#points > points || this.#bytes > bytes;
+    const most = Math.min(passed ? bytes * low : bytes, excess > 0 ? this.#bytes - excess : Infinity);
     for (const [key, { value }] of this.#entries) {
-      if (this.#points <= points * low && this.#bytes <= bytes * low) break;
+      if (this.#points <= (passed ? points * low : points) && this.#bytes <= most) break;
       if (inUse(key)) continue;
       this.delete(key);
       removed.push([key, value]);

@@ -1,6 +1,6 @@
 import { badHierarchy, type HierarchyEntry } from "../sources/index.js";
 import { OctreeNode } from "./octree-node.js";
-import { ancestorAt, isWithin, keyName, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";
+import { ancestorAt, isWithin, keyName, octant, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";
 
 /**
  * The octree as far as its hierarchy pages were read. Pages are held against each other: a page that is
@@ -71,7 +71,7 @@ export class NodeStore {
       if (!isWithin(entry, node.key)) {
         throw badHierarchy(this.#file, `node ${keyName(entry)} in the page of node ${node.name}`);
       }
-      if (!sameKey(entry, node.key)) this.#add(entry);
+      if (!sameKey(entry, node.key)) this.#add(node, entry);
       else if (entry.pointCount === -1 || own++ > 0)
         throw badHierarchy(this.#file, `node ${node.name} twice`);
       else this.#count(node, entry);
@@ -80,17 +80,11 @@ export class NodeStore {
 
   /** The node with the key given as far as it is known, else its closest known ancestor. */
   closest(key: VoxelKey): OctreeNode {
-    let node = this.root;
-    while (node.key.depth < key.depth) {
-      const next = node.child(ancestorAt(key, node.key.depth + 1));
-      if (!next) break;
-      node = next;
-    }
-    return node;
+    return closestBelow(this.root, key, key.depth);
   }
 
-  #add(entry: HierarchyEntry): void {
-    const parent = this.#parentOf(entry);
+  #add(page: OctreeNode, entry: HierarchyEntry): void {
+    const parent = this.#parentOf(page, entry);
     if (parent.child(entry)) throw badHierarchy(this.#file, `node ${keyName(entry)} twice`);
     const { depth, x, y, z } = entry;
     const state = entry.pointCount === -1 ? "page" : entry.pointCount > 0 ? "listed" : "empty";
@@ -102,8 +96,8 @@ export class NodeStore {
   }
 
   /** Parent of an entry. Some writers leave out nodes without points: those are put in as empty. */
-  #parentOf(entry: HierarchyEntry): OctreeNode {
-    let node = this.closest(ancestorAt(entry, entry.depth - 1));
+  #parentOf(page: OctreeNode, entry: HierarchyEntry): OctreeNode {
+    let node = closestBelow(page, entry, entry.depth - 1);
     if (node.state === "page") {
       throw badHierarchy(this.#file, `node ${keyName(entry)} outside the page that it belongs to`);
     }
@@ -124,4 +118,15 @@ export class NodeStore {
     node.pointCount = entry.pointCount;
     if (entry.pointCount > 0) node.address = entry.address;
   }
+}
+
+/** The deepest known node above a key, or at it, from a node above it down to a depth. */
+function closestBelow(from: OctreeNode, key: VoxelKey, depth: number): OctreeNode {
+  let node = from;
+  for (let at = from.key.depth + 1; at <= depth; at++) {
+    const next = node.children?.[octant(key, at)];
+    if (!next) break;
+    node = next;
+  }
+  return node;
 }

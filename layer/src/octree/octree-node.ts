@@ -27,6 +27,9 @@ export class OctreeNode {
   pageFailed = false;
   /** Set by whoever knows the coordinate system, when first asked for. */
   bounds: NodeBounds | undefined;
+  /** The last round of whoever streams it in which a view wanted it, and its rank among all wanted, 0 first. */
+  round = 0;
+  rank = 0;
   #state: NodeState;
 
   constructor(key: VoxelKey, state: "page" | "empty" | "listed" = "empty") {

@@ -8,15 +8,21 @@ export class PriorityQueue<T> {
   }
 
   push(item: T, priority: number): void {
-    let at = this.#items.length;
-    this.#items.push(item);
-    this.#priorities.push(priority);
+    const items = this.#items;
+    const priorities = this.#priorities;
+    let at = items.length;
+    items.push(item);
+    priorities.push(priority);
+    // Those of lesser priority move down into the gap until the item's place is found.
     while (at > 0) {
       const parent = (at - 1) >> 1;
-      if (this.#priorities[parent] >= priority) break;
-      this.#swap(at, parent);
+      if (priorities[parent] >= priority) break;
+      items[at] = items[parent];
+      priorities[at] = priorities[parent];
       at = parent;
     }
+    items[at] = item;
+    priorities[at] = priority;
   }
 
   /** Takes out the item with the greatest priority; undefined where there is none. */
@@ -25,28 +31,26 @@ export class PriorityQueue<T> {
     const last = this.#items.pop();
     const priority = this.#priorities.pop();
     if (this.#items.length === 0 || last === undefined || priority === undefined) return top;
-    this.#items[0] = last;
-    this.#priorities[0] = priority;
-    this.#sink();
+    this.#sink(last, priority);
     return top;
   }
 
-  #sink(): void {
-    const count = this.#items.length;
+  /** Puts an item in the gap at the top, and moves that down to where the item belongs. */
+  #sink(item: T, priority: number): void {
+    const items = this.#items;
+    const priorities = this.#priorities;
+    const count = items.length;
     let at = 0;
     for (;;) {
-      const left = 2 * at + 1;
-      let greatest = at;
-      if (left < count && this.#priorities[left] > this.#priorities[greatest]) greatest = left;
-      if (left + 1 < count && this.#priorities[left + 1] > this.#priorities[greatest]) greatest = left + 1;
-      if (greatest === at) return;
-      this.#swap(at, greatest);
-      at = greatest;
+      let child = 2 * at + 1;
+      if (child >= count) break;
+      if (child + 1 < count && priorities[child + 1] > priorities[child]) child++;
+      if (priorities[child] <= priority) break;
+      items[at] = items[child];
+      priorities[at] = priorities[child];
+      at = child;
     }
-  }
-
-  #swap(a: number, b: number): void {
-    [this.#items[a], this.#items[b]] = [this.#items[b], this.#items[a]];
-    [this.#priorities[a], this.#priorities[b]] = [this.#priorities[b], this.#priorities[a]];
+    items[at] = item;
+    priorities[at] = priority;
   }
 }

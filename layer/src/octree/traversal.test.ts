@@ -75,9 +75,13 @@ describe("selectNodes", () => {
         fc.integer({ min: 0, max: 60_000 }),
         fc.integer({ min: -2000, max: 1000 }),
         (pointBudget, x) => {
-          const { nodes, points } = selectNodes(root, viewFrom(x), { ...options, pointBudget }, boundsOf);
+          const choice = selectNodes(root, viewFrom(x), { ...options, pointBudget }, boundsOf);
+          const { nodes, counts, points, limited } = choice;
           expect(points).toBeLessThanOrEqual(pointBudget);
-          expect(points).toBe(nodes.reduce((sum, node) => sum + node.pointCount, 0));
+          // To the last point, where it is the budget that ends it.
+          if (limited) expect(points).toBe(pointBudget);
+          expect(points).toBe(counts.reduce((sum, count) => sum + count, 0));
+          expect(counts.every((count, index) => count >= 1 && count <= nodes[index].pointCount)).toBe(true);
           const seen = new Set<string>();
           const orphans = nodes.filter((node) => {
             seen.add(node.name);
@@ -137,5 +141,77 @@ describe("selectNodes", () => {
     const first = asked;
     selectNodes(root, viewFrom(-300), options, counting);
     expect(asked).toBe(first);
+  });
+
+  it("draws whole nodes or none of them where it is told to, and passes no budget", () => {
+    const whole = { ...options, pointBudget: 1050, prefix: false };
+    const { nodes, counts, points } = selectNodes(tree(3), viewFrom(-500), whole, boundsOf);
+    expect([nodes.length, points]).toEqual([10, 1000]);
+    expect(counts.every((count) => count === 100)).toBe(true);
+  });
+
+  it("brings the picture to one density: that of the screen-space error", () => {
+    const root = tree(4, 10_000);
+    fc.assert(
+      fc.property(fc.double({ min: -40_000, max: -2500, noNaN: true }), (x) => {
+        const error = 2;
+        const { nodes, counts, spacings } = selectNodes(root, viewFrom(x), options, boundsOf);
+        // Points per square pixel of the levels above a node and of its own share; whole levels below the last.
+        const levels = new Map<number, { share: number; spacing: number }>();
+        nodes.forEach(({ key }, index) => {
+          levels.set(key.depth, { share: counts[index] / 10_000, spacing: spacings[index] });
+        });
+        const deepest = Math.max(...levels.keys());
+        const { share, spacing } = levels.get(deepest)!;
+        const above = deepest === 0 ? 0 : 1 / (2 * spacing) ** 2;
+        const density = above + share * (1 / spacing ** 2 - above);
+        // All is as near as its level says but for the depth of the cube: nearer parts show a little more.
+        if (deepest < 4) expect(density * error ** 2).toBeGreaterThan(0.5);
+        if (deepest < 4) expect(density * error ** 2).toBeLessThan(2);
+      }),
+    );
+  });
+
+  it("changes by little where the camera moves by little, with and without a budget", () => {
+    const root = tree(4, 10_000);
+    for (const pointBudget of [1e9, 300_000]) {
+      const pointsAt = (x: number) =>
+        selectNodes(root, viewFrom(x), { ...options, pointBudget }, boundsOf).points;
+      for (let x = -30_000; x < -1500; x += 150) {
+        const [here, there] = [pointsAt(x), pointsAt(x + 1)];
+        expect(Math.abs(there - here) / here).toBeLessThan(0.02);
+      }
+    }
+  });
+
+  it("asks for nothing that is rejected, nor for what is below", () => {
+    const rejects = ({ x }: NodeBounds) => x > EDGE / 2;
+    const reached: string[] = [];
+    const root = tree(2);
+    const { nodes } = selectNodes(root, viewFrom(-300), { ...options, rejects }, (node) => {
+      reached.push(node.name);
+      return boundsOf(node);
+    });
+    expect(nodes.some(({ key }) => key.depth === 1)).toBe(true);
+    expect(nodes.filter(({ key }) => key.depth > 0 && key.x >= 2 ** (key.depth - 1))).toEqual([]);
+    expect(reached.filter((name) => name.startsWith("2-2") || name.startsWith("2-3"))).toEqual([]);
+  });
+
+  it("shows a far data set by one point at least, and one whose upper levels are empty", () => {
+    expect(selectNodes(tree(1), viewFrom(-1e9), options, boundsOf).counts).toEqual([1]);
+    const root = new OctreeNode({ depth: 0, x: 0, y: 0, z: 0 }, "empty");
+    root.adopt(tree(1, 100, { depth: 1, x: 1, y: 1, z: 1 }));
+    expect(selectNodes(root, viewFrom(-1e9), options, boundsOf).counts).toEqual([1]);
+  });
+
+  it("names as fringe what is too small by little, and nothing else", () => {
+    const root = tree(1);
+    const [, child] = selectNodes(root, viewFrom(-2000), options, boundsOf).spacings;
+    const choose = (error: number) =>
+      selectNodes(root, viewFrom(-2000), { ...options, maximumScreenSpaceError: error }, boundsOf);
+    expect(choose(1.9 * child).fringe).toHaveLength(0);
+    expect(choose(2.1 * child).fringe.length).toBeGreaterThan(0);
+    expect(choose(2.1 * child).nodes).toHaveLength(1);
+    expect(choose(4 * child).fringe).toHaveLength(0);
   });
 });

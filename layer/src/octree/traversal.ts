@@ -1,6 +1,8 @@
+import { type BoundsOf, FRINGE, gather } from "./demand.js";
 import type { NodeBounds, OctreeNode } from "./octree-node.js";
-import { PriorityQueue } from "./priority-queue.js";
-import { behindHorizon, outsideFrustum, projectedSize, type View } from "./view.js";
+import { countsAt, thresholdFor } from "./share.js";
+import type { Grant, SharedBudget } from "./shared-budget.js";
+import type { View } from "./view.js";
 
 /** How far an octree is refined. */
 export interface TraversalOptions {
@@ -8,78 +10,68 @@ export interface TraversalOptions {
   readonly maximumScreenSpaceError: number;
   /** Most points that a selection holds. */
   readonly pointBudget: number;
+  /** Points that several clouds of a scene share; holds beside {@link pointBudget}. Default: none are shared. */
+  readonly budget?: SharedBudget | undefined;
+  /** Whether a node may be drawn in part, so that density changes without popping. Default: true. */
+  readonly prefix?: boolean | undefined;
+  /** Says of a node that nothing of it will be drawn; neither it nor anything below it is then asked for. */
+  readonly rejects?: ((bounds: NodeBounds) => boolean) | undefined;
 }
 
 /** What one view wants of an octree. */
 export interface Selection {
   /** Nodes with points, most important first, each after its parent. */
   readonly nodes: OctreeNode[];
+  /** How many points of each of {@link nodes} to draw, from the first in drawing order; at least 1. */
+  readonly counts: number[];
+  /** Distance between neighbouring points of each of {@link nodes} on the screen, pixels; Infinity around the camera. */
+  readonly spacings: number[];
   /** Nodes whose hierarchy page must be read before the view is complete, most important first. */
   readonly pages: OctreeNode[];
-  /** Points of all {@link nodes} together. */
+  /** Nodes a little too small to be drawn: not to be asked for, nor to be stopped where they are on their way. */
+  readonly fringe: OctreeNode[];
+  /** Sum of {@link counts}. */
   readonly points: number;
   /** True where the point budget ended the refinement, not the screen-space error. */
   readonly limited: boolean;
 }
 
-/** Gives a node's bounds; called once per node that a view reaches. */
-export type BoundsOf = (node: OctreeNode) => NodeBounds;
-
 /**
- * Chooses the nodes that a view should show: from the root, always the one whose spacing is largest on the
- * screen next, until every spacing is below the screen-space error or the budget is spent. COPC octrees add:
- * a child's points are drawn with its parent's.
+ * Chooses the nodes that a view should show, and how many points of each: the whole picture to one distance between
+ * points, the screen-space error, or the least that the budget allows. COPC octrees add: a child's points are drawn
+ * with its parent's.
+ * @param viewer stands for the view in a shared budget; the same object in each call
  */
 export function selectNodes(
   root: OctreeNode,
   view: View,
   options: TraversalOptions,
   boundsOf: BoundsOf,
+  viewer: object = root,
 ): Selection {
-  const nodes: OctreeNode[] = [];
-  const pages: OctreeNode[] = [];
+  const { maximumScreenSpaceError, pointBudget, budget, prefix = true, rejects } = options;
+  const limit = Math.min(pointBudget, budget?.points ?? Number.POSITIVE_INFINITY);
+  const gathered = gather(root, view, { maximumScreenSpaceError, limit, prefix, rejects }, boundsOf);
+  const { demand, pages, fringe } = gathered;
+  const grant: Grant = budget ? budget.grant(viewer, demand, pointBudget) : alone();
+  const selection = { nodes: [] as OctreeNode[], counts: [] as number[], spacings: [] as number[] };
   let points = 0;
-  let limited = false;
-  const queue = new PriorityQueue<OctreeNode>();
-  const consider = (node: OctreeNode) => {
-    node.bounds ??= boundsOf(node);
-    if (outsideFrustum(view, node.bounds) || behindHorizon(view, node.bounds)) return;
-    queue.push(node, priorityOf(view, node.bounds));
-  };
-  consider(root);
-  for (let node = queue.pop(); node; node = queue.pop()) {
-    if (node.state === "page" || node.state === "opening" || node.pageFailed) {
-      pages.push(node);
+  for (let index = 0; index < grant.counts.length; index++) {
+    const count = grant.counts[index];
+    const node = gathered.nodes[index];
+    if (count === 0) {
+      if (2 * demand.pixels[index] > FRINGE * grant.threshold) fringe.push(node);
       continue;
     }
-    if (points + node.pointCount > options.pointBudget) {
-      limited = true;
-      break;
-    }
-    if (node.pointCount > 0) nodes.push(node);
-    points += node.pointCount;
-    const bounds = node.bounds!;
-    if (!node.children || projectedSize(view, bounds, bounds.spacing) <= options.maximumScreenSpaceError) {
-      continue;
-    }
-    for (const child of node.children) if (child) consider(child);
+    points += count;
+    selection.nodes.push(node);
+    selection.counts.push(count);
+    selection.spacings.push(gathered.spacings[index]);
   }
-  return { nodes, pages, points, limited };
-}
+  return { ...selection, pages, fringe, points, limited: grant.threshold > 0 };
 
-/**
- * Importance of a node: its spacing in pixels, halved towards the edge of the picture and beyond, where the
- * eye does not rest. A node that the camera is in comes before all others, larger ones first.
- */
-export function priorityOf(view: View, bounds: NodeBounds): number {
-  const size = projectedSize(view, bounds, bounds.spacing);
-  if (size === Number.POSITIVE_INFINITY) return 1e12 * (1 + bounds.spacing);
-  const { position, direction } = view;
-  const x = bounds.x - position[0];
-  const y = bounds.y - position[1];
-  const z = bounds.z - position[2];
-  const length = Math.hypot(x, y, z);
-  const cosine =
-    length > bounds.radius ? (x * direction[0] + y * direction[1] + z * direction[2]) / length : 1;
-  return size * (0.75 + 0.25 * cosine);
+  function alone(): Grant {
+    const threshold = thresholdFor([demand], limit);
+    return { counts: countsAt(demand, threshold, limit), threshold };
+  }
 }

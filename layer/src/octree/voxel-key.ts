@@ -44,7 +44,11 @@ export function isWithin(key: VoxelKey, ancestor: VoxelKey): boolean {
   return key.depth >= ancestor.depth && sameKey(ancestorAt(key, ancestor.depth), ancestor);
 }
 
-/** Number of a node among its siblings, 0 to 7: x in bit 0, y in bit 1, z in bit 2. */
-export function octant(key: VoxelKey): number {
-  return (key.x % 2) + 2 * (key.y % 2) + 4 * (key.z % 2);
+/**
+ * Number of a node among its siblings, 0 to 7: x in bit 0, y in bit 1, z in bit 2.
+ * @param of depth of the ancestor that is meant instead of the node itself
+ */
+export function octant({ depth, x, y, z }: VoxelKey, of: number = depth): number {
+  const shift = depth - of;
+  return ((x >>> shift) & 1) | (((y >>> shift) & 1) << 1) | (((z >>> shift) & 1) << 2);
 }

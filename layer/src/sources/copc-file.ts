@@ -2,6 +2,7 @@ import type { GeoTiffKeys } from "@groma/georef";
 import { SourceError } from "../errors/index.js";
 import type { ByteSource, ReadOptions } from "./byte-source.js";
 import { COPC_INFO_END, type CopcInfo, type PageAddress, parseCopcInfo } from "./copc-info.js";
+import { type ExtraBytes, parseExtraBytes } from "./extra-bytes.js";
 import {
   checkPageAddress,
   type HierarchyEntry,
@@ -9,7 +10,7 @@ import {
   parseHierarchyPage,
 } from "./hierarchy.js";
 import { looksLikeHtml } from "./http-answer.js";
-import { badHeader, type LasHeader, parseLasHeader, truncated } from "./las-header.js";
+import { BASE_RECORD_LENGTH, badHeader, type LasHeader, parseLasHeader, truncated } from "./las-header.js";
 import { type CloudStatistics, decodeStatistics } from "./statistics-record.js";
 import { findVlr, readVlr, type VlrEntry, walkEvlrs, walkVlrs } from "./vlrs.js";
 
@@ -28,6 +29,8 @@ export interface CopcFile {
   readonly transformation?: Uint8Array;
   /** Groma's statistics record (VLR `groma` 2). */
   readonly statistics?: CloudStatistics;
+  /** What the extra bytes of each record hold (LASF_Spec 4); empty where they are not described. */
+  readonly extraBytes: readonly ExtraBytes[];
   readonly limits: HierarchyLimits;
 }
 
@@ -69,7 +72,7 @@ export async function openCopc(source: ByteSource, options: ReadOptions = {}): P
   const headerLength = new DataView(bytes.buffer, bytes.byteOffset).getUint16(94, true);
   const entries = walkVlrs(bytes, header, headerLength, file);
   if (isSpreadOut(entries, header)) entries.push(...(await walkEvlrs(source, header, options)));
-  return { source, header, info, limits, ...(await readRecords(source, entries, options)) };
+  return { source, header, info, limits, ...(await readRecords(source, header, entries, options)) };
 }
 
 /**
@@ -82,10 +85,14 @@ function isSpreadOut(entries: readonly VlrEntry[], { evlrCount }: LasHeader): bo
   return !findVlr(entries, PROJECTION, 2112);
 }
 
-type Records = Pick<CopcFile, "wkt" | "geoTiff" | "georeference" | "transformation" | "statistics">;
+type Records = Pick<
+  CopcFile,
+  "wkt" | "geoTiff" | "georeference" | "transformation" | "statistics" | "extraBytes"
+>;
 
 async function readRecords(
   source: ByteSource,
+  { pointFormat, recordLength }: LasHeader,
   entries: readonly VlrEntry[],
   options: ReadOptions,
 ): Promise<Records> {
@@ -95,6 +102,7 @@ async function readRecords(
   const georeference = await content("groma", 1);
   const transformation = await content("groma", 3);
   const statistics = await content("groma", 2);
+  const extraBytes = await content("LASF_Spec", 4);
   return {
     // LAS allows WKT to end with NULs.
     ...(wkt && {
@@ -109,6 +117,7 @@ async function readRecords(
     ...(georeference && { georeference }),
     // A copy: what goes to the workers takes its whole buffer along, here that of the opening read.
     ...(transformation && { transformation: transformation.slice() }),
+    extraBytes: extraBytes ? parseExtraBytes(extraBytes, recordLength - BASE_RECORD_LENGTH[pointFormat]) : [],
     ...(statistics && { statistics: decodeStatistics(statistics, source.name) }),
   };
 }

@@ -2,6 +2,7 @@ export { BlobSource } from "./blob-source.js";
 export { type ByteSource, isByteSource, type ReadOptions } from "./byte-source.js";
 export { type CopcFile, openCopc, readHierarchyPage } from "./copc-file.js";
 export type { CopcInfo, PageAddress } from "./copc-info.js";
+export type { ExtraBytes, NumberType } from "./extra-bytes.js";
 export {
   badHierarchy,
   type HierarchyEntry,

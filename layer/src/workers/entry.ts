@@ -1,11 +1,14 @@
 import { create } from "laz-perf/lib/worker/index.js";
 import { DecodeError, toWire } from "../errors/index.js";
 import { LazDecoder } from "./laz-decoder.js";
-import { type PreparedDataSet, prepareDataSet, runNodeJob } from "./node-job.js";
-import type { NodeJob, NodeVertices, WorkerReply, WorkerRequest } from "./protocol.js";
+import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
+import type { ChunkJob, WorkerReply, WorkerRequest } from "./protocol.js";
 
 /** The worker's side of the protocol. Bundled into one file, `node.worker.js`, by `scripts/copy-assets.mjs`. */
 declare const self: DedicatedWorkerGlobalScope;
+
+/** A request for work, which is answered. */
+type JobRequest = Extract<WorkerRequest, { readonly job: ChunkJob }>;
 
 const dataSets = new Map<number, PreparedDataSet | unknown>();
 let decoder: Promise<LazDecoder> | undefined;
@@ -35,13 +38,20 @@ async function loadDecoder(): Promise<LazDecoder> {
   return new LazDecoder(() => create({ wasmBinary: bytes }));
 }
 
-async function decodeNode(job: NodeJob): Promise<NodeVertices> {
+/** Does what a request asks for and says which arrays go along with the answer. */
+async function carryOut(request: JobRequest): Promise<[WorkerReply, ArrayBufferLike]> {
+  const { id, job } = request;
   const dataSet = dataSets.get(job.dataSet);
   if (dataSet === undefined) throw new Error(`data set ${job.dataSet} is not known to this worker`);
   if (!isPrepared(dataSet)) throw dataSet;
   decoder ??= loadDecoder();
   try {
-    return await runNodeJob(dataSet, job, await decoder);
+    if (request.kind === "node") {
+      const result = await runNodeJob(dataSet, request.job, await decoder);
+      return [{ kind: "vertices", id, result }, result.buffer];
+    }
+    const result = await runRecordsJob(dataSet, request.job, await decoder);
+    return [{ kind: "records", id, result }, result.bytes.buffer];
   } catch (thrown) {
     // A decoder that could not be fetched is asked for again with the next job.
     if (thrown instanceof DecodeError && thrown.code === "DECODE_WASM") decoder = undefined;
@@ -62,19 +72,17 @@ function prepare(id: number, request: Extract<WorkerRequest, { kind: "dataSet" }
   }
 }
 
-async function answer(id: number, job: NodeJob): Promise<void> {
-  let reply: WorkerReply;
+async function answer(request: JobRequest): Promise<void> {
   try {
-    const result = await decodeNode(job);
-    reply = { kind: "done", id, result };
-    self.postMessage(reply, [result.vertices]);
+    const [reply, buffer] = await carryOut(request);
+    self.postMessage(reply, [buffer as ArrayBuffer]);
   } catch (thrown) {
     const fault = toWire(thrown, {
       code: "DECODE_FAILED",
-      file: `node ${job.node}`,
+      file: `node ${request.job.node}`,
       fix: "Open the file again",
     });
-    reply = { kind: "failed", id, fault };
+    const reply: WorkerReply = { kind: "failed", id: request.id, fault };
     self.postMessage(reply);
   }
 }
@@ -82,5 +90,5 @@ async function answer(id: number, job: NodeJob): Promise<void> {
 self.onmessage = ({ data }: MessageEvent<WorkerRequest>) => {
   if (data.kind === "dataSet") prepare(data.id, data);
   else if (data.kind === "forget") dataSets.delete(data.id);
-  else void answer(data.id, data.job);
+  else void answer(data);
 };

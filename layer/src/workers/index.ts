@@ -1,10 +1,15 @@
 export { LazDecoder, type LazPerf } from "./laz-decoder.js";
 export { LocalExecutor } from "./local-executor.js";
 export { type PoolOptions, type WorkerLike, WorkerPool } from "./pool.js";
-export {
-  type DataSetSpec,
-  type NodeExecutor,
-  type NodeJob,
-  type NodeVertices,
-  VERTEX_STRIDE,
+export type {
+  Appearance,
+  ChunkJob,
+  Column,
+  ColumnData,
+  DataSetSpec,
+  NodeExecutor,
+  NodeJob,
+  NodeRecords,
+  NodeVertices,
 } from "./protocol.js";
+export { exactValue, type RecordField, recordFields } from "./record-fields.js";

@@ -1,6 +1,6 @@
 import type { LazDecoder } from "./laz-decoder.js";
-import { type PreparedDataSet, prepareDataSet, runNodeJob } from "./node-job.js";
-import type { DataSetSpec, NodeExecutor, NodeJob, NodeVertices } from "./protocol.js";
+import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
+import type { ChunkJob, DataSetSpec, NodeExecutor, NodeJob, NodeRecords, NodeVertices } from "./protocol.js";
 
 /** Carries out node jobs on the calling thread: for tools and tests, where nothing else waits for it. */
 export class LocalExecutor implements NodeExecutor {
@@ -26,19 +26,31 @@ export class LocalExecutor implements NodeExecutor {
     this.#dataSets.delete(id);
   }
 
-  async run(job: NodeJob, signal?: AbortSignal): Promise<NodeVertices> {
+  run(job: NodeJob, signal?: AbortSignal): Promise<NodeVertices> {
+    return this.#carryOut(job, signal, (dataSet) => runNodeJob(dataSet, job, this.#decoder));
+  }
+
+  records(job: ChunkJob, signal?: AbortSignal): Promise<NodeRecords> {
+    return this.#carryOut(job, signal, (dataSet) => runRecordsJob(dataSet, job, this.#decoder));
+  }
+
+  destroy(): void {
+    this.#dataSets.clear();
+  }
+
+  async #carryOut<T>(
+    job: ChunkJob,
+    signal: AbortSignal | undefined,
+    work: (dataSet: PreparedDataSet) => Promise<T>,
+  ): Promise<T> {
     signal?.throwIfAborted();
     const dataSet = this.#dataSets.get(job.dataSet);
     if (!dataSet) throw new Error(`data set ${job.dataSet} was never added or is removed`);
     this.#pending++;
     try {
-      return await runNodeJob(dataSet, job, this.#decoder);
+      return await work(dataSet);
     } finally {
       this.#pending--;
     }
-  }
-
-  destroy(): void {
-    this.#dataSets.clear();
   }
 }

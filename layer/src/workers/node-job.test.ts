@@ -1,8 +1,8 @@
-import { placePoint, resolveCrs } from "@groma/georef";
+import { ecefToGeodetic, placePoint, resolveCrs } from "@groma/georef";
 import { beforeAll, describe, expect, it } from "vitest";
 import type { LazDecoder } from "./laz-decoder.js";
-import { prepareDataSet, runNodeJob } from "./node-job.js";
-import type { DataSetSpec, NodeJob } from "./protocol.js";
+import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
+import type { Column, DataSetSpec, NodeJob, NodeVertices } from "./protocol.js";
 import { transformationBytes } from "./transformation.fixture.js";
 
 const FILE = "a.copc.laz";
@@ -17,6 +17,7 @@ const DOMAIN = { minX: 500_000, minY: 5_500_000, maxX: 501_000, maxY: 5_501_000 
 const plain: DataSetSpec = {
   ...{ file: FILE, crs, pointFormat: 7, recordLength: RECORD, tolerance: 0.001 },
   ...{ scale: [0.001, 0.001, 0.001], offset: [500_000, 5_500_000, 0], heights: [0, 50] },
+  ...{ extraBytes: [], ellipsoidalOrigin: -3 },
 };
 
 /** Three points at corners of the domain and one inside, LAS integers. */
@@ -35,30 +36,44 @@ const decoder = {
 } as unknown as LazDecoder;
 
 const job: NodeJob = {
-  ...{ dataSet: 1, chunk: new ArrayBuffer(0), pointCount: 4, node: "0-0-0-0", rgbBits: 8 },
+  ...{ dataSet: 1, chunk: new ArrayBuffer(0), pointCount: 4, node: "0-0-0-0" },
+  appearance: { rgbBits: 8, ranges: {} },
   cube: [500_000, 5_500_000, 0, 1000],
 };
+
+/** A drawn point's source coordinates. */
+const sourceOf = ({ scale, offset }: DataSetSpec, { order }: NodeVertices, point: number) =>
+  [0, 1, 2].map((axis) => XYZ[3 * order[point] + axis] * scale[axis] + offset[axis]);
+
+/** Exact place of a drawn point, ECEF. */
+function placeOf(dataSet: PreparedDataSet, vertices: NodeVertices, point: number): Float64Array {
+  const [x, y, z] = sourceOf(dataSet.spec, vertices, point);
+  const exact = new Float64Array(3);
+  placePoint(dataSet.truth, x, y, z, exact);
+  return exact;
+}
 
 /** Greatest distance of a stored vertex from where the data set's own map has it, and the node's bound. */
 async function worst(spec: DataSetSpec): Promise<{ distance: number; bound: number }> {
   const dataSet = prepareDataSet(spec);
-  const { vertices, frame, bound, count } = await runNodeJob(dataSet, job, decoder);
-  const view = new DataView(vertices);
-  const exact = new Float64Array(3);
+  const vertices = await runNodeJob(dataSet, job, decoder);
+  const { positions, frame, bound, count } = vertices;
   let distance = 0;
   for (let point = 0; point < count; point++) {
-    const source = [0, 1, 2].map((axis) => XYZ[3 * point + axis] * spec.scale[axis] + spec.offset[axis]);
-    placePoint(dataSet.truth, source[0], source[1], source[2], exact);
+    const exact = placeOf(dataSet, vertices, point);
     const away = [0, 1, 2].map((axis) => {
       let value = frame.origin[axis];
-      for (let c = 0; c < 3; c++)
-        value += frame.rotation[3 * c + axis] * view.getFloat32(20 * point + 4 * c, true);
+      for (let c = 0; c < 3; c++) value += frame.rotation[3 * c + axis] * positions[3 * point + c];
       return value - exact[axis];
     });
     distance = Math.max(distance, Math.hypot(...away));
   }
   return { distance, bound };
 }
+
+/** Value of a drawn point in a column of one component. */
+const columnValue = ({ data, scale, offset, constant }: Column, point: number) =>
+  constant ? constant[0] : data[point] * scale + offset;
 
 describe("runNodeJob", () => {
   let transformation: Uint8Array;
@@ -89,6 +104,68 @@ describe("runNodeJob", () => {
     }
     const [flat, lifted] = frames.map(({ origin }) => [...origin]);
     expect(Math.hypot(...lifted.map((value, axis) => value - flat[axis]))).toBeCloseTo(40, 3);
+  });
+
+  it("says how high each point is, by its source and above the ellipsoid", async () => {
+    for (const spec of [plain, { ...plain, transformation }]) {
+      const dataSet = prepareDataSet(spec);
+      const vertices = await runNodeJob(dataSet, job, decoder);
+      const { elevation, ellipsoidalHeight } = vertices.columns;
+      expect([elevation.offset, ellipsoidalHeight.offset]).toEqual([0, -3]);
+      const geodetic = new Float64Array(3);
+      for (let point = 0; point < vertices.count; point++) {
+        const [, , z] = sourceOf(spec, vertices, point);
+        expect(Math.abs(columnValue(elevation, point) - z)).toBeLessThanOrEqual(elevation.bound);
+        const [x, y, up] = placeOf(dataSet, vertices, point);
+        ecefToGeodetic(x, y, up, geodetic);
+        const off = Math.abs(columnValue(ellipsoidalHeight, point) - geodetic[2]);
+        expect(off).toBeLessThanOrEqual(ellipsoidalHeight.bound);
+      }
+      expect(elevation.bound).toBeLessThan(1e-5);
+      expect(ellipsoidalHeight.bound).toBeLessThan(0.0011);
+    }
+  });
+
+  it("maps the node frame back into the node's cube within its error", async () => {
+    for (const spec of [plain, { ...plain, transformation }]) {
+      const vertices = await runNodeJob(prepareDataSet(spec), job, decoder);
+      const { toCube, toCubeError, positions } = vertices;
+      let off = 0;
+      for (let point = 0; point < vertices.count; point++) {
+        const place = sourceOf(spec, vertices, point);
+        for (let axis = 0; axis < 3; axis++) {
+          const row = toCube.subarray(4 * axis, 4 * axis + 4);
+          const local = positions.subarray(3 * point, 3 * point + 3);
+          const cube = row[0] * local[0] + row[1] * local[1] + row[2] * local[2] + row[3];
+          off = Math.max(off, Math.abs(cube - (place[axis] - job.cube[axis]) / job.cube[3]));
+        }
+      }
+      expect(off).toBeLessThanOrEqual(toCubeError);
+      // A kilometre's curvature in the height of the cube, and the 24 bits of the matrix.
+      expect(toCubeError).toBeLessThan(2e-4);
+    }
+  });
+
+  it("puts all arrays into the one buffer that is transferred, and measures what it was not told", async () => {
+    const dataSet = prepareDataSet(plain);
+    const { buffer, bytes, positions, order, columns, seen } = await runNodeJob(dataSet, job, decoder);
+    expect([positions.buffer, order.buffer, columns.elevation.data.buffer]).toEqual([buffer, buffer, buffer]);
+    expect(bytes).toBe(buffer.byteLength);
+    // 4 points: 12 + 2 + 4 + 4 bytes each; all else is the same for all of them.
+    expect(bytes).toBe(88);
+    expect(seen).toBeUndefined();
+    expect(columns.color.constant).toEqual([0, 0, 0, 255]);
+    const judged = await runNodeJob(dataSet, { ...job, appearance: undefined }, decoder);
+    expect(judged.seen).toMatchObject({ rgbBits: 8, ranges: { intensity: [0, 0] } });
+    expect(judged.seen?.ranges.elevation.map((height) => Math.round(height * 1e3))).toEqual([0, 50_000]);
+  });
+
+  it("hands out the records themselves in the same drawing order", async () => {
+    const dataSet = prepareDataSet(plain);
+    const { order } = await runNodeJob(dataSet, job, decoder);
+    const records = await runRecordsJob(dataSet, job, decoder);
+    expect(records.order).toEqual(order);
+    expect(new DataView(records.bytes.buffer).getInt32(3 * RECORD + 4, true)).toBe(654_321);
   });
 
   it("PLACE_DOMAIN for points beyond what the transformation covers", async () => {

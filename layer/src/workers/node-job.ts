@@ -1,56 +1,100 @@
 import { type Domain, fitPlacement, placeIntegers, type Truth, truthOf } from "@groma/georef";
 import { badChunk } from "./chunk-layout.js";
+import { cubeMap } from "./cube-map.js";
+import { drawingOrder } from "./drawing-order.js";
 import type { LazDecoder } from "./laz-decoder.js";
-import { packVertices, positionBox } from "./pack.js";
-import type { DataSetSpec, NodeJob, NodeVertices } from "./protocol.js";
-import { integerBox, readRecords, valueRange } from "./records.js";
+import { cellGrid } from "./morton-sort.js";
+import { makeArrays } from "./node-columns.js";
+import type { ChunkJob, DataSetSpec, NodeJob, NodeRecords, NodeVertices } from "./protocol.js";
+import type { OrderedRecords } from "./record-columns.js";
+import { type RecordField, recordFields } from "./record-fields.js";
+import { integerBox, positionBox, readCoordinates } from "./records.js";
 
 /** A data set with the map of its coordinates to ECEF, which is made once. */
 export interface PreparedDataSet {
   readonly spec: DataSetSpec;
   readonly truth: Truth;
+  readonly fields: readonly RecordField[];
 }
 
 /** Makes the map of a data set. @throws CrsError, RecordError */
 export function prepareDataSet(spec: DataSetSpec): PreparedDataSet {
-  return { spec, truth: truthOf(spec, (spec.heights[0] + spec.heights[1]) / 2, spec.file) };
+  const truth = truthOf(spec, (spec.heights[0] + spec.heights[1]) / 2, spec.file);
+  return { spec, truth, fields: recordFields(spec.pointFormat, spec.extraBytes) };
 }
 
 /**
- * Carries out one node's work: decode, place, pack.
+ * Carries out one node's work: decode, order, place, pack.
  * @throws DecodeError, PlacementError
  */
 export async function runNodeJob(
-  dataSet: PreparedDataSet,
+  { spec, truth, fields }: PreparedDataSet,
   job: NodeJob,
   decoder: LazDecoder,
 ): Promise<NodeVertices> {
-  const { spec, truth } = dataSet;
-  const { pointFormat, recordLength, scale, offset, file } = spec;
-  const chunk = new Uint8Array(job.chunk);
-  const bytes = await decoder.decode(chunk, pointFormat, recordLength, job.pointCount, file, job.node);
-  const records = readRecords(bytes, pointFormat, recordLength);
-  const domain = sourceBox(integerBox(records), spec);
+  const { xyz, records } = await decodeChunk(spec, job, decoder);
+  const { count, order } = records;
+  const box = integerBox(xyz);
+  const domain = sourceBox(box, spec);
   checkInCube(domain, job, spec);
-  const placement = fitPlacement(truth, domain, spec.tolerance, file);
-  const positions = new Float32Array(3 * records.count);
-  placeIntegers(placement, records.xyz, records.count, scale, offset, positions);
-  const colour = valueRange(records.rgb);
-  const intensity = valueRange(records.intensity);
-  const vertices = packVertices(positions, records, {
-    rgbBits: job.rgbBits ?? (colour.max > 255 ? 16 : 8),
-    lowest: (spec.heights[0] - offset[2]) / scale[2],
-    highest: (spec.heights[1] - offset[2]) / scale[2],
-  });
-  return {
-    vertices,
-    count: records.count,
-    frame: placement.frame,
-    box: positionBox(positions),
-    bound: placement.bound,
-    scheme: placement.scheme,
-    seen: { colourMax: colour.max, intensityMin: intensity.min, intensityMax: intensity.max },
+  const placement = fitPlacement(truth, domain, spec.tolerance, spec.file);
+  const { frame, bound, scheme } = placement;
+  const place = (positions: Float32Array) => {
+    placeIntegers(placement, drawn(xyz, order), count, spec.scale, spec.offset, positions);
   };
+  const placed = { xyz, heights: [box[2], box[5]] as const, frame, bound, place };
+  const arrays = makeArrays(spec, fields, records, placed, job.appearance);
+  const extent = positionBox(arrays.positions);
+  return {
+    ...arrays,
+    ...{ count, frame, bound, scheme, box: extent, bytes: arrays.buffer.byteLength },
+    ...cubeMap(placement, job.cube, spec, { xyz, order }, arrays.positions, extent),
+  };
+}
+
+/**
+ * A node's records as they are, with the order in which they are drawn.
+ * @throws DecodeError
+ */
+export async function runRecordsJob(
+  { spec }: PreparedDataSet,
+  job: ChunkJob,
+  decoder: LazDecoder,
+): Promise<NodeRecords> {
+  const { xyz, records } = await decodeChunk(spec, job, decoder);
+  checkInCube(sourceBox(integerBox(xyz), spec), job, spec);
+  return { bytes: records.bytes, order: records.order };
+}
+
+async function decodeChunk(
+  { pointFormat, recordLength, file, scale, offset }: DataSetSpec,
+  { chunk, pointCount, node, cube }: ChunkJob,
+  decoder: LazDecoder,
+): Promise<{ readonly xyz: Int32Array; readonly records: OrderedRecords }> {
+  const bytes = await decoder.decode(
+    new Uint8Array(chunk),
+    pointFormat,
+    recordLength,
+    pointCount,
+    file,
+    node,
+  );
+  const xyz = readCoordinates(bytes, recordLength);
+  const count = xyz.length / 3;
+  const order = drawingOrder(xyz, count, cellGrid(cube, scale, offset));
+  return { xyz, records: { bytes, recordLength, count, order } };
+}
+
+/** Coordinates in drawing order. */
+function drawn(xyz: Int32Array, order: ArrayLike<number>): Int32Array {
+  const sorted = new Int32Array(xyz.length);
+  for (let point = 0, to = 0; to < sorted.length; point++, to += 3) {
+    const from = 3 * order[point];
+    sorted[to] = xyz[from];
+    sorted[to + 1] = xyz[from + 1];
+    sorted[to + 2] = xyz[from + 2];
+  }
+  return sorted;
 }
 
 /** Box of LAS integers in source coordinates. */
@@ -63,7 +107,7 @@ function sourceBox(box: Int32Array, { scale, offset }: DataSetSpec): Domain {
  * Damaged chunks often decode, to points all over the place. A node's points lie in its cube; a hundredth of
  * its edge is left to writers that round differently.
  */
-function checkInCube(domain: Domain, job: NodeJob, spec: DataSetSpec): void {
+function checkInCube(domain: Domain, job: ChunkJob, spec: DataSetSpec): void {
   const [x, y, z, edge] = job.cube;
   const outside = (least: number, greatest: number, from: number, axis: number) => {
     const slack = 0.01 * edge + 2 * spec.scale[axis];

@@ -24,13 +24,13 @@ class FakeWorker implements WorkerLike {
   }
 
   reply(
-    reply: Omit<Extract<WorkerReply, { kind: "failed" }>, "id"> | { kind: "done"; result: NodeVertices },
+    reply: Omit<Extract<WorkerReply, { kind: "failed" }>, "id"> | { kind: "vertices"; result: NodeVertices },
   ): void {
     this.onmessage?.({ data: { ...reply, id: this.job?.id } } as MessageEvent<WorkerReply>);
   }
 
   done(): void {
-    this.reply({ kind: "done", result: vertices });
+    this.reply({ kind: "vertices", result: vertices });
   }
 
   die(message = "crashed"): void {
@@ -53,7 +53,8 @@ function setUp(size: number, jobTimeout?: number) {
   });
   const dataSet = pool.addDataSet(spec);
   const job = (node = "0-0-0-0"): NodeJob => ({
-    ...{ dataSet, chunk: new ArrayBuffer(8), pointCount: 1, node, cube: [0, 0, 0, 1], rgbBits: 8 },
+    ...{ dataSet, chunk: new ArrayBuffer(8), pointCount: 1, node, cube: [0, 0, 0, 1] },
+    appearance: undefined,
   });
   return { pool, workers, job, dataSet };
 }
@@ -156,5 +157,21 @@ describe("WorkerPool", () => {
       await expect(result).rejects.toThrow(expect.objectContaining({ name: "AbortError" }));
     expect(workers[0].terminated).toBe(true);
     await expect(pool.run(job())).rejects.toThrow("destroyed");
+  });
+
+  it("has records decoded by the same workers, and takes no other answer for them", async () => {
+    const { pool, workers, job } = setUp(1);
+    const { appearance: _, ...chunk } = job();
+    const records = { bytes: new Uint8Array(1), order: new Uint16Array(1) };
+    const asked = pool.records(chunk);
+    const { id } = workers[0].heard.at(-1) as Extract<WorkerRequest, { kind: "records" }>;
+    workers[0].onmessage?.({ data: { kind: "records", id, result: records } } as MessageEvent<WorkerReply>);
+    await expect(asked).resolves.toBe(records);
+    const mixed = pool.run(job());
+    const next = workers[0].heard.at(-1) as Extract<WorkerRequest, { kind: "node" }>;
+    workers[0].onmessage?.({
+      data: { kind: "records", id: next.id, result: records },
+    } as MessageEvent<WorkerReply>);
+    await expect(mixed).rejects.toThrow("something else");
   });
 });

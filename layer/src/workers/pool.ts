@@ -1,8 +1,10 @@
 import { DecodeError, fromWire } from "../errors/index.js";
 import type {
+  ChunkJob,
   DataSetSpec,
   NodeExecutor,
   NodeJob,
+  NodeRecords,
   NodeVertices,
   WorkerReply,
   WorkerRequest,
@@ -28,10 +30,9 @@ export interface PoolOptions {
 }
 
 interface Task {
-  readonly id: number;
-  readonly job: NodeJob;
+  readonly request: Extract<WorkerRequest, { readonly job: ChunkJob }>;
   readonly signal: AbortSignal | undefined;
-  readonly resolve: (result: NodeVertices) => void;
+  readonly resolve: (reply: WorkerReply) => void;
   readonly reject: (reason: unknown) => void;
   /** Workers that died over this job. */
   deaths: number;
@@ -91,23 +92,16 @@ export class WorkerPool implements NodeExecutor {
     }
   }
 
-  run(job: NodeJob, signal?: AbortSignal): Promise<NodeVertices> {
-    return new Promise((resolve, reject) => {
-      if (this.#destroyed) throw new Error("the worker pool is destroyed");
-      signal?.throwIfAborted();
-      const abandon = () => this.#abandon(task);
-      const settle =
-        <T>(then: (value: T) => void) =>
-        (value: T) => {
-          signal?.removeEventListener("abort", abandon);
-          then(value);
-        };
-      const id = this.#nextId++;
-      const task: Task = { id, job, signal, resolve: settle(resolve), reject: settle(reject), deaths: 0 };
-      signal?.addEventListener("abort", abandon, { once: true });
-      this.#waiting.push(task);
-      this.#dispatch();
-    });
+  async run(job: NodeJob, signal?: AbortSignal): Promise<NodeVertices> {
+    const reply = await this.#ask({ kind: "node", id: this.#nextId++, job }, signal);
+    if (reply.kind !== "vertices") throw mixedUp(job.node);
+    return reply.result;
+  }
+
+  async records(job: ChunkJob, signal?: AbortSignal): Promise<NodeRecords> {
+    const reply = await this.#ask({ kind: "records", id: this.#nextId++, job }, signal);
+    if (reply.kind !== "records") throw mixedUp(job.node);
+    return reply.result;
   }
 
   /** Ends all workers. Jobs still open are rejected. */
@@ -121,6 +115,24 @@ export class WorkerPool implements NodeExecutor {
       slot.task?.reject(closed);
     }
     this.#dataSets.clear();
+  }
+
+  #ask(request: Task["request"], signal: AbortSignal | undefined): Promise<WorkerReply> {
+    return new Promise((resolve, reject) => {
+      if (this.#destroyed) throw new Error("the worker pool is destroyed");
+      signal?.throwIfAborted();
+      const abandon = () => this.#abandon(task);
+      const settle =
+        <T>(then: (value: T) => void) =>
+        (value: T) => {
+          signal?.removeEventListener("abort", abandon);
+          then(value);
+        };
+      const task: Task = { request, signal, resolve: settle(resolve), reject: settle(reject), deaths: 0 };
+      signal?.addEventListener("abort", abandon, { once: true });
+      this.#waiting.push(task);
+      this.#dispatch();
+    });
   }
 
   /** A running job is let end, since a worker cannot be stopped halfway without losing it; nobody hears of it. */
@@ -154,7 +166,7 @@ export class WorkerPool implements NodeExecutor {
   }
 
   #give(slot: Slot, task: Task): void {
-    const { dataSet } = task.job;
+    const { dataSet } = task.request.job;
     const spec = this.#dataSets.get(dataSet);
     if (!spec) {
       task.reject(new Error(`data set ${dataSet} was never added or is removed`));
@@ -166,18 +178,18 @@ export class WorkerPool implements NodeExecutor {
       slot.known.add(dataSet);
     }
     // The chunk is copied into the message rather than transferred: a second worker may need it.
-    slot.worker.postMessage({ kind: "node", id: task.id, job: task.job }, []);
+    slot.worker.postMessage(task.request, []);
     const limit = this.#options.jobTimeout ?? 60_000;
     slot.timer = setTimeout(() => this.#bury(slot, `no answer within ${limit} ms`), limit);
   }
 
   #receive(slot: Slot, reply: WorkerReply): void {
     const { task } = slot;
-    if (!task || task.id !== reply.id) return;
+    if (!task || task.request.id !== reply.id) return;
     clearTimeout(slot.timer);
     slot.task = undefined;
-    if (reply.kind === "done") task.resolve(reply.result);
-    else task.reject(fromWire(reply.fault));
+    if (reply.kind === "failed") task.reject(fromWire(reply.fault));
+    else task.resolve(reply);
     this.#dispatch();
   }
 
@@ -192,10 +204,15 @@ export class WorkerPool implements NodeExecutor {
     if (task && !task.signal?.aborted) {
       task.deaths++;
       if (task.deaths < MAX_DEATHS) this.#waiting.unshift(task);
-      else task.reject(workerError(task.job.node, cause));
+      else task.reject(workerError(task.request.job.node, cause));
     }
     this.#dispatch();
   }
+}
+
+/** A worker answered with something else than it was asked for: a bug of the layer's own. */
+function mixedUp(node: string): Error {
+  return new Error(`node ${node} was answered with something else`);
 }
 
 function workerError(node: string, cause: string): DecodeError {

@@ -1,4 +1,5 @@
 import type { FaultWire, Frame, Scheme, TruthSources } from "@groma/georef";
+import type { ExtraBytes } from "../sources/index.js";
 
 /** What a worker must know of a data set, once, before it takes jobs for it: where it is, and how it is stored. */
 export interface DataSetSpec extends TruthSources {
@@ -12,37 +13,87 @@ export interface DataSetSpec extends TruthSources {
   readonly scale: readonly [number, number, number];
   /** Source units, per axis. */
   readonly offset: readonly [number, number, number];
-  /** Heights that elevation 0 and 65535 stand for, source units. */
+  /** Least and greatest height that the header declares, source units. */
   readonly heights: readonly [number, number];
+  /** What the extra bytes of a record hold, in record order. */
+  readonly extraBytes: readonly ExtraBytes[];
+  /** Height above WGS84 that the column `ellipsoidalHeight` counts from, metres. */
+  readonly ellipsoidalOrigin: number;
   /** Greatest distance of a drawn point from its exact place, metres. */
   readonly tolerance: number;
 }
 
-/** One node's work: a chunk of compressed points that becomes vertices. */
-export interface NodeJob {
+/** What must be the same for all nodes of a data set, or its nodes would not match in colour. */
+export interface Appearance {
+  /** Bits per colour channel that the scan really uses. */
+  readonly rgbBits: 8 | 16;
+  /** Least and greatest value by column name, in the attribute's unit; what float32 columns count from is the least. */
+  readonly ranges: Readonly<Record<string, readonly [number, number]>>;
+}
+
+/** One node's chunk of compressed points, as it lies in the file. */
+export interface ChunkJob {
   readonly dataSet: number;
-  /** Compressed chunk as it lies in the file. */
   readonly chunk: ArrayBuffer;
   readonly pointCount: number;
   /** Node name, for errors. */
   readonly node: string;
   /** Cube of the node in source coordinates: min x, y, z and edge. Points far outside it mean damage. */
   readonly cube: readonly [number, number, number, number];
-  /** Bits per colour channel; undefined: to be judged by this node's own colours. */
-  readonly rgbBits: 8 | 16 | undefined;
 }
 
-/** Bytes per vertex; see {@link NodeVertices.vertices}. */
-export const VERTEX_STRIDE = 20;
+/** One node's work: a chunk of compressed points that becomes vertices. */
+export interface NodeJob extends ChunkJob {
+  /** Undefined: to be judged by this node's own points. */
+  readonly appearance: Appearance | undefined;
+}
 
-/** A node ready to be drawn. */
+/** Values of a column as they go to the GPU. */
+export type ColumnData =
+  | Uint8Array
+  | Int8Array
+  | Uint16Array
+  | Int16Array
+  | Uint32Array
+  | Int32Array
+  | Float32Array;
+
+/**
+ * One attribute of all points of a node, in drawing order. The value of a point is stored · scale + offset, or
+ * `constant` for all of them.
+ */
+export interface Column {
+  readonly name: string;
+  readonly components: 1 | 2 | 3 | 4;
+  /** `components` numbers per point; empty where `constant` is given. */
+  readonly data: ColumnData;
+  readonly scale: number;
+  readonly offset: number;
+  /** The value that all points have, in the attribute's unit; NaN where none of them has one. */
+  readonly constant?: readonly number[];
+  /** The stored number that means "no value". */
+  readonly noData?: number;
+  /** Greatest distance of a value from the record's, in the attribute's unit. */
+  readonly bound: number;
+}
+
+/**
+ * A node ready to be drawn. All typed arrays but `box`, `toCube` and the frame's are views of one {@link buffer},
+ * which is transferred.
+ */
 export interface NodeVertices {
+  readonly buffer: ArrayBuffer;
+  /** East, north, up of each point: float32, metres in the node frame, drawing order. */
+  readonly positions: Float32Array;
   /**
-   * Interleaved vertices of {@link VERTEX_STRIDE} bytes, in the order of the records in the chunk: position (3 float32,
-   * metres in the node frame), colour (4 uint8, RGBA), intensity (uint16), elevation (uint16, 0 to 65535 over the
-   * data set's heights). Transferred.
+   * Attributes by name: `color` (RGBA, 0 to 255), `nir`, `intensity`, `returnNumber`, `numberOfReturns`,
+   * `classification`, `flags` (byte 15 of the record), `scanAngle` (degrees), `userData`, `pointSourceId`, `gpsTime`
+   * (seconds), `elevation` (source z), `ellipsoidalHeight` (metres), and each numeric extra bytes attribute under its
+   * own name. A column is absent where the point format has no such attribute.
    */
-  readonly vertices: ArrayBuffer;
+  readonly columns: Readonly<Record<string, Column>>;
+  /** Index in the chunk of each drawn point. Every prefix of the drawing order is an even sample of the node. */
+  readonly order: Uint16Array | Uint32Array;
   readonly count: number;
   /** Node frame: local metres → ECEF. */
   readonly frame: Frame;
@@ -51,28 +102,46 @@ export interface NodeVertices {
   /** Certified distance of a stored position from its exact place, metres. */
   readonly bound: number;
   readonly scheme: Scheme;
-  /** What was seen in the records: the base for judging colours and intensities of a data set without statistics. */
-  readonly seen: { readonly colourMax: number; readonly intensityMin: number; readonly intensityMax: number };
+  /** Affine map, 3 rows of 4: node frame metres → the node's cube in the octree, [0, 1] per axis. */
+  readonly toCube: Float32Array;
+  /** Greatest distance of a point's place in the cube from its exact one, per axis, as share of the cube. */
+  readonly toCubeError: number;
+  /** What the node's own points look like; only where the job gave no appearance. */
+  readonly seen: Appearance | undefined;
+  /** Bytes of {@link buffer}. */
+  readonly bytes: number;
+}
+
+/** A node's points as recorded. */
+export interface NodeRecords {
+  /** Uncompressed records one after the other. Transferred. */
+  readonly bytes: Uint8Array;
+  /** Index in the chunk of each drawn point; as {@link NodeVertices.order}. */
+  readonly order: Uint16Array | Uint32Array;
 }
 
 /** From the page to a worker. */
 export type WorkerRequest =
   | { readonly kind: "dataSet"; readonly id: number; readonly spec: DataSetSpec }
   | { readonly kind: "forget"; readonly id: number }
-  | { readonly kind: "node"; readonly id: number; readonly job: NodeJob };
+  | { readonly kind: "node"; readonly id: number; readonly job: NodeJob }
+  | { readonly kind: "records"; readonly id: number; readonly job: ChunkJob };
 
 /** From a worker to the page. */
 export type WorkerReply =
-  | { readonly kind: "done"; readonly id: number; readonly result: NodeVertices }
+  | { readonly kind: "vertices"; readonly id: number; readonly result: NodeVertices }
+  | { readonly kind: "records"; readonly id: number; readonly result: NodeRecords }
   | { readonly kind: "failed"; readonly id: number; readonly fault: FaultWire };
 
-/** Whatever carries out node jobs: a pool of workers in a page, the same thread in a test or a tool. */
+/** Whatever carries out jobs: a pool of workers in a page, the same thread in a test or a tool. */
 export interface NodeExecutor {
   /** Makes a data set known; the number returned is what jobs refer to. */
   addDataSet(spec: DataSetSpec): number;
   removeDataSet(id: number): void;
-  /** @throws DecodeError, PlacementError; the signal's reason when aborted */
+  /** Decodes, places and packs. @throws DecodeError, PlacementError; the signal's reason when aborted */
   run(job: NodeJob, signal?: AbortSignal): Promise<NodeVertices>;
+  /** Decodes only. @throws DecodeError; the signal's reason when aborted */
+  records(job: ChunkJob, signal?: AbortSignal): Promise<NodeRecords>;
   /** Jobs accepted and not yet answered. */
   readonly pending: number;
   destroy(): void;

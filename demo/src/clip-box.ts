@@ -1,0 +1,62 @@
+import { ecefToGeodetic } from "@groma/georef";
+import { Clip, type ClipPlace, ClipSet, type PointCloudLayer } from "@groma/layer/cesium";
+
+/** What the box does to the points in it; `off`: there is none. */
+export type ClipWish = "off" | Clip["mode"];
+
+/** Least and greatest edge of the box, metres. */
+export const CLIP_EDGES = [1, 10_000] as const;
+
+/** One box that cuts the cloud: round the point that was picked last, else round the cloud's middle. */
+export class ClipBox {
+  readonly #clips = new ClipSet();
+  #wish: ClipWish = "off";
+  #edge = 0;
+  #middle: ClipPlace | undefined;
+
+  /** What the layers of the page are to be cut by. */
+  get clips(): ClipSet {
+    return this.#clips;
+  }
+
+  get wish(): ClipWish {
+    return this.#wish;
+  }
+
+  set wish(wish: ClipWish) {
+    this.#wish = wish;
+    this.#write();
+  }
+
+  /** Edge on the ground, metres. */
+  get edge(): number {
+    return this.#edge;
+  }
+
+  set edge(metres: number) {
+    this.#edge = metres;
+    this.#write();
+  }
+
+  /** Begins anew with another cloud. */
+  attach({ cloud: { bounds } }: PointCloudLayer): void {
+    this.#edge = Math.max(CLIP_EDGES[0], Math.min(CLIP_EDGES[1], Math.round(bounds.radius / 4)));
+    this.moveTo([bounds.x, bounds.y, bounds.z]);
+  }
+
+  /** Puts the box around a place. @param position ECEF, metres */
+  moveTo([x, y, z]: ArrayLike<number> & Iterable<number>): void {
+    const geodetic = new Float64Array(3);
+    ecefToGeodetic(x!, y!, z!, geodetic);
+    const [longitude, latitude, height] = geodetic;
+    this.#middle = { longitude: longitude!, latitude: latitude!, height: height! };
+    this.#write();
+  }
+
+  #write(): void {
+    this.#clips.clear();
+    if (this.#wish === "off" || !this.#middle) return;
+    const edge = this.#edge;
+    this.#clips.add(Clip.box({ center: this.#middle, size: [edge, edge, edge], mode: this.#wish }));
+  }
+}

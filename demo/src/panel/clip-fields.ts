@@ -1,0 +1,43 @@
+import { CLIP_EDGES, type ClipBox, type ClipWish } from "../clip-box.js";
+import type { FieldGroup } from "./drawing.js";
+
+const WISHES: readonly { readonly value: ClipWish; readonly label: string }[] = [
+  { value: "off", label: "everything" },
+  { value: "inside", label: "only what is inside" },
+  { value: "outside", label: "only what is outside" },
+  { value: "highlight", label: "everything, inside stands out" },
+];
+
+/** The switches of the box that cuts the cloud. */
+export function clipGroup(box: ClipBox): FieldGroup {
+  return {
+    title: "Clip box",
+    fields: [
+      {
+        kind: "choice",
+        id: "clip",
+        label: "Show",
+        options: () => WISHES,
+        read: () => box.wish,
+        write: (_layer, value) => {
+          box.wish = WISHES.find((wish) => wish.value === value)?.value ?? "off";
+        },
+      },
+      {
+        kind: "slider",
+        id: "clip-edge",
+        label: "Edge",
+        least: CLIP_EDGES[0],
+        most: CLIP_EDGES[1],
+        step: 0.02,
+        unit: "m",
+        logarithmic: true,
+        when: () => box.wish !== "off",
+        read: () => box.edge,
+        write: (_layer, value) => {
+          box.edge = value;
+        },
+      },
+    ],
+  };
+}

@@ -1,0 +1,221 @@
+import type { PointCloudLayer, PointCloudStyle, StyleParts } from "@groma/layer/cesium";
+import { eyeDomeOf, GRADIENTS } from "@groma/layer/cesium";
+import { attributeLabel } from "./attribute-words.js";
+import type { FieldGroup } from "./drawing.js";
+import type { CheckField, ChoiceField, RangeField, SliderField } from "./field.js";
+
+type Layer = PointCloudLayer;
+/** Parts of the style that are numbers, words, or on and off. */
+type KeyOf<Kind> = {
+  [Key in keyof PointCloudStyle]-?: PointCloudStyle[Key] extends Kind ? Key : never;
+}[keyof PointCloudStyle];
+
+const scalar = ({ style, cloud }: Layer) =>
+  cloud.attributes.some(({ name, kind }) => name === style.color && (kind === "scalar" || kind === "flags"));
+const spaced = ({ style }: Layer) => style.size !== "fixed";
+const lit = ({ style }: Layer) => style.eyeDomeLighting !== false;
+
+/** The switches for everything in a style. */
+export const STYLE_GROUPS: readonly FieldGroup[] = [
+  {
+    title: "Colour",
+    open: true,
+    fields: [
+      {
+        kind: "choice",
+        id: "color",
+        label: "Show",
+        options: colourings,
+        read: ({ style }) => style.color,
+        // A range given for one attribute says nothing of another.
+        write: (layer, color) => style(layer, { color, range: undefined }),
+      },
+      {
+        ...words("gradient", "gradient", "Gradient", ["auto", ...Object.keys(GRADIENTS)]),
+        when: scalar,
+        read: ({ style: { gradient } }) => (typeof gradient === "string" ? gradient : "auto"),
+      },
+      range(),
+      number("gamma", "Gamma", [0.2, 5], 0.05),
+      number("brightness", "Brightness", [-1, 1], 0.05),
+      number("contrast", "Contrast", [-1, 1], 0.05),
+      blendWith(),
+      blendShare(),
+      number("opacity", "Opacity", [0.05, 1], 0.05),
+      onOff("dithering", "Dithering"),
+    ],
+  },
+  {
+    title: "Points",
+    fields: [
+      words("size", "mode", "Size", ["fixed", "attenuated", "adaptive"]),
+      { ...number("pointSize", "Width", [1, 10], 0.5, "px"), when: (layer) => !spaced(layer) },
+      { ...number("spacingFactor", "Width", [0.5, 4], 0.1, "spacings"), when: spaced },
+      { ...number("minimumSize", "At least", [1, 10], 0.5, "px"), when: spaced },
+      { ...number("maximumSize", "At most", [2, 64], 1, "px"), when: spaced },
+      words("shape", "shape", "Shape", ["square", "disc", "paraboloid"]),
+      { ...automatic("highQuality", "Blended splats") },
+      {
+        ...number("hardness", "Hardness", [0.5, 10], 0.5),
+        when: ({ style }) => style.highQuality !== false,
+      },
+    ],
+  },
+  {
+    title: "Light",
+    fields: [
+      {
+        ...automatic("eyeDomeLighting", "Eye-Dome Lighting"),
+        read: ({ style: { eyeDomeLighting: now } }) => (typeof now === "object" ? "true" : String(now)),
+      },
+      { ...light("strength", "Strength", [0.1, 3], 0.1), when: lit },
+      { ...light("radius", "Radius", [0.5, 5], 0.1, "px"), when: lit },
+      {
+        kind: "choice",
+        id: "neighbours",
+        label: "Neighbours",
+        when: lit,
+        options: () => ["4", "8"].map((value) => ({ value, label: value })),
+        read: ({ style }) => String(eyeDomeOf(style).neighbours),
+        write: (layer, value) =>
+          style(layer, { eyeDomeLighting: { ...eyeDomeOf(layer.style), neighbours: value === "8" ? 8 : 4 } }),
+      },
+    ],
+  },
+];
+
+function style(layer: Layer, parts: StyleParts): void {
+  layer.style = parts;
+}
+
+/** What a cloud can be coloured by. */
+function colourings({ cloud }: Layer): { value: string; label: string }[] {
+  const own = cloud.hasColour ? [{ value: "rgb", label: "the scan's colours" }] : [];
+  const columns = cloud.attributes
+    .filter(({ kind, components }) => kind !== "color" && components === 1)
+    .map((attribute) => ({ value: attribute.name, label: attributeLabel(attribute) }));
+  return [...own, ...columns, { value: "levelOfDetail", label: "level of detail" }];
+}
+
+function number(
+  key: KeyOf<number>,
+  label: string,
+  [least, most]: readonly [number, number],
+  step: number,
+  unit?: string,
+): SliderField {
+  return {
+    kind: "slider",
+    id: key,
+    label,
+    least,
+    most,
+    step,
+    ...(unit && { unit }),
+    read: (layer) => layer.style[key],
+    write: (layer, value) => style(layer, { [key]: value }),
+  };
+}
+
+function words(
+  key: "gradient" | "size" | "shape",
+  id: string,
+  label: string,
+  values: readonly string[],
+): ChoiceField {
+  return {
+    kind: "choice",
+    id,
+    label,
+    options: () => values.map((value) => ({ value, label: value })),
+    read: (layer) => String(layer.style[key]),
+    write: (layer, value) => style(layer, { [key]: value }),
+  };
+}
+
+function onOff(key: "dithering", label: string): CheckField {
+  return {
+    kind: "check",
+    id: key,
+    label,
+    read: (layer) => layer.style[key],
+    write: (layer, value) => style(layer, { [key]: value }),
+  };
+}
+
+/** On, off, or where the scene calls for it. */
+function automatic(key: "highQuality" | "eyeDomeLighting", label: string): ChoiceField {
+  return {
+    kind: "choice",
+    id: key,
+    label,
+    options: () => [
+      { value: "false", label: "off" },
+      { value: "auto", label: "where it shows" },
+      { value: "true", label: "on" },
+    ],
+    read: (layer) => String(layer.style[key]),
+    write: (layer, value) => style(layer, { [key]: value === "auto" ? value : value === "true" }),
+  };
+}
+
+function light(
+  key: "strength" | "radius",
+  label: string,
+  [least, most]: readonly [number, number],
+  step: number,
+  unit?: string,
+): SliderField {
+  return {
+    kind: "slider",
+    id: key,
+    label,
+    least,
+    most,
+    step,
+    ...(unit && { unit }),
+    read: (layer) => eyeDomeOf(layer.style)[key],
+    write: (layer, value) => style(layer, { eyeDomeLighting: { ...eyeDomeOf(layer.style), [key]: value } }),
+  };
+}
+
+function range(): RangeField {
+  return {
+    kind: "range",
+    id: "range",
+    label: "Values",
+    when: scalar,
+    whole: ({ cloud, style: { color } }) => cloud.attributes.find(({ name }) => name === color)?.range,
+    read: (layer) => layer.style.range,
+    write: (layer, value) => style(layer, { range: value }),
+  };
+}
+
+function blendWith(): ChoiceField {
+  return {
+    kind: "choice",
+    id: "blend",
+    label: "Blended with",
+    options: (layer) => [{ value: "", label: "nothing" }, ...colourings(layer)],
+    read: (layer) => layer.style.blend?.color ?? "",
+    write: (layer, color) =>
+      style(layer, { blend: color === "" ? undefined : { color, share: layer.style.blend?.share ?? 0.5 } }),
+  };
+}
+
+function blendShare(): SliderField {
+  return {
+    kind: "slider",
+    id: "blend-share",
+    label: "Share",
+    least: 0,
+    most: 1,
+    step: 0.05,
+    when: (layer) => layer.style.blend !== undefined,
+    read: (layer) => layer.style.blend?.share ?? 0.5,
+    write(layer, share) {
+      const { blend } = layer.style;
+      if (blend) style(layer, { blend: { ...blend, share } });
+    },
+  };
+}

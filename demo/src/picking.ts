@@ -1,0 +1,81 @@
+import type { PickResult, PointCloudLayer } from "@groma/layer/cesium";
+import {
+  Cartesian3,
+  Color,
+  type Entity,
+  ScreenSpaceEventHandler,
+  ScreenSpaceEventType,
+  type Viewer,
+} from "cesium";
+
+/** The record of a point that was clicked. */
+export type Hit = PickResult<PointCloudLayer>;
+
+/** Pixels around the pointer in which a point counts as hit. */
+const REACH = 7;
+
+/** Finds the point under a click, and marks it in the scene. */
+export class Picking {
+  readonly #viewer: Viewer;
+  readonly #layer: () => PointCloudLayer | undefined;
+  readonly #found: (hit: Hit | undefined) => void;
+  #picking: AbortController | undefined;
+  #mark: Entity | undefined;
+
+  /**
+   * @param found hears of each point that was clicked, and of clicks beside all points
+   * @param failed hears why a point's record could not be read
+   */
+  constructor(
+    viewer: Viewer,
+    layer: () => PointCloudLayer | undefined,
+    found: (hit: Hit | undefined) => void,
+    failed: (thrown: unknown) => void,
+  ) {
+    this.#viewer = viewer;
+    this.#layer = layer;
+    this.#found = found;
+    const handler = new ScreenSpaceEventHandler(viewer.canvas);
+    handler.setInputAction(({ position }: ScreenSpaceEventHandler.PositionedEvent) => {
+      this.#pick(position).catch(failed);
+    }, ScreenSpaceEventType.LEFT_CLICK);
+  }
+
+  /** Forgets the point that was found. */
+  clear(): void {
+    this.#picking?.abort();
+    if (this.#mark) this.#viewer.entities.remove(this.#mark);
+    this.#mark = undefined;
+    this.#found(undefined);
+  }
+
+  async #pick(position: ScreenSpaceEventHandler.PositionedEvent["position"]): Promise<void> {
+    const layer = this.#layer();
+    if (!layer) return;
+    this.#picking?.abort();
+    this.#picking = new AbortController();
+    const { signal } = this.#picking;
+    let hit: Hit | undefined;
+    try {
+      hit = await layer.pick(position, { window: REACH, signal });
+    } catch (thrown) {
+      if (signal.aborted) return;
+      throw thrown;
+    }
+    if (signal.aborted) return;
+    this.clear();
+    if (!hit) return;
+    const [x, y, z] = hit.position;
+    this.#mark = this.#viewer.entities.add({
+      position: new Cartesian3(x, y, z),
+      point: {
+        pixelSize: 11,
+        color: Color.TRANSPARENT,
+        outlineColor: Color.fromCssColorString("#f2b84b"),
+        outlineWidth: 2,
+        disableDepthTestDistance: Number.POSITIVE_INFINITY,
+      },
+    });
+    this.#found(hit);
+  }
+}

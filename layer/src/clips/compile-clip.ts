@@ -1,0 +1,131 @@
+import { eastNorthUp, geodeticToEcef } from "@groma/georef";
+import { StyleError } from "../errors/index.js";
+import type { BoxClip, Clip, ClipPlace, PlaneClip, PolygonClip } from "./clip.js";
+import { ROLES } from "./clip-roles.js";
+import { type HalfSpace, halfSpaces } from "./half-spaces.js";
+import { prism } from "./prism.js";
+import { geodeticShape, sourceShape } from "./prism-shapes.js";
+import { placed } from "./rings.js";
+import { type Corner, extendedPlace } from "./source-space.js";
+import { unit, type Vector } from "./vectors.js";
+import type { SourceSpace, Volume } from "./volume.js";
+
+/**
+ * Checks what can be checked of a volume without a data set.
+ * @throws StyleError STYLE_CLIP
+ */
+export function checkClip(clip: Clip): void {
+  if (!Object.hasOwn(ROLES, clip.mode)) {
+    fail(`there is no mode "${clip.mode}"`, "Use inside, outside or highlight");
+  }
+  if (clip.kind === "polygon") checkPolygon(clip);
+  else if (clip.kind === "box") {
+    const finite = [clip.heading, clip.pitch, clip.roll, ...clip.size].every(Number.isFinite);
+    if (!finite || !clip.size.every((edge) => edge > 0)) {
+      fail(
+        `a box cannot be ${clip.size.join(" × ")} m large`,
+        "Give three lengths greater than 0, and finite angles",
+      );
+    }
+    checkPlace(clip.center);
+  } else {
+    if (![clip.heading, clip.pitch].every(Number.isFinite))
+      fail("a plane needs a direction", "Give finite angles");
+    checkPlace(clip.through);
+  }
+}
+
+/**
+ * A volume in float64, for one data set.
+ * @throws StyleError STYLE_CLIP; PlacementError where it is given in source coordinates that have no place
+ */
+export function compileClip(clip: Clip, space: SourceSpace): Volume {
+  checkClip(clip);
+  if (clip.kind === "polygon") return polygonVolume(clip, space);
+  return halfSpaces(clip.kind === "box" ? boxSides(clip, space) : [planeSide(clip, space)]);
+}
+
+function polygonVolume({ coordinates, ring, bottom, top }: PolygonClip, space: SourceSpace): Volume {
+  if (coordinates === "source") return prism(sourceShape(ring, { bottom, top }, space));
+  const shape = geodeticShape(ring, { bottom, top });
+  if (!shape) {
+    return fail("a polygon reaches farther than 85° from its middle", "Cut it into several polygons");
+  }
+  return prism(shape);
+}
+
+/** The box's own axes: turned by heading, pitch and roll, in this order. */
+function boxSides({ center, size, heading, pitch, roll }: BoxClip, space: SourceSpace): HalfSpace[] {
+  const place = placeOf(center, space);
+  const { rotation } = eastNorthUp(place);
+  const [sh, ch, sp, cp] = [Math.sin(heading), Math.cos(heading), Math.sin(pitch), Math.cos(pitch)];
+  const [sr, cr] = [Math.sin(roll), Math.cos(roll)];
+  const level: Vector = [ch, -sh, 0];
+  const depth: Vector = [sh * cp, ch * cp, sp];
+  const upright: Vector = [-sh * sp, -ch * sp, cp];
+  const mix = (a: Vector, x: number, b: Vector, y: number): Vector => [
+    a[0] * x + b[0] * y,
+    a[1] * x + b[1] * y,
+    a[2] * x + b[2] * y,
+  ];
+  const axes = [mix(level, cr, upright, -sr), depth, mix(level, sr, upright, cr)];
+  return axes.flatMap((axis, index) => {
+    const normal = inEcef(rotation, axis);
+    return [1, -1].map((sign) => ({
+      normal: normal.map((part) => sign * part) as unknown as Vector,
+      through: normal.map((part, i) => place[i] - (sign * part * size[index]) / 2),
+    }));
+  });
+}
+
+function planeSide({ through, heading, pitch }: PlaneClip, space: SourceSpace): HalfSpace {
+  const place = placeOf(through, space);
+  const { rotation } = eastNorthUp(place);
+  const level = Math.cos(pitch);
+  const normal = inEcef(rotation, [level * Math.sin(heading), level * Math.cos(heading), Math.sin(pitch)]);
+  return { normal, through: place };
+}
+
+function inEcef(rotation: Float64Array, [e, n, u]: Vector): Vector {
+  return unit([0, 1, 2].map((axis) => rotation[axis] * e + rotation[axis + 3] * n + rotation[axis + 6] * u));
+}
+
+function placeOf(place: ClipPlace, space: SourceSpace): Vector {
+  if ("source" in place) return placed(extendedPlace(space), ...place.source);
+  const ecef = new Float64Array(3);
+  geodeticToEcef(place.longitude, place.latitude, place.height, ecef);
+  return [ecef[0], ecef[1], ecef[2]];
+}
+
+function checkPlace(place: ClipPlace): void {
+  const numbers = "source" in place ? place.source : [place.longitude, place.latitude, place.height];
+  const onEarth = "source" in place || Math.abs(place.latitude) <= Math.PI / 2;
+  if (!numbers.every(Number.isFinite) || !onEarth) {
+    fail(
+      `(${numbers.join(", ")}) is no place`,
+      "Give longitude and latitude in radians and height in metres, or source",
+    );
+  }
+}
+
+function checkPolygon({ coordinates, ring, bottom, top }: PolygonClip): void {
+  if (coordinates !== "geodetic" && coordinates !== "source") {
+    fail(`there are no coordinates "${String(coordinates)}"`, "Use geodetic or source");
+  }
+  if (ring.length < 3) fail(`a polygon cannot have ${ring.length} corners`, "Give three corners or more");
+  const fits = ([x, y]: Corner) =>
+    Number.isFinite(x) && Number.isFinite(y) && (coordinates === "source" || Math.abs(y) <= Math.PI / 2);
+  if (!ring.every(fits)) {
+    fail(
+      "a corner of a polygon is no place",
+      "Give longitude and latitude in radians, or x and y of the data set",
+    );
+  }
+  if (bottom !== undefined && top !== undefined && !(bottom < top)) {
+    fail(`a polygon cannot stand from ${bottom} to ${top}`, "Give a top above the bottom");
+  }
+}
+
+function fail(cause: string, fix: string): never {
+  throw new StyleError({ code: "STYLE_CLIP", file: "clips", cause, fix });
+}

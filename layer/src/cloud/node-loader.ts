@@ -1,0 +1,144 @@
+import { FormatError } from "../errors/index.js";
+import { LruCache, type OctreeNode } from "../octree/index.js";
+import type { ByteSource } from "../sources/index.js";
+import type { Appearance, ChunkJob, NodeExecutor, NodeRecords, NodeVertices } from "../workers/index.js";
+import type { NodeGeometry } from "./node-geometry.js";
+
+/** The node that decides for all how colours are read and what columns count from, loaded or not. */
+type Judged =
+  | { readonly node: OctreeNode; readonly vertices: NodeVertices }
+  | { readonly node: OctreeNode; readonly error: unknown };
+
+/** What a loader works with. */
+export interface LoaderParts {
+  readonly source: ByteSource;
+  readonly executor: NodeExecutor;
+  /** Number of the data set with the executor. */
+  readonly dataSet: number;
+  readonly geometry: Pick<NodeGeometry, "cube">;
+  readonly root: OctreeNode;
+  /** Undefined: judged by the first node. */
+  readonly appearance: Appearance | undefined;
+}
+
+/** Bytes of plain records that are kept for points to be read again: some ten nodes. */
+const RECORD_BYTES = 32 * 1024 * 1024;
+
+/** Reads the chunks of nodes and has them made into vertices or plain records. */
+export class NodeLoader {
+  readonly #parts: LoaderParts;
+  readonly #records = new LruCache<OctreeNode, NodeRecords>({
+    points: Number.POSITIVE_INFINITY,
+    bytes: RECORD_BYTES,
+  });
+  readonly #reading = new Map<OctreeNode, Promise<NodeRecords>>();
+  #appearance: Appearance | undefined;
+  #judging: Promise<Judged> | undefined;
+
+  constructor(parts: LoaderParts) {
+    this.#parts = parts;
+    this.#appearance = parts.appearance;
+  }
+
+  /** How the points look, as recorded or as judged by the first node; undefined until that is here. */
+  get appearance(): Appearance | undefined {
+    return this.#appearance;
+  }
+
+  /** @throws SourceError, DecodeError, PlacementError */
+  async vertices(node: OctreeNode, signal: AbortSignal): Promise<NodeVertices> {
+    if (!this.#appearance) {
+      this.#judging ??= this.#judge(firstNode(this.#parts.root) ?? node);
+      const judged = await this.#judging;
+      signal.throwIfAborted();
+      if (judged.node === node) {
+        this.#judging = undefined;
+        if ("error" in judged) throw judged.error;
+        return judged.vertices;
+      }
+    }
+    return this.#make(node, signal);
+  }
+
+  /**
+   * A node's points as recorded; a few nodes are kept. Whoever asks for a node that is being read waits with the
+   * others, and may stop waiting.
+   * @throws SourceError, DecodeError; the signal's reason when aborted
+   */
+  async records(node: OctreeNode, signal: AbortSignal): Promise<NodeRecords> {
+    signal.throwIfAborted();
+    const kept = this.#records.use(node);
+    if (kept) return kept;
+    let reading = this.#reading.get(node);
+    if (!reading) {
+      reading = this.#decode(node).finally(() => this.#reading.delete(node));
+      this.#reading.set(node, reading);
+    }
+    return unlessAborted(reading, signal);
+  }
+
+  async #decode(node: OctreeNode): Promise<NodeRecords> {
+    const records = await this.#parts.executor.records(await this.#jobOf(node, undefined));
+    this.#records.set(node, records, { points: node.pointCount, bytes: records.bytes.byteLength });
+    this.#records.trim((candidate) => candidate === node);
+    return records;
+  }
+
+  /**
+   * Loads the node by which colours are judged. Not cancelled with whoever came first, since all others wait
+   * for it; should it be damaged, the next one decides.
+   */
+  async #judge(node: OctreeNode): Promise<Judged> {
+    try {
+      return { node, vertices: await this.#make(node, undefined) };
+    } catch (error) {
+      return { node, error };
+    }
+  }
+
+  async #make(node: OctreeNode, signal: AbortSignal | undefined): Promise<NodeVertices> {
+    const job = { ...(await this.#jobOf(node, signal)), appearance: this.#appearance };
+    const vertices = await this.#parts.executor.run(job, signal);
+    this.#appearance ??= vertices.seen;
+    return vertices;
+  }
+
+  async #jobOf(node: OctreeNode, signal: AbortSignal | undefined): Promise<ChunkJob> {
+    const { source, dataSet, geometry } = this.#parts;
+    const { address, pointCount, name } = node;
+    if (!address || pointCount === 0) throw noNode(name, source.name);
+    const bytes = await source.read(address.offset, address.offset + address.length, { signal });
+    const whole = bytes.byteLength === bytes.buffer.byteLength;
+    const chunk = (whole ? bytes.buffer : bytes.slice().buffer) as ArrayBuffer;
+    return { dataSet, chunk, pointCount, node: name, cube: geometry.cube(node.key) };
+  }
+}
+
+/** The error for a node that is not there. */
+export function noNode(name: string, file: string): FormatError {
+  return new FormatError({
+    code: "FORMAT_NODE",
+    file,
+    cause: `its octree has no node ${name} with points`,
+    fix: "Ask for a node that the octree lists",
+  });
+}
+
+/** The known node nearest to the root that has points. */
+function firstNode(root: OctreeNode): OctreeNode | undefined {
+  const queue: OctreeNode[] = [root];
+  for (let node = queue.shift(); node; node = queue.shift()) {
+    if (node.pointCount > 0) return node;
+    for (const child of node.children ?? []) if (child) queue.push(child);
+  }
+  return undefined;
+}
+
+/** The promise's outcome, or the signal's reason as soon as it is aborted. */
+function unlessAborted<T>(promise: Promise<T>, signal: AbortSignal): Promise<T> {
+  return new Promise((resolve, reject) => {
+    const stop = () => reject(signal.reason);
+    signal.addEventListener("abort", stop, { once: true });
+    promise.then(resolve, reject).finally(() => signal.removeEventListener("abort", stop));
+  });
+}

@@ -1,0 +1,67 @@
+import type { AccuracyPart } from "@groma/georef";
+import type { PointFilter } from "./filter.js";
+
+/** What is known of an attribute of a data set: as much as colouring needs. */
+export interface StyledAttribute {
+  /** Name of the column; the scan's own colours are `color`. */
+  readonly name: string;
+  readonly kind: "color" | "scalar" | "class" | "flags";
+  /** Least and greatest value; undefined while not known. */
+  readonly range?: readonly [number, number] | undefined;
+}
+
+/** What is known of the placing of a data set and of the nodes drawn, metres. */
+export interface PlacingFacts {
+  /** Greatest distance that the data set allows a drawn point from its exact place. */
+  readonly tolerance: number;
+  /** Longest edge of a drawn node's box. */
+  readonly nodeEdge: number;
+  /** Number of drawn nodes by their placing scheme. */
+  readonly schemes: Readonly<Record<string, number>>;
+  /** Worst certified bound of a drawn node. */
+  readonly bound: number;
+  /** Of that, what rounding to float32 may cost. */
+  readonly storageBound: number;
+  /** What heights are measured from. */
+  readonly heights: "ellipsoidal" | "geoid" | "unknown";
+  /** Height over the ellipsoid of source height 0, at the data set's middle. */
+  readonly undulation: number;
+  /** A length on the ground over that in source coordinates, less 1; undefined for angles. */
+  readonly scaleDeviation: number | undefined;
+  /** Named parts of the stated accuracy. */
+  readonly parts: readonly AccuracyPart[];
+}
+
+/** All numbers that the magnitudes of effects are computed from: one frame of one layer. */
+export interface SceneFacts {
+  /** Of the drawing buffer, pixels. */
+  readonly viewportHeight: number;
+  /** Drawing-buffer pixels per CSS pixel. */
+  readonly pixelRatio: number;
+  readonly nodes: number;
+  readonly points: number;
+  /**
+   * Least and greatest distance between neighbouring points, drawing-buffer pixels: of the drawn nodes of which no child
+   * is drawn, for the others' points lie among those of their children.
+   */
+  readonly spacings: readonly [number, number];
+  /** Least and greatest level of these nodes. */
+  readonly levels: readonly [number, number];
+  /** Distance between neighbouring points of the finest drawn level, metres on the ground. */
+  readonly finestSpacing: number;
+  /** Step of the depth buffer at the farthest node, as a share of the distance. */
+  readonly depthStep: number;
+  /** Step that a linear depth buffer of the scene's near and far plane would have at the farthest node, on screen, pixels. */
+  readonly depthStepPixels?: number | undefined;
+  /** Whether the depth buffer is logarithmic. */
+  readonly logarithmicDepth?: boolean | undefined;
+  /** Measured share of pixels whose depth steps by 1 % or more; undefined where it was not measured. */
+  readonly silhouettes?: number | undefined;
+  /** Volumes that cut. */
+  readonly clips: number;
+  /** Volumes that highlight. */
+  readonly highlights: number;
+  readonly filter?: PointFilter | undefined;
+  readonly attributes: readonly StyledAttribute[];
+  readonly placing?: PlacingFacts | undefined;
+}

@@ -1,0 +1,110 @@
+import type { LedgerRow } from "./effect-plan.js";
+import type { PlacingFacts, SceneFacts } from "./facts.js";
+
+/** Mean radius of the earth, metres (IUGG). */
+const EARTH_RADIUS = 6_371_008.8;
+
+/** Pixels from which a step of the depth buffer shows. */
+const DEPTH_THRESHOLD = 0.25;
+
+type Row = Omit<LedgerRow, "cost">;
+
+/** Rows of what is known of the placing: what leaving each part out would cost, and what all costs as it is. */
+export function placingRows({ placing, ...depth }: SceneFacts): LedgerRow[] {
+  const rows: Row[] = [...(placing ? rowsOf(placing) : []), ...depthRows(depth)];
+  return rows.map((row) => ({ ...row, cost: undefined }));
+}
+
+function rowsOf(placing: PlacingFacts): Row[] {
+  return [
+    curvature(placing),
+    geoid(placing),
+    ...scale(placing),
+    {
+      ...stated("placing", placing.bound, placing.tolerance, "worst certified bound of a drawn node"),
+      why: "certified for each node",
+    },
+    stated(
+      "storage",
+      placing.storageBound,
+      placing.tolerance,
+      "rounding to float32 in the node's frame, √3 · 2⁻²⁴ · half-width; part of the bound above",
+    ),
+    ...placing.parts.map(({ name, metres, note }) => ({
+      ...stated(name, metres ?? Number.NaN, placing.tolerance, "part of the stated accuracy"),
+      why: note ?? (metres === null ? "not known" : "stated"),
+    })),
+  ];
+}
+
+function curvature({ nodeEdge, schemes, tolerance }: PlacingFacts): Row {
+  const all = Object.values(schemes).reduce((sum, count) => sum + count, 0);
+  const curved = all - (schemes.affine ?? 0);
+  const names = Object.entries(schemes).map(([scheme, count]) => `${count} ${scheme}`);
+  return {
+    effect: "curvature",
+    magnitude: nodeEdge ** 2 / (8 * EARTH_RADIUS),
+    unit: "m",
+    threshold: tolerance,
+    active: curved > 0,
+    why:
+      curved > 0
+        ? `drawn nodes are placed by their certificates: ${names.join(", ")}`
+        : "one affine map places each drawn node within the tolerance",
+    source: "sagitta d² / 8R of the longest drawn node",
+  };
+}
+
+const HEIGHTS: Readonly<Record<PlacingFacts["heights"], string>> = {
+  geoid: "heights are measured from a geoid, and drawn over the ellipsoid",
+  ellipsoidal: "heights are ellipsoidal",
+  unknown: "what heights are measured from is not known",
+};
+
+function geoid({ undulation, heights, tolerance }: PlacingFacts): Row {
+  return {
+    effect: "geoid",
+    magnitude: Math.abs(undulation),
+    unit: "m",
+    threshold: tolerance,
+    active: Math.abs(undulation) >= tolerance,
+    why: HEIGHTS[heights],
+    source: "height over the ellipsoid of source height 0 at the data set's middle",
+  };
+}
+
+function scale({ scaleDeviation }: PlacingFacts): Row[] {
+  if (scaleDeviation === undefined) return [];
+  return [
+    {
+      effect: "gridScale",
+      magnitude: Math.abs(scaleDeviation),
+      unit: "m/m",
+      threshold: 0,
+      active: true,
+      why: "points stand on the globe, where lengths are those of the ground",
+      source: "|length on the ground / length in source coordinates − 1| at the data set's middle",
+    },
+  ];
+}
+
+function depthRows({ depthStepPixels, logarithmicDepth }: Omit<SceneFacts, "placing">): Row[] {
+  if (depthStepPixels === undefined) return [];
+  const active = logarithmicDepth ?? false;
+  return [
+    {
+      effect: "logarithmicDepth",
+      magnitude: depthStepPixels,
+      unit: "px",
+      threshold: DEPTH_THRESHOLD,
+      active,
+      why: active ? "the scene has it on" : "the scene has it off",
+      source: "step of a linear depth buffer at the farthest node, on screen",
+    },
+  ];
+}
+
+/** A row of something that is always there and is stated. */
+function stated(effect: string, magnitude: number, threshold: number, source: string): Row {
+  return { effect, magnitude, unit: "m", threshold, active: true, why: "stated", source };
+}

@@ -1,0 +1,67 @@
+// elevation in discs with tone: gradient, tone, fixedSize, disc
+
+// color: vertex
+in vec3 a_position;
+in float a_elevation;
+out vec3 v_color;
+uniform vec2 u_value0;
+uniform highp sampler2D u_gradient;
+uniform vec3 u_tone;
+uniform float u_pointSize;
+
+vec3 gradientColor(float at) {
+  float place = clamp(at, 0.0, 1.0) * 255.0;
+  int lower = min(int(place), 254);
+  vec3 a = texelFetch(u_gradient, ivec2(lower, 0), 0).rgb;
+  vec3 b = texelFetch(u_gradient, ivec2(lower + 1, 0), 0).rgb;
+  return mix(a, b, place - float(lower));
+}
+float tone(float value) {
+  return clamp((pow(value, u_tone.x) + u_tone.y - 0.5) * u_tone.z + 0.5, 0.0, 1.0);
+}
+vec3 tone(vec3 value) {
+  return vec3(tone(value.r), tone(value.g), tone(value.b));
+}
+void main() {
+  vec4 eye = czm_modelView * vec4(a_position, 1.0);
+  vec3 color = gradientColor(tone(clamp(a_elevation * u_value0.x + u_value0.y, 0.0, 1.0)));
+  gl_Position = czm_projection * eye;
+  float width = u_pointSize * czm_pixelRatio;
+  gl_PointSize = width;
+  v_color = color;
+}
+
+// color: fragment
+in vec3 v_color;
+uniform vec4 u_pickColor;
+
+void main() {
+  vec2 offset = 2.0 * gl_PointCoord - 1.0;
+  float squared = dot(offset, offset);
+  if (squared > 1.0) discard;
+  out_FragColor = czm_gammaCorrect(vec4(v_color, 1.0));
+}
+
+// id: vertex
+in vec3 a_position;
+flat out highp uint v_id;
+uniform int u_firstId;
+uniform float u_pointSize;
+
+void main() {
+  vec4 eye = czm_modelView * vec4(a_position, 1.0);
+  gl_Position = czm_projection * eye;
+  float width = u_pointSize * czm_pixelRatio;
+  gl_PointSize = width;
+  v_id = uint(u_firstId + gl_VertexID) + 1u;
+}
+
+// id: fragment
+flat in highp uint v_id;
+
+void main() {
+  vec2 offset = 2.0 * gl_PointCoord - 1.0;
+  float squared = dot(offset, offset);
+  if (squared > 1.0) discard;
+  out_FragColor = vec4(uvec4(v_id, v_id >> 8u, v_id >> 16u, v_id >> 24u) & 255u) / 255.0;
+}

@@ -1,0 +1,130 @@
+import type { NodeBounds, OctreeNode } from "./octree-node.js";
+import { PriorityQueue } from "./priority-queue.js";
+import { type Demand, pointsAt, shareOf } from "./share.js";
+import { behindHorizon, distanceTo, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
+
+/** Gives a node's bounds; called once per node that a view reaches. */
+export type BoundsOf = (node: OctreeNode) => NodeBounds;
+
+/** What a demand is gathered by. */
+export interface DemandOptions {
+  readonly maximumScreenSpaceError: number;
+  /** Points beyond which nothing needs to be gathered. */
+  readonly limit: number;
+  readonly prefix: boolean;
+  readonly rejects: ((bounds: NodeBounds) => boolean) | undefined;
+}
+
+/** A demand with the nodes that it is of. */
+export interface Gathered {
+  readonly demand: Demand;
+  readonly nodes: OctreeNode[];
+  /** Distance between neighbouring points on the screen, pixels, by node. */
+  readonly spacings: number[];
+  /** Nodes whose hierarchy page must be read, most important first. */
+  readonly pages: OctreeNode[];
+  /** Nodes too small by little. */
+  readonly fringe: OctreeNode[];
+}
+
+/** How much smaller than a node that is drawn one may be to be in the fringe. */
+export const FRINGE = 0.9;
+
+/** The list of gathered nodes grows by this factor before the points are counted again. */
+const GROWTH = 1.25;
+
+/**
+ * Goes through an octree from the root, always to the node next whose spacing is largest on the screen, until every
+ * spacing is below the screen-space error or more points are found than the limit could ever let through.
+ *
+ * Importance is the spacing in pixels, halved towards the edge of the picture and beyond, where the eye does not rest;
+ * never more than that of the node above. A node that the camera is in comes before all others, larger ones first.
+ */
+export function gather(root: OctreeNode, view: View, options: DemandOptions, boundsOf: BoundsOf): Gathered {
+  const { maximumScreenSpaceError: error, limit, prefix, rejects } = options;
+  const nodes: OctreeNode[] = [];
+  const spacings: number[] = [];
+  const pages: OctreeNode[] = [];
+  const fringe: OctreeNode[] = [];
+  const demand: Demand = { sizes: [], caps: [], pixels: [], base: [], prefix };
+  const metre = pixelsPerMetre(view);
+  const reached = new ReachedNodes();
+  const queue = new PriorityQueue<number>();
+  const consider = (node: OctreeNode, above: number, base: boolean) => {
+    node.bounds ??= boundsOf(node);
+    const { bounds } = node;
+    const distance = view.projection.kind === "orthographic" ? 1 : distanceTo(view, bounds);
+    const pixels = (bounds.spacing * metre) / distance;
+    if (!base && 2 * pixels <= FRINGE * error) return;
+    if (outsideFrustum(view, bounds) || behindHorizon(view, bounds) || rejects?.(bounds)) return;
+    const own = distance === 0 ? AROUND * bounds.spacing : pixels * weightOf(view, bounds);
+    const weighted = own < above ? own : above;
+    queue.push(reached.add(node, pixels, weighted, base), weighted);
+  };
+  consider(root, Number.POSITIVE_INFINITY, true);
+  let points = 0;
+  let check = 0;
+  for (let index = queue.pop(); index !== undefined; index = queue.pop()) {
+    const node = reached.nodes[index];
+    const pixels = reached.pixels[index];
+    const weighted = reached.weighted[index];
+    const base = reached.base[index];
+    const { state, pointCount, children } = node;
+    const drawn = base || 2 * pixels > error;
+    if (!drawn) {
+      fringe.push(node);
+      continue;
+    }
+    if (state === "page" || state === "opening" || node.pageFailed) {
+      pages.push(node);
+      continue;
+    }
+    if (pointCount > 0) {
+      nodes.push(node);
+      spacings.push(pixels);
+      demand.sizes.push(pointCount);
+      demand.caps.push(prefix ? shareOf(pixels, error, base) : 1);
+      demand.pixels.push(weighted);
+      demand.base.push(base);
+      points += pointCount;
+      if (points > limit && nodes.length >= check) {
+        // Whatever is still to come is less important than this node: nothing of it shows at twice its spacing.
+        if (pointsAt(demand, 2 * weighted) > limit) break;
+        check = Math.ceil(GROWTH * nodes.length);
+      }
+    }
+    const bare = base && pointCount === 0;
+    if (!children || !(bare || pixels > FRINGE * error)) continue;
+    for (const child of children) if (child) consider(child, weighted, bare);
+  }
+  return { demand, nodes, spacings, pages, fringe };
+}
+
+/** What a traversal came to, column by column, since an object for each of thousands of nodes in every frame is dear. */
+class ReachedNodes {
+  readonly nodes: OctreeNode[] = [];
+  readonly pixels: number[] = [];
+  readonly weighted: number[] = [];
+  readonly base: boolean[] = [];
+
+  /** @returns the index of the node */
+  add(node: OctreeNode, pixels: number, weighted: number, base: boolean): number {
+    this.pixels.push(pixels);
+    this.weighted.push(weighted);
+    this.base.push(base);
+    return this.nodes.push(node) - 1;
+  }
+}
+
+/** Pixels per metre of spacing at which nodes around the camera rank. */
+const AROUND = 1e12;
+
+/** 1 for a node in the middle of the picture, 0.75 beside the camera, 0.5 behind it. */
+function weightOf({ position, direction }: View, bounds: NodeBounds): number {
+  const x = bounds.x - position[0];
+  const y = bounds.y - position[1];
+  const z = bounds.z - position[2];
+  const length = Math.sqrt(x * x + y * y + z * z);
+  if (length <= bounds.radius) return 1;
+  return 0.75 + (0.25 * (x * direction[0] + y * direction[1] + z * direction[2])) / length;
+}

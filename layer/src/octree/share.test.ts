@@ -1,0 +1,73 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { countsAt, type Demand, pointsAt, shareOf, thresholdFor } from "./share.js";
+
+/** Nodes in falling order of their pixels, as a traversal gathers them. */
+const demands: fc.Arbitrary<Demand> = fc
+  .record({
+    nodes: fc.array(
+      fc.record({
+        size: fc.integer({ min: 1, max: 100_000 }),
+        pixels: fc.double({ min: 0.5, max: 500, noNaN: true }),
+      }),
+      { minLength: 1, maxLength: 60 },
+    ),
+    prefix: fc.boolean(),
+  })
+  .map(({ nodes, prefix }) => {
+    const pixels = nodes.map((node) => node.pixels).sort((a, b) => b - a);
+    const base = pixels.map((_, index) => index === 0);
+    const caps = pixels.map((value, index) => (prefix ? shareOf(value, 2, base[index]) : 1));
+    return { sizes: nodes.map(({ size }) => size), pixels, base, caps, prefix };
+  });
+
+const sum = (counts: readonly number[]) => counts.reduce((total, count) => total + count, 0);
+
+describe("shareOf", () => {
+  it("brings every spacing to one density", () => {
+    const pixels = fc.double({ min: 0.5, max: 1, noNaN: true });
+    fc.assert(
+      fc.property(pixels, (p) => {
+        // Threshold 1: a node with all above it, and its parents alone.
+        const whole = 1 / p ** 2;
+        const parents = whole / 4;
+        expect(parents + shareOf(p, 1, false) * (whole - parents)).toBeCloseTo(1, 9);
+        expect(shareOf(p, 1, true) * whole).toBeCloseTo(1, 9);
+      }),
+    );
+  });
+
+  it("begins at half the threshold and is whole at it", () => {
+    expect([0.4, 0.5, 1, 7].map((pixels) => shareOf(pixels, 1, false))).toEqual([0, 0, 1, 1]);
+  });
+});
+
+describe("thresholdFor", () => {
+  it("spends a limit to the last point and never more, where it is what limits", () => {
+    fc.assert(
+      fc.property(demands, fc.integer({ min: 0, max: 2_000_000 }), (demand, limit) => {
+        const threshold = thresholdFor([demand], limit);
+        const counts = countsAt(demand, threshold, limit);
+        expect(sum(counts)).toBeLessThanOrEqual(limit);
+        expect(counts.every((count, index) => count >= 0 && count <= demand.sizes[index])).toBe(true);
+        if (threshold === 0) {
+          expect(Math.abs(sum(counts) - pointsAt(demand, 0))).toBeLessThanOrEqual(demand.sizes.length);
+        } else if (demand.prefix && counts[0] > 0) expect(sum(counts)).toBe(limit);
+        // The next smaller spacing would be too much.
+        if (threshold > 0 && demand.prefix) {
+          expect(pointsAt(demand, threshold * (1 - 1e-6))).toBeGreaterThan(limit - 1);
+        }
+      }),
+    );
+  });
+
+  it("is one for several demands together", () => {
+    fc.assert(
+      fc.property(demands, demands, (a, b) => {
+        const limit = (pointsAt(a, 0) + pointsAt(b, 0)) / 3;
+        const threshold = thresholdFor([a, b], limit);
+        expect(pointsAt(a, threshold) + pointsAt(b, threshold)).toBeLessThanOrEqual(limit * (1 + 1e-9));
+      }),
+    );
+  });
+});

@@ -1,0 +1,95 @@
+import { ByteLedger } from "./byte-ledger.js";
+import { countsAt, type Demand, pointsAt, thresholdFor } from "./share.js";
+
+/** What several clouds of one scene have together. */
+export interface SharedBudgetOptions {
+  /** Most points drawn at once. Default: 1,000,000. */
+  readonly points?: number;
+  /** Bytes of decoded nodes that are kept. Default: 268,435,456. */
+  readonly cpuBytes?: number;
+  /** Bytes on the GPU. Default: 536,870,912. */
+  readonly gpuBytes?: number;
+}
+
+/** Points that a view may draw of each node of its demand. */
+export interface Grant {
+  readonly counts: number[];
+  /** Spacing on the screen that the budget allows, pixels; 0 where it is the screen-space error that set the counts. */
+  readonly threshold: number;
+}
+
+interface Share {
+  readonly demand: Demand;
+  readonly points: number;
+  readonly threshold: number;
+}
+
+/** A budget of 0 and more. */
+const held = (value: number) => (value > 0 ? value : 0);
+
+/**
+ * One budget for several clouds, as if they were one octree: all are drawn to the same spacing on the screen, that at
+ * which their points together keep the budget. Each view asks once per frame; what the others asked for last counts
+ * for them. The sum never passes the budget: a view that comes anew, or grows, gets its full part once the others
+ * have asked again ({@link balanced}).
+ */
+export class SharedBudget {
+  /** Most points drawn at once. */
+  points: number;
+  /** Bytes of decoded nodes of all clouds. */
+  readonly cpu: ByteLedger;
+  /** Bytes on the GPU of all layers; whoever uploads tells it. */
+  readonly gpu: ByteLedger;
+  readonly #shares = new Map<object, Share>();
+  #threshold = 0;
+
+  constructor({ points, cpuBytes, gpuBytes }: SharedBudgetOptions = {}) {
+    this.points = points ?? 1_000_000;
+    this.cpu = new ByteLedger(cpuBytes ?? 268_435_456);
+    this.gpu = new ByteLedger(gpuBytes ?? 536_870_912);
+  }
+
+  /** Points given out, never above {@link points} as it was when they were given. */
+  get granted(): number {
+    let points = 0;
+    for (const share of this.#shares.values()) points += share.points;
+    return points;
+  }
+
+  /** False while a view has not yet had the part that is due to it now: one more frame will give it. */
+  get balanced(): boolean {
+    for (const { threshold } of this.#shares.values()) {
+      if (Math.abs(threshold - this.#threshold) > 1e-3 * this.#threshold) return false;
+    }
+    return true;
+  }
+
+  /**
+   * Gives a view its part.
+   * @param viewer stands for the view; the same object in each call
+   * @param limit points that this view may have at most, whatever the budget leaves
+   */
+  grant(viewer: object, demand: Demand, limit: number): Grant {
+    this.#shares.delete(viewer);
+    const left = held(this.points - this.granted);
+    const demands = [...this.#shares.values()].map((share) => share.demand);
+    this.#threshold = thresholdFor([...demands, demand], held(this.points));
+    // What rounding leaves goes to whoever asks last; a whole number of points is due to each.
+    const due = this.#threshold === 0 ? left : Math.ceil(pointsAt(demand, this.#threshold));
+    const most = Math.min(left, due, held(limit));
+    const threshold = Math.max(this.#threshold, thresholdFor([demand], most));
+    const counts = countsAt(demand, threshold, most);
+    const points = counts.reduce((sum, count) => sum + count, 0);
+    // A view held back by its own limit is not waiting for the others, nor is one short of what rounding took.
+    const waits = most === left && most < due - demands.length;
+    this.#shares.set(viewer, { demand, points, threshold: waits ? threshold : this.#threshold });
+    return { counts, threshold };
+  }
+
+  /** A view ends: its points are free for the others. */
+  release(viewer: object): void {
+    this.#shares.delete(viewer);
+    const demands = [...this.#shares.values()].map((share) => share.demand);
+    this.#threshold = thresholdFor(demands, held(this.points));
+  }
+}

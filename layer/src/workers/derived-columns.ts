@@ -1,0 +1,134 @@
+import { type Frame, WGS84 } from "@groma/georef";
+import { constantColumn, halfUlp32, type PlannedArray, planArray } from "./column-plan.js";
+import type { ColumnSink, OrderedRecords } from "./record-columns.js";
+
+/** Bytes of red, green and blue in the formats 7 and 8 (LAS 1.4 R15, tables 16 and 17). */
+const RED = 30;
+
+/** Greatest colour value; 0 where the format has no colour. */
+export function greatestColour(records: OrderedRecords, pointFormat: number): number {
+  if (pointFormat < 7) return 0;
+  const { bytes, recordLength, count } = records;
+  let greatest = 0;
+  for (let record = 0, at = RED; record < count; record++, at += recordLength) {
+    for (let byte = at; byte < at + 6; byte += 2) {
+      const value = bytes[byte] | (bytes[byte + 1] << 8);
+      if (value > greatest) greatest = value;
+    }
+  }
+  return greatest;
+}
+
+/** Plans the column `color`: RGBA of 8 bits each; 16-bit colours are shown by their upper byte. */
+export function planColour(
+  records: OrderedRecords,
+  rgbBits: 8 | 16,
+  sink: ColumnSink,
+): PlannedArray | undefined {
+  const { bytes, recordLength, order, count } = records;
+  const lower = rgbBits === 16 ? 1 : 0;
+  const at = RED + lower;
+  let constant = true;
+  for (let record = 1, from = at + recordLength; constant && record < count; record++, from += recordLength) {
+    constant =
+      bytes[from] === bytes[at] && bytes[from + 2] === bytes[at + 2] && bytes[from + 4] === bytes[at + 4];
+  }
+  if (constant) {
+    const colour = constantColumn("color", [bytes[at], bytes[at + 2], bytes[at + 4], 255]);
+    sink({ ...colour, bound: lower });
+    return undefined;
+  }
+  return planArray(Uint8Array, 4 * count, (data) => {
+    for (let point = 0, to = 0; point < count; point++, to += 4) {
+      const from = order[point] * recordLength + at;
+      data[to] = bytes[from];
+      data[to + 1] = bytes[from + 2];
+      data[to + 2] = bytes[from + 4];
+      data[to + 3] = 255;
+    }
+    sink({ name: "color", components: 4, data, scale: 1, offset: 0, bound: lower });
+  });
+}
+
+/**
+ * Plans the column `elevation`: z as recorded, source units, counted from a height.
+ * @param xyz LAS integers in the order of the records
+ */
+export function planElevation(
+  { order, count }: OrderedRecords,
+  xyz: Int32Array,
+  range: readonly [number, number],
+  scale: number,
+  offset: number,
+  origin: number,
+  sink: ColumnSink,
+): PlannedArray | undefined {
+  const [least, greatest] = range;
+  if (least === greatest) {
+    sink(constantColumn("elevation", [least * scale + offset]));
+    return undefined;
+  }
+  return planArray(Float32Array, count, (data) => {
+    const from = offset - origin;
+    for (let point = 0; point < count; point++) data[point] = xyz[3 * order[point] + 2] * scale + from;
+    const reach = Math.max(Math.abs(least * scale + from), Math.abs(greatest * scale + from));
+    sink({ name: "elevation", components: 1, data, scale: 1, offset: origin, bound: halfUlp32(reach) });
+  });
+}
+
+/**
+ * Metres that {@link heightOf} may be off for heights of −10 km to 20,000 km: Bowring's latitude is wrong by less than
+ * 1e-8 radians there, and a wrong latitude counts by its square.
+ */
+const BOWRING_ERROR = 1e-6;
+
+/**
+ * Plans the column `ellipsoidalHeight`: metres above WGS84, counted from a height, of the points as they are placed.
+ * Latitude by B. R. Bowring, "Transformation from spatial to geographical coordinates", Survey Review 181 (1976), one
+ * step, without trigonometric functions; then h = p cos φ + z sin φ − a √(1 − e² sin² φ).
+ * @param positions metres in the node frame, drawing order
+ * @param bound of the positions, metres
+ */
+export function planHeight(
+  positions: () => Float32Array,
+  count: number,
+  { origin: [x0, y0, z0], rotation }: Frame,
+  bound: number,
+  origin: number,
+  sink: ColumnSink,
+): PlannedArray {
+  const [ex, ey, ez, nx, ny, nz, ux, uy, uz] = rotation;
+  const { a, f, e2 } = WGS84;
+  const b = a * (1 - f);
+  const north3 = (e2 / (1 - e2)) * b;
+  const out3 = e2 * a;
+  return planArray(Float32Array, count, (data) => {
+    const local = positions();
+    let reach = 0;
+    for (let point = 0, at = 0; point < count; point++, at += 3) {
+      const east = local[at];
+      const north = local[at + 1];
+      const up = local[at + 2];
+      const x = x0 + ex * east + nx * north + ux * up;
+      const y = y0 + ey * east + ny * north + uy * up;
+      const z = z0 + ez * east + nz * north + uz * up;
+      const p = Math.sqrt(x * x + y * y);
+      // Sine and cosine of the reduced latitude; on the axis the height is that above a pole.
+      const za = z * a;
+      const pb = p * b;
+      const reduced = 1 / Math.sqrt(za * za + pb * pb);
+      const sinReduced = za * reduced;
+      const cosReduced = pb * reduced;
+      const opposite = z + north3 * sinReduced * sinReduced * sinReduced;
+      const adjacent = p - out3 * cosReduced * cosReduced * cosReduced;
+      const length = 1 / Math.sqrt(opposite * opposite + adjacent * adjacent);
+      const sine = opposite * length;
+      const height = p * adjacent * length + z * sine - a * Math.sqrt(1 - e2 * sine * sine) - origin;
+      data[point] = height;
+      const size = height < 0 ? -height : height;
+      if (size > reach) reach = size;
+    }
+    const off = bound + BOWRING_ERROR + halfUlp32(reach);
+    sink({ name: "ellipsoidalHeight", components: 1, data, scale: 1, offset: origin, bound: off });
+  });
+}

@@ -1,0 +1,189 @@
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { pythonMissing } from "../python.js";
+import { colourDifference, meanColour } from "./harness.js";
+import type { Pose } from "./stage/setting.js";
+import { decode, difference, differenceToExpected, openStage, type StagePage } from "./stage.js";
+
+const GREY = [128, 128, 128];
+const OBLIQUE: Pose = { range: 26, pitch: -35, heading: 30 };
+
+describe.skipIf(pythonMissing)(
+  `layers in scenes${pythonMissing ? ` (skipped: ${pythonMissing})` : ""}`,
+  () => {
+    let stage: StagePage;
+    beforeAll(async () => {
+      stage = await openStage();
+    }, 120_000);
+    afterAll(() => stage?.close());
+
+    it("are refused in Columbus view and in 2D, with one warning each", { timeout: 30_000 }, async () => {
+      const warnings: string[] = [];
+      stage.page.on("console", (message) => {
+        if (message.type() === "warning" && message.text().includes("3D only")) warnings.push(message.text());
+      });
+      const drawn = await stage.page.evaluate(async (pose) => {
+        const stage = new window.page.Stage({ scene3DOnly: false });
+        const layer = await stage.show("steps", { style: { eyeDomeLighting: true } });
+        stage.look(pose);
+        await stage.settle();
+        const drawn = [layer.statistics.pointsDrawn > 0];
+        for (const flat of ["morphToColumbusView", "morphTo2D"] as const) {
+          stage.scene[flat](0);
+          for (let at = 0; at < 3; at++) stage.frame();
+          drawn.push(layer.statistics.pointsDrawn > 0);
+        }
+        stage.scene.morphTo3D(0);
+        stage.look(pose);
+        await stage.settle();
+        drawn.push(layer.statistics.pointsDrawn > 0);
+        stage.destroy();
+        return drawn;
+      }, OBLIQUE);
+      expect(drawn).toEqual([true, false, false, true]);
+      expect(warnings).toHaveLength(1);
+    });
+
+    it("fill a picture of another size after a resize", { timeout: 30_000 }, async () => {
+      const result = await stage.page.evaluate(async (pose) => {
+        const stage = new window.page.Stage();
+        const layer = await stage.show("steps", {
+          style: { pointSize: 4, color: "elevation", eyeDomeLighting: true },
+        });
+        stage.look(pose);
+        await stage.settle();
+        stage.picture();
+        const before = layer.statistics.gpuObjects;
+        stage.resize(400, 120);
+        stage.frame();
+        stage.resize(200, 240);
+        await stage.settle();
+        const picture = stage.picture();
+        const after = layer.statistics.gpuObjects;
+        const errors = stage.errors();
+        stage.destroy();
+        return { picture, errors, before, after };
+      }, OBLIQUE);
+      expect(result.errors).toEqual([]);
+      expect({ ...result.after, queries: 0 }).toEqual({ ...result.before, queries: 0 });
+      const picture = decode(result.picture, "scene-resized");
+      expect([picture.width, picture.height]).toEqual([200, 240]);
+      expect(differenceToExpected(picture, "scene-resized")).toBeLessThan(0.01);
+    });
+
+    it("hide each other, each with Eye-Dome Lighting of its own", { timeout: 30_000 }, async () => {
+      const result = await stage.page.evaluate(async () => {
+        const stage = new window.page.Stage();
+        const style = { pointSize: 5, eyeDomeLighting: true } as const;
+        const low = await stage.show("stripes", { style });
+        const high = await stage.add("plane", {
+          style: { ...style, opacity: 1 },
+          heightOffset: 5,
+          clips: [],
+        });
+        stage.look({ range: 40, pitch: -60 });
+        await stage.settle([low, high]);
+        const both = stage.picture();
+        high.heightOffset = -5;
+        await stage.settle([low, high]);
+        const below = stage.picture();
+        high.show = false;
+        await stage.settle([low, high]);
+        const alone = stage.picture();
+        const errors = stage.errors();
+        stage.destroy();
+        return { both, below, alone, errors };
+      });
+      expect(result.errors).toEqual([]);
+      const centre = (address: string, name: string) =>
+        meanColour(decode(address, `scene-${name}`), 128, 96, 4);
+      expect(colourDifference(centre(result.both, "two-above"), GREY)).toBeLessThan(40);
+      expect(colourDifference(centre(result.below, "two-below"), [50, 80, 230])).toBeLessThan(40);
+      expect(colourDifference(centre(result.alone, "two-alone"), [50, 80, 230])).toBeLessThan(40);
+    });
+
+    it("show one scan in two viewers, each in its own way", { timeout: 30_000 }, async () => {
+      const result = await stage.page.evaluate(async (pose) => {
+        const { Stage } = window.page;
+        const [left, right] = [new Stage(), new Stage()];
+        const first = await left.show("steps", { style: { pointSize: 4, color: "elevation" } });
+        const second = await right.show("steps", { style: { pointSize: 4, eyeDomeLighting: true } });
+        left.look(pose);
+        right.look({ ...pose, heading: 200 });
+        await left.settle();
+        await right.settle();
+        await left.settle();
+        const pictures = [left.picture(), right.picture()];
+        left.destroy();
+        // What the other one frees on its GPU is not this one's.
+        right.frame();
+        const again = right.picture();
+        const drawn = [first.statistics.pointsDrawn, second.statistics.pointsDrawn];
+        const errors = right.errors();
+        right.destroy();
+        return { pictures, again, drawn, errors };
+      }, OBLIQUE);
+      expect(result.errors).toEqual([]);
+      expect(result.drawn[0]).toBe(0);
+      expect(result.drawn[1]).toBeGreaterThan(0);
+      const [left, right] = result.pictures.map((address, at) => decode(address, `scene-viewer-${at}`));
+      expect(difference(left!, right!)).toBeGreaterThan(0.1);
+      expect(difference(right!, decode(result.again, "scene-viewer-again"))).toBe(0);
+    });
+
+    it("move from one scene to another", { timeout: 30_000 }, async () => {
+      const result = await stage.page.evaluate(async (pose) => {
+        const { Stage } = window.page;
+        const [from, to] = [new Stage(), new Stage()];
+        const layer = await from.show("steps", { style: { pointSize: 4, eyeDomeLighting: true } });
+        from.look(pose);
+        await from.settle();
+        const there = from.picture();
+        from.scene.primitives.destroyPrimitives = false;
+        from.scene.primitives.remove(layer);
+        to.layer = layer;
+        to.scene.primitives.add(layer);
+        to.look(pose);
+        await to.settle();
+        const here = to.picture();
+        const errors = [...from.errors(), ...to.errors()];
+        from.destroy();
+        to.destroy();
+        return { there, here, errors };
+      }, OBLIQUE);
+      expect(result.errors).toEqual([]);
+      expect(difference(decode(result.there, "scene-from"), decode(result.here, "scene-to"))).toBe(0);
+    });
+
+    it("ask for frames until all is drawn, and then for none, where frames come on demand", {
+      timeout: 30_000,
+    }, async () => {
+      const result = await stage.page.evaluate(async (pose) => {
+        const stage = new window.page.Stage({ requestRenderMode: true });
+        const layer = await stage.show("steps", { style: { pointSize: 4, eyeDomeLighting: true } });
+        stage.look(pose);
+        let frames = 0;
+        stage.scene.postRender.addEventListener(() => void frames++);
+        for (let at = 0; at < 200 && !layer.settled; at++) {
+          stage.frame();
+          await new Promise((done) => setTimeout(done, 10));
+        }
+        const settled = layer.settled;
+        // One frame that was asked for may still come.
+        for (let at = 0; at < 3; at++) stage.frame();
+        const loading = frames;
+        for (let at = 0; at < 20; at++) stage.frame();
+        const idle = frames - loading;
+        layer.style = { color: "elevation" };
+        stage.scene.requestRender();
+        for (let at = 0; at < 20; at++) stage.frame();
+        const restyled = layer.settled;
+        const drawn = frames - loading;
+        stage.destroy();
+        return { settled, idle, restyled, drawn };
+      }, OBLIQUE);
+      expect(result).toMatchObject({ settled: true, idle: 0, restyled: true });
+      expect(result.drawn).toBeGreaterThan(0);
+      expect(result.drawn).toBeLessThan(10);
+    });
+  },
+);
