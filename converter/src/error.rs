@@ -44,6 +44,8 @@ pub enum Error {
     Option(&'static str, Detail),
     /// The process was asked to stop.
     Interrupted(Detail),
+    /// What is to be written is not what was read: a fault of this program, found before the output has its name.
+    Internal(Detail),
 }
 
 macro_rules! constructors {
@@ -69,6 +71,7 @@ constructors! {
     temp_space => TempSpace,
     temp_file => TempFile,
     interrupted => Interrupted,
+    internal => Internal,
 }
 
 impl Detail {
@@ -117,6 +120,7 @@ impl Error {
             Self::TempFile(_) => "TEMP_FILE".into(),
             Self::Option(name, _) => format!("OPTION_{name}"),
             Self::Interrupted(_) => "INTERRUPTED".into(),
+            Self::Internal(_) => "INTERNAL".into(),
         }
     }
 
@@ -134,7 +138,8 @@ impl Error {
             | Self::TempSpace(d)
             | Self::TempFile(d)
             | Self::Option(_, d)
-            | Self::Interrupted(d) => d,
+            | Self::Interrupted(d)
+            | Self::Internal(d) => d,
         }
     }
 
@@ -157,6 +162,7 @@ impl Error {
             Self::Option("MEMORY", _) => "Give --memory a larger value",
             Self::Option(..) => "See groma-core convert --help",
             Self::Interrupted(_) => "Run the command again",
+            Self::Internal(_) => "Report it with the input: it is a fault of this program",
         }
     }
 

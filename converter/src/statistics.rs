@@ -62,11 +62,16 @@ impl Statistics {
     }
 }
 
+/// Values are summed up divided by this: no sum of 2^64 of them overflows, and a power of two rounds nothing but what
+/// is below 2^-958.
+const SCALE_DOWN: f64 = 18_446_744_073_709_551_616.0;
+
 /// Range and sum of the stored numbers of one field.
 #[derive(Debug, Clone, Copy)]
 struct Sum {
     min: f64,
     max: f64,
+    /// In units of [`SCALE_DOWN`].
     total: f64,
     count: u64,
 }
@@ -77,9 +82,12 @@ impl Sum {
     fn finish(&self, field: &Field) -> Option<Attribute> {
         let value = |stored: f64| stored * field.scale + field.offset;
         let (a, b) = (value(self.min), value(self.max));
-        let mean = value(self.total / self.count as f64);
-        let finite = a.is_finite() && b.is_finite() && mean.is_finite();
-        finite.then(|| Attribute { name: field.name.clone(), min: a.min(b), max: a.max(b), mean })
+        if !(a.is_finite() && b.is_finite()) {
+            return None;
+        }
+        let (min, max) = (a.min(b), a.max(b));
+        let mean = value(self.total / self.count as f64 * SCALE_DOWN).clamp(min, max);
+        Some(Attribute { name: field.name.clone(), min, max, mean })
     }
 }
 
@@ -107,7 +115,7 @@ impl Tally {
                 if value.is_finite() {
                     sum.min = sum.min.min(value);
                     sum.max = sum.max.max(value);
-                    sum.total += value;
+                    sum.total += value * (1.0 / SCALE_DOWN);
                     sum.count += 1;
                 }
             });
@@ -162,6 +170,19 @@ mod tests {
         let json = serde_json::to_value(&statistics).unwrap();
         assert_eq!(json["classes"], serde_json::json!({ "2": 3 }));
         assert_eq!(json["returns"], serde_json::json!({ "1": 1, "2": 1, "3": 1 }));
+    }
+
+    #[test]
+    fn a_sum_too_large_for_a_number_costs_no_range() {
+        let mut records = vec![0u8; 30 * 4];
+        for (record, time) in records.chunks_exact_mut(30).zip([1.7e308, f64::NAN, 1.7e308, -0.5]) {
+            record[22..].copy_from_slice(&f64::to_le_bytes(time));
+        }
+        let all = fields(Target::Plain, [1.0; 3], [0.0; 3], &[], 30);
+        let statistics = Statistics::of(&Tally::of(&records, 30, &all), &all);
+        let time = statistics.attribute("gpsTime").unwrap();
+        assert_eq!((time.min, time.max), (-0.5, 1.7e308));
+        assert!((time.mean / 1.7e308 - 2.0 / 3.0).abs() < 1e-15);
     }
 
     #[test]

@@ -102,7 +102,5 @@ pub fn build(
     });
     let nodes = site.into_nodes();
     board.outcome()?;
-    let built: u64 = nodes.iter().map(|node| node.points).sum();
-    assert_eq!(built, inputs.points, "every point has a node");
     Ok(nodes)
 }

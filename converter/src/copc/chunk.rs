@@ -30,6 +30,11 @@ impl Compressor {
     }
 }
 
+/// The points that a chunk says it holds, after its first record of `length` bytes.
+pub fn points(chunk: &[u8], length: usize) -> Option<u64> {
+    chunk.get(length..)?.first_chunk::<4>().map(|bytes| u64::from(u32::from_le_bytes(*bytes)))
+}
+
 /// Compresses whole records.
 pub fn compress(records: &[u8], vlr: &LazVlr) -> laz::Result<Vec<u8>> {
     let mut compressor = Compressor::new(vlr)?;

@@ -50,7 +50,8 @@ pub fn ordered(mut nodes: Vec<Node>) -> Vec<Node> {
 
 /// Writes the whole file and returns its number of bytes.
 ///
-/// Errors: `OUTPUT_WRITE` about `output`, and those of the store.
+/// Errors: `OUTPUT_WRITE` about `output`, `INTERNAL` where the chunks do not hold as many points as were read, and those
+/// of the store.
 pub fn write(file: &mut File, content: &Content, output: &Path, meter: &Meter) -> Result<u64> {
     let failed = |e: io::Error| Error::output_write(output, e);
 
@@ -107,13 +108,22 @@ fn write_points(
     let nodes = &content.nodes;
     let mut chunks = Vec::with_capacity(nodes.len());
     let mut table = ChunkTable::with_capacity(nodes.len());
+    let mut written = 0;
     for Node { key, points, chunk } in nodes {
         let mut chunk_of = Chunk { key: *key, offset: 0, bytes: 0, points: 0 };
         if *points > 0 {
             chunk_of.points =
                 i32::try_from(*points).map_err(|_| failed(invalid("a node has over 2^31 points")))?;
-            let bytes = content.store.with(chunk, |bytes| out.write_all(bytes).map(|()| bytes.len()))?;
+            let (held, bytes) = content.store.with(chunk, |bytes| {
+                let held = super::chunk::points(bytes, usize::from(content.points.record_length));
+                (held, out.write_all(bytes).map(|()| bytes.len()))
+            })?;
             let bytes = bytes.map_err(failed)?;
+            if held != Some(*points) {
+                let cause = format!("a node of {points} points has a chunk of {}", held.unwrap_or(0));
+                return Err(Error::internal(output, cause));
+            }
+            written += points;
             chunk_of.bytes = i32::try_from(bytes).map_err(|_| failed(invalid("a node takes over 2 GiB")))?;
             chunk_of.offset = at;
             table.push(ChunkTableEntry { point_count: *points, byte_count: bytes as u64 });
@@ -121,6 +131,10 @@ fn write_points(
             meter.add(*points);
         }
         chunks.push(chunk_of);
+    }
+    if written != content.points.count {
+        let cause = format!("{} points were read, the nodes hold {written}", content.points.count);
+        return Err(Error::internal(output, cause));
     }
     let mut finish = || {
         table.write_to(&mut *out, content.laz)?;

@@ -38,7 +38,8 @@ pub fn parameters(scan: &Scan) -> Result<LazVlr> {
     Ok(vlr)
 }
 
-/// The chunks by the chunk table, or `None` if the file has none and must be read from start to end.
+/// The chunks by the chunk table or by what each says of itself, or `None` if neither is there and the file must be
+/// read from start to end.
 pub fn chunks(scan: &Scan, vlr: &LazVlr) -> Result<Option<Vec<Block>>> {
     let path = &scan.path;
     if !has_chunks(scan) {
@@ -48,6 +49,9 @@ pub fn chunks(scan: &Scan, vlr: &LazVlr) -> Result<Option<Vec<Block>>> {
     let mut file = File::open(path).map(BufReader::new).map_err(|e| Error::reading(path, &e))?;
     let table_at = table_position(&mut file, start, scan.file_size).map_err(|e| Error::reading(path, &e))?;
     let Some(table_at) = table_at else {
+        if is_layered(vlr) {
+            return walk(&mut file, scan, vlr).map(Some);
+        }
         if vlr.uses_variable_size_chunks() {
             return Err(Error::corrupt(
                 path,
@@ -117,6 +121,30 @@ fn table_position(file: &mut BufReader<File>, start: u64, file_size: u64) -> std
     Ok(last.filter(|position| *position < file_size))
 }
 
+/// The layered chunks of a file without chunk table: each one tells its points and its length itself.
+fn walk(file: &mut (impl Read + Seek), scan: &Scan, vlr: &LazVlr) -> Result<Vec<Block>> {
+    let path = &scan.path;
+    let mut at = u64::from(scan.header.offset_to_point_data) + TABLE_POSITION;
+    let (mut blocks, mut found) = (Vec::new(), 0);
+    while found < scan.points {
+        file.seek(SeekFrom::Start(at)).map_err(|e| Error::reading(path, &e))?;
+        let head = ChunkHead::read(file, vlr).map_err(|e| Error::reading(path, &e))?;
+        let (points, bytes) = (u64::from(head.points), head.bytes());
+        if bytes > scan.file_size - at {
+            let cause = format!("a chunk of {bytes} bytes begins at byte {at} of {}", scan.file_size);
+            return Err(Error::truncated(path, cause));
+        }
+        found += points;
+        if points == 0 || found > scan.points {
+            let cause = format!("{} points are announced, the chunks hold {found}", scan.points);
+            return Err(Error::corrupt(path, cause));
+        }
+        blocks.push(Block { at, bytes, points });
+        at += bytes;
+    }
+    Ok(blocks)
+}
+
 fn read_table(
     file: &mut BufReader<File>,
     scan: &Scan,
@@ -157,7 +185,7 @@ pub fn decode_chunk<R: Read + Seek + Send + Sync>(
         Error::corrupt(path, format!("a chunk of {} bytes cannot be decoded ({cause})", block.bytes))
     };
     if is_layered(vlr) {
-        check_layers(&mut source, block.bytes, vlr).map_err(fail)?;
+        check_head(&mut source, block, vlr).map_err(fail)?;
         decode(LayeredPointRecordDecompressor::new(source), block.points, vlr, sink, fail)
     } else {
         decode(SequentialPointRecordDecompressor::new(source), block.points, vlr, sink, fail)
@@ -175,29 +203,47 @@ fn decode<R>(
     sink.fill(points, |raw| contained(|| Ok(decoder.decompress_many(raw)?)).map_err(&fail))
 }
 
-/// The decoder allocates each layer by its announced size, so the sizes must lie in the chunk.
-///
-/// A layered chunk (LASzip 3): one plain record, the number of points (u32), the size of each layer (u32),
-/// then the layers.
-fn check_layers(
-    source: &mut (impl Read + Seek),
+/// How a layered chunk (LASzip 3) begins: one plain record, the number of points (u32), the size of each layer (u32).
+/// Its layers follow.
+struct ChunkHead {
+    /// Bytes of itself.
     bytes: u64,
+    points: u32,
+    /// Bytes of all layers.
+    layers: u64,
+}
+
+impl ChunkHead {
+    fn read(source: &mut impl Read, vlr: &LazVlr) -> std::io::Result<Self> {
+        let layers: usize = vlr.items().iter().map(|item| layers_of(item.item_type())).sum();
+        let record: usize = vlr.items().iter().map(|item| usize::from(item.size())).sum();
+        let mut head = vec![0; record + 4 + layers * 4];
+        source.read_exact(&mut head)?;
+        let mut numbers = head[record..].as_chunks::<4>().0.iter().map(|b| u32::from_le_bytes(*b));
+        let points = numbers.next().unwrap_or(0);
+        Ok(Self { bytes: head.len() as u64, points, layers: numbers.map(u64::from).sum() })
+    }
+
+    /// Bytes of the chunk.
+    fn bytes(&self) -> u64 {
+        self.bytes + self.layers
+    }
+}
+
+/// The decoder allocates each layer by its announced size, so the sizes must lie in the chunk; and it decodes as many
+/// points as it is asked for, so they must be as many as there are. Leaves `source` where it was.
+fn check_head(
+    source: &mut (impl Read + Seek),
+    block: &Block,
     vlr: &LazVlr,
 ) -> std::result::Result<(), String> {
-    let layers: usize = vlr.items().iter().map(|item| layers_of(item.item_type())).sum();
-    let record: usize = vlr.items().iter().map(|item| usize::from(item.size())).sum();
-    let sizes_at = record + 4;
-    let mut head = vec![0; sizes_at + layers * 4];
-    let body = bytes.checked_sub(head.len() as u64).ok_or("it is shorter than its own description")?;
-    let back = -(head.len() as i64);
-    source
-        .read_exact(&mut head)
-        .and_then(|()| source.seek(SeekFrom::Current(back)))
-        .map_err(|e| e.to_string())?;
-    let sizes = head[sizes_at..].as_chunks::<4>().0;
-    let total: u64 = sizes.iter().map(|b| u64::from(u32::from_le_bytes(*b))).sum();
-    if total > body {
-        return Err(format!("its layers are announced with {total} bytes"));
+    let head = ChunkHead::read(source, vlr).map_err(|e| e.to_string())?;
+    source.seek(SeekFrom::Current(-(head.bytes as i64))).map_err(|e| e.to_string())?;
+    if head.bytes() > block.bytes {
+        return Err(format!("its layers are announced with {} bytes", head.layers));
+    }
+    if u64::from(head.points) != block.points {
+        return Err(format!("it holds {} points, and {} should be there", head.points, block.points));
     }
     Ok(())
 }
@@ -211,9 +257,15 @@ fn layers_of(item: LazItemType) -> usize {
     }
 }
 
-/// Decodes a file without chunk table from start to end.
+/// Decodes a file without chunk table from start to end; one of layered chunks has been walked through instead.
 pub fn stream(scan: &Scan, vlr: &LazVlr, sink: &mut Sink) -> Result<()> {
     let path = &scan.path;
+    if is_layered(vlr) {
+        return Err(Error::corrupt(
+            path,
+            "layers need chunks, and the LASzip record says that there are none",
+        ));
+    }
     let mut file = File::open(path).map(BufReader::new).map_err(|e| Error::reading(path, &e))?;
     file.seek(SeekFrom::Start(scan.header.offset_to_point_data.into()))
         .map_err(|e| Error::reading(path, &e))?;
@@ -266,7 +318,8 @@ mod tests {
 
     fn decoded(bytes: &[u8], vlr: &LazVlr, out: &mut [u8]) -> std::result::Result<(), String> {
         let mut source = Cursor::new(bytes);
-        check_layers(&mut source, bytes.len() as u64, vlr)?;
+        let block = Block { at: 0, bytes: bytes.len() as u64, points: out.len() as u64 / 36 };
+        check_head(&mut source, &block, vlr)?;
         contained(|| {
             let mut decoder = LayeredPointRecordDecompressor::new(source);
             decoder.set_fields_from(vlr.items())?;
@@ -294,5 +347,15 @@ mod tests {
         let (mut bytes, vlr) = chunk(&[0; 360], 7);
         bytes[40..44].copy_from_slice(&u32::MAX.to_le_bytes());
         assert!(decoded(&bytes, &vlr, &mut [0; 360]).unwrap_err().contains("announced"));
+    }
+
+    #[test]
+    fn another_number_of_points_is_refused() {
+        let (bytes, vlr) = chunk(&[0; 360], 7);
+        decoded(&bytes, &vlr, &mut [0; 360]).unwrap();
+        for points in [9, 11] {
+            let cause = decoded(&bytes, &vlr, &mut vec![0; points * 36]).unwrap_err();
+            assert!(cause.contains("holds 10 points"), "{cause}");
+        }
     }
 }

@@ -40,12 +40,13 @@ impl Scan {
     /// Errors: `INPUT_NOT_FOUND`, `INPUT_MAGIC`, `INPUT_TRUNCATED` (the header or the offset to the points lies
     /// beyond the end), `INPUT_FORMAT` (a LAS version after 1.4), `INPUT_CORRUPT`.
     pub fn read(path: &Path) -> Result<Self> {
-        let file = File::open(path)
-            .map_err(|e| Error::not_found(path, format!("the file cannot be opened ({e})")))?;
-        let meta = file.metadata().map_err(|e| Error::reading(path, &e))?;
+        let unopened = |e| Error::not_found(path, format!("the file cannot be opened ({e})"));
+        // Looked at before it is opened: opening a pipe waits until somebody writes to it.
+        let meta = std::fs::metadata(path).map_err(unopened)?;
         if !meta.is_file() {
             return Err(Error::not_found(path, "this is not a file"));
         }
+        let file = File::open(path).map_err(unopened)?;
         let file_size = meta.len();
         let mut reader = BufReader::new(file);
         check_signature(&mut reader, file_size, path)?;
@@ -57,6 +58,7 @@ impl Scan {
         let vlrs = read_vlrs(&mut reader, &header, path, &mut warnings)?;
         let evlrs = read_evlrs(&mut reader, &header, file_size, path, &mut warnings)?;
         let format = header.point_data_record_format;
+        warn_of_more(&header, points, file_size, &mut warnings);
         Ok(Self {
             path: path.to_path_buf(),
             file_size,
@@ -144,6 +146,22 @@ fn announced_points(header: &Header, warnings: &mut Vec<String>) -> u64 {
         ));
     }
     if large != 0 { large } else { legacy }
+}
+
+/// Warns where uncompressed records follow that the header does not announce: a writer may have died before it mended
+/// its count.
+fn warn_of_more(header: &Header, points: u64, file_size: u64, warnings: &mut Vec<String>) {
+    if header.point_data_record_format & 0xc0 != 0 || points == 0 {
+        return;
+    }
+    let start = u64::from(header.offset_to_point_data);
+    let after = [header.start_of_waveform_data_packet_record, header.evlr.map(|e| e.start_of_first_evlr)];
+    let end = after.into_iter().flatten().filter(|at| *at > start).fold(file_size, u64::min);
+    let room = (end - start) / u64::from(header.point_data_record_length.max(1));
+    if room > points {
+        warnings
+            .push(format!("{points} points are announced, and {room} have room; the others are passed over"));
+    }
 }
 
 /// The records between header and points. A count that does not fit in there is passed over with a warning:

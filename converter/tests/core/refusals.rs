@@ -1,6 +1,6 @@
 //! What cannot be converted: one error with a stable code, and nothing left behind.
 
-use crate::bench::{Bench, Las, cloud};
+use crate::bench::{Bench, Las, cloud, records, sorted};
 use groma_core::scan::variable_record::{PROJECTION, VariableRecord, WKT};
 
 /// Overwrites bytes of a file.
@@ -62,6 +62,49 @@ fn compressed_points_that_are_not_there() {
         let start = u32::from_le_bytes(laz[96..100].try_into().unwrap()) as usize;
         let table = u64::from_le_bytes(laz[start..start + 8].try_into().unwrap()) as usize;
         assert_eq!(code_of(&patched(laz, table + 4, &u32::MAX.to_le_bytes())), "INPUT_CORRUPT");
+    }
+}
+
+#[test]
+fn a_chunk_holds_more_points_than_are_announced() {
+    let mut las = Las::at(7, 0, &cloud(2000, [500, 500, 500]));
+    las.chunk = Some(50_000);
+    let few = patched(las.laz(), 247, &700u64.to_le_bytes());
+    assert_eq!(code_of(&few), "INPUT_CORRUPT");
+    let bench = Bench::new();
+    bench.put("in.las", &patched(las.las(), 247, &700u64.to_le_bytes()));
+    let lines = bench.convert(&["in.las", "out.copc.laz"]);
+    let text = "700 points are announced, and 2000 have room";
+    assert!(lines.iter().any(|l| l["event"] == "warning" && l.to_string().contains(text)), "{lines:?}");
+}
+
+#[test]
+fn layered_chunks_without_a_table() {
+    let las = Las::at(7, 1, &cloud(2300, [500, 500, 500]));
+    let laz = las.laz();
+    let start = u32::from_le_bytes(laz[96..100].try_into().unwrap()) as usize;
+    let table = u64::from_le_bytes(laz[start..start + 8].try_into().unwrap()) as usize;
+    let untabled = patched(laz[..table].to_vec(), start, &(-1i64).to_le_bytes());
+    let bench = Bench::new();
+    let input = bench.put("in.laz", &untabled);
+    bench.convert(&["in.laz", "out.copc.laz"]);
+    let whole = bench.put("whole.las", &las.las());
+    assert!(sorted(records(&input)) == sorted(records(&whole)));
+    assert!(sorted(records(&bench.path("out.copc.laz"))) == sorted(records(&whole)));
+    let sizes_at = start + 8 + 37 + 4;
+    assert_eq!(code_of(&patched(untabled.clone(), sizes_at, &u32::MAX.to_le_bytes())), "INPUT_TRUNCATED");
+    assert_eq!(code_of(&untabled[..untabled.len() - 1]), "INPUT_TRUNCATED");
+    assert_eq!(code_of(&patched(untabled, 247, &2200u64.to_le_bytes())), "INPUT_CORRUPT");
+}
+
+#[cfg(unix)]
+#[test]
+fn inputs_that_are_no_files() {
+    let bench = Bench::new();
+    let pipe = bench.path("pipe.las");
+    assert!(std::process::Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    for input in ["pipe.las", "/dev/zero", "."] {
+        assert_eq!(bench.refused(&[input, "out.copc.laz"]), "INPUT_NOT_FOUND", "{input}");
     }
 }
 
