@@ -54,7 +54,8 @@ impl Discs {
         true
     }
 
-    fn push(&mut self, position: &[f64; 3]) {
+    /// Adds a position wherever it is.
+    pub fn push(&mut self, position: &[f64; 3]) {
         let cell = self.lattice.cell(self.place(position));
         let next = self.lattice.replace(cell, self.links.len() as u32);
         self.links.push(Link { position: *position, next });

@@ -10,6 +10,7 @@ mod poisson;
 #[cfg(test)]
 mod properties;
 mod random;
+mod rivals;
 #[cfg(test)]
 mod scene;
 
@@ -55,6 +56,7 @@ pub struct Scratch {
     order: order::Order,
     discs: discs::Discs,
     best: Vec<grid::Best>,
+    rim: rivals::Rim,
 }
 
 /// Chooses among candidates (source coordinates, in the input's order of points).
@@ -63,7 +65,8 @@ pub struct Scratch {
 /// among the candidates. `near` are positions that neighbours of the same level hold already, within one
 /// spacing of the cell; only [`Strategy::Poisson`] keeps away from them.
 ///
-/// Returns ascending indices, at least one if there is a candidate: but none by [`Strategy::Poisson`] if
+/// A Poisson sample comes within one spacing of each candidate, at faces behind which `near` has nothing
+/// within 1.15. Returns ascending indices, at least one if there is a candidate: but none by [`Strategy::Poisson`] if
 /// each candidate is closer than one spacing to `near`.
 pub fn choose(
     strategy: Strategy,

@@ -19,21 +19,26 @@ impl Order {
     ///
     /// Positions travel with the seeds: who visits reads memory in order, and what is sorted at a time stays
     /// in the nearest cache.
-    pub fn visit(&mut self, seed: &[u64], positions: &[[f64; 3]], mut visitor: impl FnMut(u32, &[f64; 3])) {
-        let most = seed.iter().copied().max().unwrap_or(0);
+    pub fn visit(
+        &mut self,
+        candidates: impl Iterator<Item = (u64, [f64; 3])> + Clone,
+        mut visitor: impl FnMut(u32, &[f64; 3]),
+    ) {
+        let (mut most, mut count) = (0, 0);
+        candidates.clone().for_each(|(seed, _)| (most, count) = (seed.max(most), count + 1));
         let shift = (u64::BITS - most.leading_zeros()).saturating_sub(BUCKET_BITS);
         let bucket = |seed: u64| (seed >> shift) as usize;
         let mut ends = [0; BUCKETS];
-        seed.iter().for_each(|seed| ends[bucket(*seed)] += 1);
+        candidates.clone().for_each(|(seed, _)| ends[bucket(seed)] += 1);
         let mut sum = 0;
         for end in &mut ends {
             sum += std::mem::replace(end, sum);
         }
         // Each bucket's start moves on to its end while the bucket is filled.
-        self.sorted.resize(seed.len(), (0, 0, [0.0; 3]));
-        for ((seed, position), index) in seed.iter().zip(positions).zip(0..) {
-            let end = &mut ends[bucket(*seed)];
-            self.sorted[*end] = (*seed, index, *position);
+        self.sorted.resize(count, (0, 0, [0.0; 3]));
+        for ((seed, position), index) in candidates.zip(0..) {
+            let end = &mut ends[bucket(seed)];
+            self.sorted[*end] = (seed, index, position);
             *end += 1;
         }
         let mut start = 0;
@@ -62,9 +67,9 @@ mod tests {
     use proptest::prelude::*;
 
     fn visited(seed: &[u64]) -> Vec<u32> {
-        let positions: Vec<_> = (0..seed.len()).map(|i| [i as f64; 3]).collect();
+        let candidates = seed.iter().enumerate().map(|(i, seed)| (*seed, [i as f64; 3]));
         let mut all = Vec::new();
-        Order::default().visit(seed, &positions, |index, position| {
+        Order::default().visit(candidates, |index, position| {
             assert_eq!(*position, [f64::from(index); 3]);
             all.push(index);
         });

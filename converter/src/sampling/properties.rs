@@ -1,29 +1,45 @@
 //! What the strategies promise, over scenes of every kind.
 
 use super::discs::distance2;
+use super::rivals::Rim;
 use super::scene::{Scene, cube, scatter, scenes, unit};
-use super::{Scratch, Strategy};
+use super::{Cell, Scratch, Strategy};
 use proptest::prelude::*;
 use std::collections::{HashMap, HashSet};
 
 const ALL: [Strategy; 4] = [Strategy::Poisson, Strategy::Grid, Strategy::Random, Strategy::First];
 
-/// A choice by the definition: each point in the order of seeds, against all that were taken before.
+/// A choice by the definition: each point in the order of seeds, against all that were taken before; then with more
+/// distance those that only stand-ins kept away.
 fn dart_throwing(scene: &Scene) -> Vec<u32> {
-    let mut order: Vec<_> = (0..scene.points.len()).collect();
-    order.sort_by_key(|i| (scene.seed[*i], *i));
-    let least = scene.cell.spacing * scene.cell.spacing;
-    let mut taken = scene.near.clone();
-    let mut chosen = Vec::new();
-    for index in order {
-        let point = scene.points[index];
-        if taken.iter().all(|other| distance2(other, &point) >= least) {
-            taken.push(point);
-            chosen.push(index as u32);
-        }
-    }
+    let mut rim = Rim::default();
+    rim.find(&scene.cell, &scene.points, &scene.seed, &scene.near);
+    let own = || scene.seed.iter().copied().zip(scene.points.iter().copied());
+    let mut chosen = throw(own().chain(rim.rivals), &scene.near, scene.cell.spacing);
+    chosen.retain(|index| (*index as usize) < scene.points.len());
+    let taken: Vec<_> = chosen.iter().map(|index| scene.points[*index as usize]).collect();
+    chosen.extend(throw(own(), &[&scene.near[..], &taken].concat(), 1.15 * scene.cell.spacing));
     chosen.sort_unstable();
     chosen
+}
+
+fn throw(darts: impl Iterator<Item = (u64, [f64; 3])>, near: &[[f64; 3]], spacing: f64) -> Vec<u32> {
+    let mut order: Vec<_> = darts.zip(0..).collect();
+    order.sort_by_key(|((seed, _), index)| (*seed, *index));
+    let mut taken = near.to_vec();
+    let mut chosen = Vec::new();
+    for ((_, point), index) in order {
+        if taken.iter().all(|other| distance2(other, &point) >= spacing * spacing) {
+            taken.push(point);
+            chosen.push(index);
+        }
+    }
+    chosen
+}
+
+/// Whether a point is farther than one spacing from all faces.
+fn inside(cell: &Cell, point: &[f64; 3]) -> bool {
+    (0..3).all(|i| (cell.spacing..cell.side - cell.spacing).contains(&(point[i] - cell.min[i])))
 }
 
 /// The grid cell of a point, without any of the code under test.
@@ -53,8 +69,8 @@ proptest! {
             prop_assert!(chosen[..i].iter().chain(&scene.near).all(|other| distance2(other, point) >= least));
         }
         for point in &scene.points {
-            prop_assert!(chosen.iter().chain(&scene.near).any(|other| distance2(other, point) < least)
-                || chosen.contains(point));
+            let widest = if inside(&scene.cell, point) { least } else { 1.15 * 1.15 * 1.000_001 * least };
+            prop_assert!(chosen.iter().chain(&scene.near).any(|other| distance2(other, point) < widest));
         }
     }
 
@@ -155,7 +171,7 @@ fn poisson_takes_none_where_neighbours_cover_all() {
 
 #[test]
 fn a_distance_of_exactly_one_spacing_is_enough() {
-    let lattice = (0..40u32).map(|i| [f64::from(i % 20) * 0.25, f64::from(i / 20) * 0.25, 0.0]);
+    let lattice = (0..40u32).map(|i| [8.0 + f64::from(i % 20) * 0.25, 8.0 + f64::from(i / 20) * 0.25, 9.0]);
     let scene = Scene::of(cube([0.0; 3], 0.25), lattice.collect());
     assert_eq!(scene.choose(Strategy::Poisson).len(), 40);
 }
@@ -171,7 +187,7 @@ fn points_outside_the_cube_keep_their_distance_too() {
 /// 2016, figure 3.5 c). Rows and columns of the sample may not differ more than chance lets them.
 #[test]
 fn the_order_of_a_scanner_leaves_no_stripes() {
-    let line = |i: u32| (0..400u32).map(move |j| [f64::from(j) * 0.0625, f64::from(i) * 0.0625, 0.0]);
+    let line = |i: u32| (0..400u32).map(move |j| [f64::from(j) * 0.0625, f64::from(i) * 0.0625, 9.0]);
     let scene = Scene::of(cube([0.0; 3], 1.0), (0..400).flat_map(line).collect());
     let chosen = scene.chosen(Strategy::Poisson);
     for axis in [0, 1] {
@@ -183,4 +199,32 @@ fn the_order_of_a_scanner_leaves_no_stripes() {
         assert!(mean > 3.0, "{mean}");
         assert!(inner.iter().all(|n| (f64::from(*n) - mean).abs() < 5.0 * mean.sqrt()), "{inner:?}");
     }
+}
+
+/// Density on both sides of a border in the first quarter of a spacing against that from two to six spacings inside:
+/// of the node that chooses first, of its neighbour, of both.
+#[test]
+fn density_is_even_across_borders() {
+    let (first, second) = (cube([0.0; 3], 1.0), cube([128.0, 0.0, 0.0], 1.0));
+    let mut counts = [[0u32; 2]; 2];
+    for turn in 0..100u64 {
+        let at = |i: u64, from: f64| {
+            let number = |axis: u64| unit(turn << 40 ^ (3 * i + axis) ^ (from as u64) << 20);
+            [from + 8.0 * number(0), 128.0 * number(1), 64.0]
+        };
+        let scene = Scene::of(first, (0..10_000).map(|i| at(i, 120.0)).collect());
+        let chosen = scene.chosen(Strategy::Poisson);
+        let mut other = Scene::of(second, (0..10_000).map(|i| at(i, 128.0)).collect());
+        other.near = chosen.iter().filter(|p| p[0] >= 127.0).copied().collect();
+        for (counts, sample) in counts.iter_mut().zip([chosen, other.chosen(Strategy::Poisson)]) {
+            for off in sample.iter().map(|p| (p[0] - 128.0).abs()) {
+                counts[0] += u32::from(off < 0.25);
+                counts[1] += u32::from((2.0..6.0).contains(&off));
+            }
+        }
+    }
+    let ratio = |[strip, inside]: [u32; 2]| 16.0 * f64::from(strip) / f64::from(inside);
+    let both = ratio([counts[0][0] + counts[1][0], counts[0][1] + counts[1][1]]);
+    assert!((0.93..1.07).contains(&both), "{both}");
+    assert!(ratio(counts[0]) < 1.6, "{}", ratio(counts[0]));
 }

@@ -1,0 +1,89 @@
+//! Stand-ins for the candidates of neighbours that have not chosen yet. Without them the candidates at a free face have
+//! rivals on one side only, and the sample piles up there.
+
+use super::Cell;
+
+/// Candidates nearer to a face than this have a stand-in, in spacings: what is farther keeps no candidate away.
+const DEPTH: f64 = 1.0;
+
+/// So far along the face a stand-in is from the candidate that it mirrors, in spacings: the two are no rivals.
+const ASIDE: f64 = 4.0;
+
+/// A seed and a position.
+pub type Rival = (u64, [f64; 3]);
+
+/// Candidates near faces behind which no neighbour has a point yet.
+#[derive(Debug, Default)]
+pub struct Rim {
+    /// Mirror images of the candidates.
+    pub rivals: Vec<Rival>,
+    /// The candidates' numbers; some more than once.
+    pub candidates: Vec<u32>,
+}
+
+impl Rim {
+    pub fn find(&mut self, cell: &Cell, candidates: &[[f64; 3]], seed: &[u64], near: &[[f64; 3]]) {
+        self.rivals.clear();
+        self.candidates.clear();
+        for axis in 0..3 {
+            for (face, outward) in [(cell.min[axis], -1.0), (cell.min[axis] + cell.side, 1.0)] {
+                if near.iter().any(|position| (position[axis] - face) * outward > 0.0) {
+                    continue;
+                }
+                let image = |(seed, mut position): Rival| {
+                    let depth = (face - position[axis]) * outward;
+                    position[axis] = face + outward * depth;
+                    position[if axis == 0 { 1 } else { 0 }] += ASIDE * cell.spacing;
+                    let near = (0.0..DEPTH * cell.spacing).contains(&depth);
+                    near.then_some((mixed(seed, axis as u64), position))
+                };
+                // Those of the axes before have images too: neighbours across edges and corners.
+                for index in 0..self.rivals.len() {
+                    self.rivals.extend(image(self.rivals[index]));
+                }
+                for ((seed, position), number) in seed.iter().zip(candidates).zip(0..) {
+                    if let Some(rival) = image((*seed, *position)) {
+                        self.rivals.push(rival);
+                        self.candidates.push(number);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A seed without relation to the given one (SplitMix64: Steele, Lea, Flood 2014).
+fn mixed(seed: u64, axis: u64) -> u64 {
+    let mut v = seed.wrapping_add((axis + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    v = (v ^ v >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    v = (v ^ v >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    v ^ v >> 31
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::scene::cube;
+    use super::*;
+
+    #[test]
+    fn faces_with_neighbours_have_no_stand_ins() {
+        let cell = cube([0.0; 3], 1.0);
+        let candidates = [[0.25, 50.0, 50.0], [64.0, 64.0, 64.0], [127.5, 50.0, 50.0]];
+        let mut rim = Rim::default();
+        rim.find(&cell, &candidates, &[1, 2, 3], &[[-0.5, 9.0, 9.0]]);
+        assert_eq!(rim.candidates, [2]);
+        assert_eq!(rim.rivals.len(), 1);
+        assert_eq!(rim.rivals[0].1, [128.5, 54.0, 50.0]);
+        assert_ne!(rim.rivals[0].0, 3);
+    }
+
+    #[test]
+    fn a_corner_has_stand_ins_on_all_sides() {
+        let mut rim = Rim::default();
+        rim.find(&cube([0.0; 3], 1.0), &[[0.5; 3]], &[1], &[]);
+        let behind = |axis: usize| rim.rivals.iter().filter(|(_, position)| position[axis] < 0.0).count();
+        // Each has images at the faces of the axes after its own, along which it was not moved.
+        assert_eq!([behind(0), behind(1), behind(2)], [1, 2, 3]);
+        assert_eq!(rim.candidates, [0, 0, 0]);
+    }
+}
