@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         compressor.done()
     };
     match ParLasZipDecompressor::new(file, vlr.clone()) {
-        Ok(mut decompressor) => pass(&mut |part| Ok(decompressor.decompress_many(part)?))?,
+        Ok(mut decompressor) => pass(&mut |part| decompressor.decompress_many(part))?,
         // Without a chunk table there is nothing to do at once.
         Err(_) => {
             let mut file = BufReader::with_capacity(1 << 20, File::open(input)?);

@@ -1,5 +1,6 @@
-//! The order of the points in a node. LAZ stores differences, so it is worth a sixth of the file which points follow each
-//! other: those of a scanner best in the order in which it saw them, others along a curve through space.
+//! The order of the points in a node. LAZ stores differences, so it counts which points follow each other: those of a
+//! scanner may be best in the order in which it saw them, others along a curve through space. `autzen.laz` takes
+//! 70.5 MB in the input's order and 58.7 MB along the curve, a sixth less, and the curve is what each of its jobs finds.
 
 use super::site::Site;
 use crate::copc::chunk;

@@ -4,8 +4,16 @@
 use super::cube::Bounds;
 use super::key::BITS;
 
-/// A node with no more points in all is a leaf (measured in docs: smaller ones cost bytes and requests, larger ones
-/// come closer together than their level's spacing).
+/// A node with no more points in all is a leaf. Smaller ones cost bytes and requests, in larger ones more points stand
+/// closer together than their level's spacing. `autzen.laz`, Poisson samples, share of all points that lie in a leaf
+/// with another point of the level closer than the spacing (one in fifty of each level, 20,000 at least, looked at):
+///
+/// | leaf    | nodes | file     | close |
+/// | ------- | ----- | -------- | ----- |
+/// | 20,000  | 1,745 | 60.85 MB | 46 %  |
+/// | 50,000  | 778   | 58.66 MB | 67 %  |
+/// | 70,000  | 448   | 57.24 MB | 80 %  |
+/// | 100,000 | 276   | 56.38 MB | 88 %  |
 pub const LEAF_POINTS: u64 = 50_000;
 
 /// The most points that a sampled node takes, and their bytes.
