@@ -34,11 +34,16 @@ export interface Job {
   readonly options?: readonly string[];
 }
 
-/** Compares COPC files with their inputs, all of them in one process of Python. */
+/**
+ * Compares COPC files with their inputs, all of them in one process of Python.
+ * @param seconds how long the referees may take for one of them
+ */
 export function compareAll(
   jobs: readonly (readonly [output: string, inputs: readonly string[]])[],
+  seconds = 250,
 ): Comparison[] {
-  return jobs.length === 0 ? [] : runPython<Comparison[]>("interop/compare.py", [], JSON.stringify(jobs));
+  if (jobs.length === 0) return [];
+  return runPython<Comparison[]>("interop/compare.py", [String(seconds)], JSON.stringify(jobs));
 }
 
 /** Converts every job to a COPC file in the folder, and compares all of them in one go. */

@@ -37,7 +37,8 @@ impl Records {
 }
 
 /// Collects the records for the first input's points, with what is added. Waveform records go with the
-/// waveforms; COPC, LASzip and Groma records of the input describe another file.
+/// waveforms; COPC, LASzip and Groma records of the input describe another file; records without a readable name
+/// would keep others from reading the file.
 pub fn collect(scan: &Scan, laz: &LazVlr, additions: &Additions) -> std::io::Result<Records> {
     let mut laz_data = Vec::new();
     laz.write_to(&mut laz_data)?;
@@ -76,4 +77,5 @@ fn is_carried(record: &VariableRecord) -> bool {
         && user != COPC
         && user != GROMA
         && !record.is_waveform()
+        && record.is_named()
 }

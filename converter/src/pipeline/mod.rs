@@ -246,6 +246,9 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
 fn warn(scan: &Scan, progress: &dyn Progress) {
     let tell = |text: &str| progress.warn(&format!("{}: {text}", scan.path.display()));
     scan.warnings.iter().for_each(|text| tell(text));
+    for record in scan.records().filter(|record| !record.is_named()) {
+        tell(&format!("record {} is left out: its user id is not text", record.record_id));
+    }
     if has_waveform(scan.point_format) {
         tell("the waveforms are left out: COPC has no point format for them");
     }

@@ -40,6 +40,12 @@ impl VariableRecord {
         Self { user_id: padded(user_id), record_id, description: padded(description), data }
     }
 
+    /// Whether the user id is text, as LAS 1.4 R15 (2.5) wants it; readers give up at one that is not.
+    pub fn is_named(&self) -> bool {
+        let end = self.user_id.iter().position(|b| *b == 0).unwrap_or(self.user_id.len());
+        self.user_id[..end].is_ascii()
+    }
+
     pub fn is(&self, user_id: &str, record_id: u16) -> bool {
         self.record_id == record_id && text(&self.user_id) == user_id
     }

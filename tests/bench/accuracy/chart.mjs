@@ -3,16 +3,16 @@ import { parseHTML } from "linkedom";
 import { paretoFront } from "./summary.mjs";
 
 /** Okabe and Ito's colours, which most colour-blind people can tell apart, and four more. */
-const COLOURS = [
+export const COLOURS = [
   ...["#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7", "#000000"],
   ...["#777777", "#aaaaaa", "#8c510a", "#5e3c99", "#1b9e77", "#b2182b", "#4d4d4d"],
 ];
-const SYMBOLS = [
+export const SYMBOLS = [
   ...["circle", "square", "triangle", "diamond", "star", "cross", "wye"],
   ...["times", "asterisk", "diamond2", "square2", "triangle2", "hexagon", "plus"],
 ];
-const INK = "#1f2933";
-const FRONT = "#9aa5b1";
+export const INK = "#1f2933";
+export const FRONT = "#9aa5b1";
 const HEIGHT = 250;
 const MARGIN = 70;
 

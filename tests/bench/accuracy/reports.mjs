@@ -4,9 +4,21 @@ import { cpus, loadavg } from "node:os";
 import { join } from "node:path";
 import { geodesicReport } from "./geodesic-report.mjs";
 import { placingReport } from "./placing-report.mjs";
+import { renderingReport } from "./rendering-report.mjs";
+import { samplingReport } from "./sampling-report.mjs";
 import { verticalReport } from "./vertical-report.mjs";
 
-const reports = { placing: placingReport, geodesic: geodesicReport, vertical: verticalReport };
+const reports = {
+  placing: placingReport,
+  geodesic: geodesicReport,
+  vertical: verticalReport,
+  rendering: renderingReport,
+  sampling: samplingReport,
+};
+
+const IN_TURN =
+  "Times are the least of 45 rounds in which all methods take turns: ratios within a run count, absolute times depend on " +
+  "the machine.";
 
 /**
  * Measures and writes docs/accuracy/NAME.md, .svg and .json.
@@ -19,19 +31,21 @@ export async function writeReports(root, names) {
   mkdirSync(folder, { recursive: true });
   for (const name of names.length > 0 ? names : Object.keys(reports)) {
     const machine = conditions(root);
-    const { title, text, svg, table, rows } = await reports[name](root);
+    const report = await reports[name](root);
+    if (!report) continue;
+    const { title, text, svg, table, rows, packages = machine.packages, how = IN_TURN, files = [] } = report;
     const paragraphs = [
       `# ${title}`,
       text,
       `![${title}](${name}.svg)`,
       table,
-      `Measured on ${machine.date} on ${machine.cores} × ${machine.cpu}, load ${machine.load}, Node.js ${machine.node}, ${machine.packages}. ` +
-        "Times are the least of 45 rounds in which all methods take turns: ratios within a run count, absolute times " +
-        `depend on the machine. Raw numbers: [${name}.json](${name}.json). Written by \`npm run bench:accuracy\`.`,
+      `Measured on ${machine.date} on ${machine.cores} × ${machine.cpu}, load ${machine.load}, Node.js ${machine.node}, ${packages}. ` +
+        `${how} Raw numbers: [${name}.json](${name}.json). Written by \`npm run bench:accuracy\`.`,
     ];
     writeFileSync(join(folder, `${name}.md`), `${paragraphs.join("\n\n")}\n`);
     writeFileSync(join(folder, `${name}.svg`), svg);
-    writeFileSync(join(folder, `${name}.json`), json({ ...machine, rows }));
+    writeFileSync(join(folder, `${name}.json`), json({ ...machine, packages, rows }));
+    for (const [file, bytes] of files) writeFileSync(join(folder, file), bytes);
     console.log(`docs/accuracy/${name}.md, .svg, .json`);
   }
 }

@@ -1,0 +1,6 @@
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(
+    init: groma_fuzz::abort_on_panic(),
+    |data: &[u8]| groma_fuzz::chunk(data)
+);

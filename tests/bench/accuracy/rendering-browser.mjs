@@ -1,0 +1,81 @@
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import send from "send";
+import { build, runnerImport } from "vite";
+
+const SCAN = "/scan.copc.laz";
+
+/**
+ * A page in headless Chromium that draws a scan with WebGL in software.
+ *
+ * @param {string} file COPC
+ * @param {string} folder for what is built
+ * @param {object} pose from where it is looked at
+ * @param {number} cacheBytes bytes of vertices that the page may keep
+ */
+export async function openScene(root, file, folder, pose, cacheBytes) {
+  await buildPage(root, join(folder, "page"));
+  const server = await serve(root, folder, file);
+  const { launch, openPage } = await harness(root);
+  const browser = await launch();
+  const close = async () => {
+    await browser.close();
+    server.close();
+  };
+  try {
+    const { page, watch } = await openPage(browser, { width: 1300, height: 1250 });
+    page.setDefaultTimeout(0);
+    await page.goto(`http://127.0.0.1:${server.address().port}/index.html`);
+    await page.waitForSelector("body[data-ready]", { state: "attached", timeout: 60_000 });
+    const renderer = await page.evaluate(
+      async ([address, pose, cacheBytes]) => {
+        window.bench = await window.Bench.open(address, pose, cacheBytes);
+        return window.bench.renderer;
+      },
+      [SCAN, pose, cacheBytes],
+    );
+    const setting = `Cesium ${cesium(root).version}, Chromium ${browser.version()}, ${renderer}`;
+    return { page, setting, watch, close };
+  } catch (thrown) {
+    await close();
+    throw thrown;
+  }
+}
+
+/** Its launch of Chromium is that of the tests. */
+async function harness(root) {
+  const options = { root, configFile: false, logLevel: "error" };
+  return (await runnerImport(join(root, "tests/browser/harness.ts"), options)).module;
+}
+
+function cesium(root) {
+  const manifest = createRequire(join(root, "layer/package.json")).resolve("cesium/package.json");
+  return {
+    folder: join(dirname(manifest), "Build/Cesium"),
+    version: createRequire(manifest)(manifest).version,
+  };
+}
+
+function buildPage(root, outDir) {
+  return build({
+    root: join(root, "tests/bench/accuracy/rendering"),
+    base: "./",
+    logLevel: "error",
+    configFile: false,
+    worker: { format: "es" },
+    // Cesium is served as it was built by its makers.
+    build: { outDir, target: "es2022", minify: false, rollupOptions: { external: ["cesium"] } },
+  });
+}
+
+function serve(root, folder, file) {
+  const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url ?? "/", "http://localhost");
+    if (pathname === SCAN) return send(request, file).pipe(response);
+    const ofCesium = pathname.startsWith("/cesium/");
+    const from = ofCesium ? cesium(root).folder : join(folder, "page");
+    send(request, pathname.slice(ofCesium ? "/cesium".length : 0), { root: from }).pipe(response);
+  });
+  return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
+}
