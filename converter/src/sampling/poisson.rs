@@ -21,21 +21,21 @@ pub fn choose(
     rim.find(cell, candidates, seed, near);
     discs.begin(cell, near);
     let mut chosen = Vec::new();
-    let own = seed.iter().copied().zip(candidates.iter().copied());
-    order.visit(own.chain(rim.rivals.iter().copied()), |index, position| {
-        if discs.add(position) && (index as usize) < candidates.len() {
-            chosen.push(index);
+    let own = candidates.len();
+    let seed_of = |index: usize| if index < own { seed[index] } else { rim.rivals[index - own].0 };
+    for index in order.all(own + rim.rivals.len(), seed_of) {
+        match candidates.get(index as usize) {
+            Some(position) if discs.add(position) => chosen.push(index),
+            Some(_) => (),
+            None => _ = discs.add(&rim.rivals[index as usize - own].1),
         }
-    });
+    }
     if !rim.candidates.is_empty() {
         discs.begin(&Cell { spacing: WIDEST * cell.spacing, ..*cell }, near);
         chosen.iter().for_each(|index| discs.push(&candidates[*index as usize]));
-        let left = rim.candidates.iter().map(|index| (seed[*index as usize], candidates[*index as usize]));
-        order.visit(left, |number, position| {
-            if discs.add(position) {
-                chosen.push(rim.candidates[number as usize]);
-            }
-        });
+        let left = order.all(rim.candidates.len(), |number| seed[rim.candidates[number] as usize]);
+        let left = left.map(|number| rim.candidates[number as usize]);
+        chosen.extend(left.filter(|index| discs.add(&candidates[*index as usize])));
     }
     chosen.sort_unstable();
     chosen

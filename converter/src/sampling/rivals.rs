@@ -30,20 +30,23 @@ impl Rim {
                 if near.iter().any(|position| (position[axis] - face) * outward > 0.0) {
                     continue;
                 }
-                let image = |(seed, mut position): Rival| {
-                    let depth = (face - position[axis]) * outward;
-                    position[axis] = face + outward * depth;
+                let depth = |position: &[f64; 3]| (face - position[axis]) * outward;
+                let is_near = |position: &[f64; 3]| (0.0..DEPTH * cell.spacing).contains(&depth(position));
+                let image = |seed: u64, mut position: [f64; 3]| {
+                    position[axis] = face + outward * depth(&position);
                     position[if axis == 0 { 1 } else { 0 }] += ASIDE * cell.spacing;
-                    let near = (0.0..DEPTH * cell.spacing).contains(&depth);
-                    near.then_some((mixed(seed, axis as u64), position))
+                    (mixed(seed, axis as u64), position)
                 };
                 // Those of the axes before have images too: neighbours across edges and corners.
                 for index in 0..self.rivals.len() {
-                    self.rivals.extend(image(self.rivals[index]));
+                    let (seed, position) = self.rivals[index];
+                    if is_near(&position) {
+                        self.rivals.push(image(seed, position));
+                    }
                 }
-                for ((seed, position), number) in seed.iter().zip(candidates).zip(0..) {
-                    if let Some(rival) = image((*seed, *position)) {
-                        self.rivals.push(rival);
+                for (position, number) in candidates.iter().zip(0u32..) {
+                    if is_near(position) {
+                        self.rivals.push(image(seed[number as usize], *position));
                         self.candidates.push(number);
                     }
                 }
