@@ -38,8 +38,11 @@ function makeClouds(): void {
   if (existsSync(done) && statSync(done).mtimeMs > statSync(script).mtimeMs) return;
   mkdirSync(clouds, { recursive: true });
   const paths = runPython<Record<string, string>>("browser/stage/clouds.py", [clouds]);
-  for (const path of Object.values(paths))
-    convert(path, path.replace(/\.las$/, ".copc.laz"), ["--vertical", "ellipsoidal"]);
+  for (const path of Object.values(paths)) {
+    // Regular samples of regular scans: what is drawn of them can be told beforehand, whatever the default becomes.
+    const options = ["--vertical", "ellipsoidal", "--sampling", "grid"];
+    convert(path, path.replace(/\.las$/, ".copc.laz"), options);
+  }
 }
 
 /** A scan of `stage/clouds.py` as COPC. */
