@@ -12,7 +12,8 @@ import { describe, expect, it } from "vitest";
 import { Clip } from "./clip.js";
 import { ClipSet } from "./clip-set.js";
 import { draws } from "./clip-shader.fixture.js";
-import type { Corner } from "./source-space.js";
+import { sourceRing } from "./rings.js";
+import { type Corner, extendedPlace } from "./source-space.js";
 import { pointIn, type Vector } from "./vectors.js";
 import type { SourceSpace } from "./volume.js";
 
@@ -211,6 +212,14 @@ describe("polygons in source coordinates", () => {
       if (volumes.keeps(ecef, [x, y, z]) !== inside) wrong.push(`exact: ${x} ${y} ${z}`);
     }
     expect(wrong.slice(0, 3)).toEqual([]);
+  });
+
+  it("have no more vertices than corners where their edges are short", () => {
+    const corners = Array.from({ length: 60 }, (_, index): Corner => {
+      const angle = (2 * Math.PI * index) / 60;
+      return [3_512_000 + 150 * Math.cos(angle), 5_402_000 + 150 * Math.sin(angle)];
+    });
+    expect(sourceRing(corners, extendedPlace(space)).count).toBe(60);
   });
 
   it("end where source z says, to the tolerance", () => {

@@ -1,5 +1,5 @@
 import type { Ring } from "./rings.js";
-import { cross, dot, unit, type Vector } from "./vectors.js";
+import { cross, difference, dot, unit, type Vector } from "./vectors.js";
 
 /** Pieces that share a bounding sphere. */
 const GROUP = 32;
@@ -86,10 +86,6 @@ function meets(p: ArrayLike<number>, q: Vector, a: ArrayLike<number>, b: ArrayLi
   if (ofP >= 0 === ofQ >= 0) return false;
   const meeting = [0, 1, 2].map((axis) => p[axis] * Math.abs(ofQ) + q[axis] * Math.abs(ofP));
   return dot(meeting, a) > 0;
-}
-
-function difference(a: ArrayLike<number>, b: ArrayLike<number>): Vector {
-  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 }
 
 function perpendicular(to: Vector): Vector {

@@ -1,5 +1,5 @@
 import { ecefToGeodetic, geodesicBetween, geodesicFrom, geodeticToEcef } from "@groma/georef";
-import { cross, dot, type Vector } from "./vectors.js";
+import { cross, difference, dot, type Vector } from "./vectors.js";
 import type { Place } from "./volume.js";
 
 /**
@@ -60,9 +60,11 @@ export function sourceRing(corners: readonly (readonly [number, number])[], plac
   const between = (ax: number, ay: number, bx: number, by: number, left: number) => {
     const [mx, my] = [(ax + bx) / 2, (ay + by) / 2];
     const [a, m, b] = [placed(place, ax, ay, 0), placed(place, mx, my, 0), placed(place, bx, by, 0)];
-    const plane = cross(a, b);
-    const aside = Math.abs(dot(plane, m)) / Math.hypot(...plane);
-    const length = Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    // Of differences: the product of two places themselves is no finer than a millimetre over 10 m.
+    const along = difference(b, a);
+    const plane = cross(a, along);
+    const aside = Math.abs(dot(plane, difference(m, a))) / Math.hypot(...plane);
+    const length = Math.hypot(...along);
     if (left === 0 || !(aside > STRAIGHTNESS || length > 4 * LONGEST_PIECE)) return;
     between(ax, ay, mx, my, left - 1);
     add(mx, my);
