@@ -27,11 +27,12 @@ const RECORD_BYTES = 32 * 1024 * 1024;
 /** Reads the chunks of nodes and has them made into vertices or plain records. */
 export class NodeLoader {
   readonly #parts: LoaderParts;
-  readonly #records = new LruCache<OctreeNode, NodeRecords>({
+  // By name, not by node: hierarchy pages may be given up meanwhile, and bring other nodes when they are read again.
+  readonly #records = new LruCache<string, NodeRecords>({
     points: Number.POSITIVE_INFINITY,
     bytes: RECORD_BYTES,
   });
-  readonly #reading = new Map<OctreeNode, Promise<NodeRecords>>();
+  readonly #reading = new Map<string, Promise<NodeRecords>>();
   #appearance: Appearance | undefined;
   #judging: Promise<Judged> | undefined;
 
@@ -67,20 +68,22 @@ export class NodeLoader {
    */
   async records(node: OctreeNode, signal: AbortSignal): Promise<NodeRecords> {
     signal.throwIfAborted();
-    const kept = this.#records.use(node);
+    const { name } = node;
+    const kept = this.#records.use(name);
     if (kept) return kept;
-    let reading = this.#reading.get(node);
+    let reading = this.#reading.get(name);
     if (!reading) {
-      reading = this.#decode(node).finally(() => this.#reading.delete(node));
-      this.#reading.set(node, reading);
+      reading = this.#decode(node).finally(() => this.#reading.delete(name));
+      this.#reading.set(name, reading);
     }
     return unlessAborted(reading, signal);
   }
 
   async #decode(node: OctreeNode): Promise<NodeRecords> {
+    const { name, pointCount } = node;
     const records = await this.#parts.executor.records(await this.#jobOf(node, undefined));
-    this.#records.set(node, records, { points: node.pointCount, bytes: records.bytes.byteLength });
-    this.#records.trim((candidate) => candidate === node);
+    this.#records.set(name, records, { points: pointCount, bytes: records.bytes.byteLength });
+    this.#records.trim((candidate) => candidate === name);
     return records;
   }
 

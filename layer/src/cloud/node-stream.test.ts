@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { NodeStore, type OctreeNode, SharedBudget, type View } from "../octree/index.js";
+import { insertPage } from "../octree/insert-page.fixture.js";
 import type { HierarchyEntry } from "../sources/index.js";
 import type { NodeVertices } from "../workers/index.js";
 import { NodeStream } from "./node-stream.js";
@@ -26,7 +27,7 @@ function setUp(options: SetUp = {}) {
   store.root.become("opening");
   const entries = Array.from({ length: children }, (_, x) => entry(1, x));
   if (page) entries[children - 1] = entry(1, children - 1, -1);
-  store.insertPage(store.root, [entry(0, 0), ...entries]);
+  insertPage(store, store.root, [entry(0, 0), ...entries]);
   const calls = new Map<
     string,
     { resolve: () => void; reject: (error: Error) => void; signal: AbortSignal }
@@ -46,7 +47,7 @@ function setUp(options: SetUp = {}) {
       },
       openPage: async (node, signal) => {
         await wait(`page ${node.name}`, signal);
-        store.insertPage(node, [entry(1, node.key.x)]);
+        insertPage(store, node, [entry(1, node.key.x)]);
       },
     },
     {

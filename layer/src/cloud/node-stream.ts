@@ -1,6 +1,7 @@
 import { isAbort } from "../errors/index.js";
 import {
   type BoundsOf,
+  type HierarchyPage,
   LruCache,
   type NodeStore,
   type OctreeNode,
@@ -36,6 +37,11 @@ export interface StreamLimits {
   readonly requests?: number;
   /** Bytes of vertices that are kept. Default: 268,435,456. */
   readonly cacheBytes?: number;
+  /**
+   * Nodes of the octree that are known at once, their points loaded or not, 230 to 270 bytes each. Beyond it, what
+   * views have not come by for longest is forgotten, and read again when one does. Default: 500,000.
+   */
+  readonly knownNodes?: number;
   /** Budget whose bytes several clouds share; holds beside `cacheBytes`. */
   readonly budget?: SharedBudget;
 }
@@ -71,6 +77,8 @@ export class NodeStream {
   #wanted: OctreeNode[] = [];
   /** Index of the first of them that may still wait for its turn. */
   #next = 0;
+  /** Pages of the hierarchy that views go through; each carries the number of this round. */
+  #open: HierarchyPage[] = [];
   #round = 1;
   /** Nodes and pages that may go on if they are on their way, though no view wants them. */
   #fringe = new Set<OctreeNode>();
@@ -83,6 +91,7 @@ export class NodeStream {
       points: Number.POSITIVE_INFINITY,
       bytes: limits.cacheBytes ?? 268_435_456,
     });
+    source.store.limit = limits.knownNodes ?? 500_000;
   }
 
   /** Nodes and pages being loaded. */
@@ -118,7 +127,7 @@ export class NodeStream {
     this.#cancelUnwanted();
     this.#queueWanted();
     this.#pump();
-    this.#trim();
+    this.trim();
     return selection;
   }
 
@@ -129,7 +138,7 @@ export class NodeStream {
     this.#selections.delete(viewer);
     this.#rank();
     this.#cancelUnwanted();
-    this.#trim();
+    this.trim();
   }
 
   progress(viewer: object): StreamProgress {
@@ -161,11 +170,17 @@ export class NodeStream {
     this.#failed.clear();
   }
 
+  /** Gives up what is beyond the limits and no view wants; each update does. */
+  trim(): void {
+    this.#trimVertices();
+    this.#trimPages();
+  }
+
   /** Stops all loading and gives up everything. */
   destroy(): void {
     for (const viewer of [...this.#selections.keys()]) this.detach(viewer);
     this.#cache.limits = { points: 0, bytes: 0 };
-    this.#trim();
+    this.trim();
     this.#budget?.cpu.report(this, 0);
     this.#listeners.clear();
   }
@@ -173,16 +188,23 @@ export class NodeStream {
   /** Marks what views want; what none wants any more counts as used until now. */
   #rank(): void {
     const before = this.#wanted;
+    const openBefore = this.#open;
     this.#wanted = [];
+    this.#open = [];
     this.#fringe = new Set();
     this.#round++;
-    for (const { nodes, pages, fringe } of this.#selections.values()) {
+    for (const { nodes, pages, open, fringe } of this.#selections.values()) {
       // Pages come with the rank of the most important node: what lies behind them is not known yet.
       for (const page of pages) this.#want(page, 0);
       for (let index = 0; index < nodes.length; index++) this.#want(nodes[index], index);
       for (const node of fringe) this.#fringe.add(node);
+      for (const page of open) {
+        if (page.round !== this.#round) this.#open.push(page);
+        page.round = this.#round;
+      }
     }
     for (const node of before) if (!this.#wants(node)) this.#cache.use(node);
+    for (const page of openBefore) if (page.round !== this.#round) this.#source.store.use(page);
   }
 
   #want(node: OctreeNode, rank: number): void {
@@ -226,12 +248,12 @@ export class NodeStream {
   #pump(): void {
     for (; this.#next < this.#wanted.length && this.#active.size < this.#requests; this.#next++) {
       const node = this.#wanted[this.#next];
-      if (node.state === "page") void this.#open(node);
+      if (node.state === "page") void this.#openPage(node);
       else if (node.state === "queued") void this.#load(node);
     }
   }
 
-  async #open(node: OctreeNode): Promise<void> {
+  async #openPage(node: OctreeNode): Promise<void> {
     const controller = new AbortController();
     this.#active.set(node, controller);
     node.become("opening");
@@ -284,7 +306,7 @@ export class NodeStream {
     for (const listener of this.#listeners) listener.nodeFailed?.(node, error);
   }
 
-  #trim(): void {
+  #trimVertices(): void {
     const inUse = (node: OctreeNode) => this.#wants(node);
     const evicted = this.#cache.trim(inUse, this.#budget?.cpu.excess ?? 0);
     for (const [node] of evicted) {
@@ -292,5 +314,13 @@ export class NodeStream {
       for (const listener of this.#listeners) listener.nodeEvicted?.(node);
     }
     if (evicted.length > 0) this.#budget?.cpu.report(this, this.#cache.bytes);
+  }
+
+  #trimPages(): void {
+    const { store } = this.#source;
+    const inUse = ({ round, root }: HierarchyPage) =>
+      round === this.#round || this.#wants(root) || this.#fringe.has(root);
+    if (!store.trim(inUse)) return;
+    for (const node of this.#failed) if (node.page?.dropped) this.#failed.delete(node);
   }
 }

@@ -1,7 +1,7 @@
 import { encodeRecord, exactTransform, type GeoreferenceRecord, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { BlobSource } from "../sources/index.js";
-import { type TinyCopc, tinyCopc } from "../sources/tiny-copc.fixture.js";
+import { BlobSource, type ByteSource } from "../sources/index.js";
+import { pageBytes, type TinyCopc, tinyCopc } from "../sources/tiny-copc.fixture.js";
 import type {
   ChunkJob,
   DataSetSpec,
@@ -84,6 +84,31 @@ const twoNodes: TinyCopc = {
     [1, 1, 0, 1, 0, 100, 4],
   ],
 };
+
+/** A root and two nodes behind further pages, each with one below it. */
+function pagedFile(): Uint8Array {
+  const make = (end: number) =>
+    tinyCopc({
+      page: [
+        [0, 0, 0, 0, 0, 100, 4],
+        [1, 1, 0, 1, end, 64, -1],
+        [1, 0, 0, 0, end + 64, 64, -1],
+      ],
+    });
+  const { length } = make(1);
+  const head = make(length);
+  const chunk = new DataView(head.buffer).getUint32(96, true);
+  const pages = pageBytes([
+    [1, 1, 0, 1, chunk, 100, 2],
+    [2, 2, 0, 2, chunk, 100, 1],
+    [1, 0, 0, 0, chunk, 100, 2],
+    [2, 0, 0, 0, chunk, 100, 1],
+  ]);
+  const file = new Uint8Array(length + pages.length);
+  file.set(head);
+  file.set(pages, length);
+  return file;
+}
 
 describe("PointCloud", () => {
   it("goes by Groma's own record", async () => {
@@ -226,6 +251,56 @@ describe("PointCloud", () => {
     await expect(cloud.readPoint("1-0-0-0", 0)).rejects.toThrow(missing);
     const signal = AbortSignal.abort(new Error("no longer"));
     await expect(cloud.readPoint("1-1-0-1", 0, { signal })).rejects.toThrow("no longer");
+  });
+
+  it("reads points of nodes whose pages were given up, by reading that page again and no other", async () => {
+    const reads: number[] = [];
+    const bytes = pagedFile();
+    const source: ByteSource = {
+      ...{ name: "a.copc.laz", size: bytes.length },
+      read: async (begin, end) => {
+        reads.push(begin);
+        return bytes.slice(begin, end);
+      },
+    };
+    const executor = new Recorder();
+    const cloud = await PointCloud.fromUrl(source, {
+      ...{ crs: UTM, executor, limits: { knownNodes: 1 } },
+    });
+    const pages = () => reads.splice(0).filter((begin) => begin >= bytes.length - 4 * 32);
+    pages();
+    const first = [await cloud.readPoint("1-1-0-1", 0), await cloud.readPoint("2-2-0-2", 0)];
+    expect(cloud.nodeCount).toBe(3);
+    expect(pages()).toEqual([bytes.length - 128, bytes.length - 128]);
+    const other = await cloud.readPoint("1-0-0-0", 0);
+    expect([cloud.nodeCount, other.node, pages()]).toEqual([3, "1-0-0-0", [bytes.length - 64]]);
+    const again = [await cloud.readPoint("1-1-0-1", 0), await cloud.readPoint("2-2-0-2", 0)];
+    expect(again).toEqual(first);
+    // The records themselves were kept.
+    expect(executor.asked.map(({ node }) => node)).toEqual(["1-1-0-1", "2-2-0-2", "1-0-0-0"]);
+  });
+
+  it("keeps a node in the octree while it is being loaded, and lets it go then", async () => {
+    const executor = new Recorder();
+    const source = new BlobSource(new Blob([pagedFile().slice()]), "a.copc.laz");
+    const options = { crs: UTM, executor, limits: { knownNodes: 1 } };
+    const cloud = await PointCloud.fromUrl(source, options);
+    const names = ["1-1-0-1", "2-2-0-2", "1-0-0-0", "2-0-0-0", "1-1-0-1"];
+    const loaded = await Promise.all(names.map((name) => cloud.loadNode(name)));
+    expect(loaded.map(({ count }) => count)).toEqual([2, 1, 2, 1, 2]);
+    expect(cloud.nodeCount).toBe(3);
+  });
+
+  it("stops taking in a page that is no longer wanted, and can read it later", async () => {
+    const executor = new Recorder();
+    const source = new BlobSource(new Blob([pagedFile().slice()]), "a.copc.laz");
+    const cloud = await PointCloud.fromUrl(source, { crs: UTM, executor });
+    const controller = new AbortController();
+    const loading = cloud.loadNode("1-1-0-1", { signal: controller.signal });
+    controller.abort(new Error("no longer"));
+    await expect(loading).rejects.toThrow("no longer");
+    expect(cloud.nodeCount).toBe(3);
+    await expect(cloud.loadNode("1-1-0-1")).resolves.toMatchObject({ count: 2 });
   });
 
   it("hands the worker a node's cube in source coordinates", async () => {

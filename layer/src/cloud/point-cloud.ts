@@ -24,7 +24,6 @@ import {
   type HttpOptions,
   openCopc,
   openSource,
-  readHierarchyPage,
   type SourceLike,
 } from "../sources/index.js";
 import {
@@ -43,6 +42,7 @@ import { type Georeference, type GeoreferenceOptions, georeferenceOf } from "./g
 import { NodeGeometry } from "./node-geometry.js";
 import { NodeLoader, noNode } from "./node-loader.js";
 import { NodeStream, type StreamLimits } from "./node-stream.js";
+import { openPage } from "./open-page.js";
 import { pointRecord } from "./point-record.js";
 
 /** How a data set is opened. */
@@ -226,7 +226,7 @@ export class PointCloud {
    */
   async loadNode(key: VoxelKey | string, options: { signal?: AbortSignal } = {}): Promise<NodeVertices> {
     const signal = options.signal ?? new AbortController().signal;
-    return this.#loader.vertices(await this.#nodeOf(key, signal), signal);
+    return this.#withNode(key, signal, (node) => this.#loader.vertices(node, signal));
   }
 
   /**
@@ -242,36 +242,51 @@ export class PointCloud {
     options: { signal?: AbortSignal | undefined } = {},
   ): Promise<PointRecord> {
     const signal = options.signal ?? new AbortController().signal;
-    const node = from instanceof OctreeNode ? from : await this.#nodeOf(from, signal);
-    const records = await this.#loader.records(node, signal);
+    // A node may have left the octree since it was drawn: its key tells which one takes its place.
+    const key = from instanceof OctreeNode ? from.key : from;
+    const { name, records } = await this.#withNode(key, signal, async (node) => {
+      return { name: node.name, records: await this.#loader.records(node, signal) };
+    });
     const index = typeof point === "number" ? records.order[point] : point.record;
     if (index === undefined || !(index in records.order)) {
-      throw noNode(
-        `${node.name} with point ${typeof point === "number" ? point : index}`,
-        this.#copc.source.name,
-      );
+      throw noNode(`${name} with point ${typeof point === "number" ? point : index}`, this.#copc.source.name);
     }
-    return pointRecord(node.name, index, records, this.#copc.header, this.#fields);
+    return pointRecord(name, index, records, this.#copc.header, this.#fields);
   }
 
-  /** The node with points that a key names; reads hierarchy pages on the way. @throws FormatError FORMAT_NODE */
-  async #nodeOf(key: VoxelKey | string, signal: AbortSignal): Promise<OctreeNode> {
+  /**
+   * Works with the node with points that a key names, which stays in the octree meanwhile; reads hierarchy pages on
+   * the way to it.
+   * @throws FormatError FORMAT_NODE where the octree has no such node
+   */
+  async #withNode<T>(
+    key: VoxelKey | string,
+    signal: AbortSignal,
+    work: (node: OctreeNode) => Promise<T>,
+  ): Promise<T> {
     const file = this.#copc.source.name;
     const wanted = typeof key === "string" ? parseKey(key) : key;
     if (!wanted) throw noNode(String(key), file);
-    const node = await this.#reach(wanted, signal);
-    if (!sameKey(node.key, wanted) || node.pointCount === 0) throw noNode(keyName(wanted), file);
-    return node;
-  }
-
-  /** The node with a key, or its closest ancestor that the octree has; reads the pages on the way. */
-  async #reach(wanted: VoxelKey, signal: AbortSignal): Promise<OctreeNode> {
     for (;;) {
       const node = this.#store.closest(wanted);
       const opening = this.#opening.get(node);
       if (opening) await opening.catch(() => undefined);
       else if (node.state === "page" || node.pageFailed) await this.#openAgain(node, signal);
-      else return node;
+      else if (!sameKey(node.key, wanted) || node.pointCount === 0) throw noNode(keyName(wanted), file);
+      else return this.#holding(node, work);
+    }
+  }
+
+  /** Keeps a node in the octree, and its page from being the next to go, while work is done with it. */
+  async #holding<T>(node: OctreeNode, work: (node: OctreeNode) => Promise<T>): Promise<T> {
+    const { page } = node;
+    page?.hold();
+    try {
+      return await work(node);
+    } finally {
+      page?.release();
+      if (page) this.#store.use(page);
+      this.stream.trim();
     }
   }
 
@@ -323,11 +338,7 @@ export class PointCloud {
   }
 
   async #openPage(node: OctreeNode, signal?: AbortSignal): Promise<void> {
-    const { address } = node;
-    if (!address) throw new Error(`node ${node.name} has no page`);
-    const reading = readHierarchyPage(this.#copc, address, { signal }).then((entries) =>
-      this.#store.insertPage(node, entries),
-    );
+    const reading = openPage(this.#copc, this.#store, node, signal);
     this.#opening.set(node, reading);
     try {
       await reading;

@@ -1,4 +1,4 @@
-import type { NodeBounds, OctreeNode } from "./octree-node.js";
+import type { HierarchyPage, NodeBounds, OctreeNode } from "./octree-node.js";
 import { PriorityQueue } from "./priority-queue.js";
 import { type Demand, pointsAt, shareOf } from "./share.js";
 import { behindHorizon, distanceTo, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
@@ -23,6 +23,8 @@ export interface Gathered {
   readonly spacings: number[];
   /** Nodes whose hierarchy page must be read, most important first. */
   readonly pages: OctreeNode[];
+  /** Pages that the traversal went through. */
+  readonly open: HierarchyPage[];
   /** Nodes too small by little. */
   readonly fringe: OctreeNode[];
 }
@@ -45,6 +47,7 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
   const nodes: OctreeNode[] = [];
   const spacings: number[] = [];
   const pages: OctreeNode[] = [];
+  const open: HierarchyPage[] = [];
   const fringe: OctreeNode[] = [];
   const demand: Demand = { sizes: [], caps: [], pixels: [], base: [], prefix };
   const metre = pixelsPerMetre(view);
@@ -69,7 +72,7 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     const pixels = reached.pixels[index];
     const weighted = reached.weighted[index];
     const base = reached.base[index];
-    const { state, pointCount, children } = node;
+    const { state, pointCount, children, page } = node;
     const drawn = base || 2 * pixels > error;
     if (!drawn) {
       fringe.push(node);
@@ -79,6 +82,8 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
       pages.push(node);
       continue;
     }
+    // A page is entered by its root and in no other way.
+    if (page?.root === node) open.push(page);
     if (pointCount > 0) {
       nodes.push(node);
       spacings.push(pixels);
@@ -97,7 +102,7 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     if (!children || !(bare || pixels > FRINGE * error)) continue;
     for (const child of children) if (child) consider(child, weighted, bare);
   }
-  return { demand, nodes, spacings, pages, fringe };
+  return { demand, nodes, spacings, pages, open, fringe };
 }
 
 /** What a traversal came to, column by column, since an object for each of thousands of nodes in every frame is dear. */

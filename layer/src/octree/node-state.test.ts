@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { isLegal, type NodeState } from "./node-state.js";
+import { isHeld, isLegal, type NodeState } from "./node-state.js";
 import { OctreeNode } from "./octree-node.js";
 
 const STATES: NodeState[] = ["page", "opening", "empty", "listed", "queued", "loading", "ready", "failed"];
@@ -32,8 +32,14 @@ describe("node states", () => {
     expect(isLegal("failed", "ready")).toBe(false);
   });
 
-  it("has no way out of empty, so an empty node is never requested", () => {
-    expect(STATES.filter((state) => isLegal("empty", state))).toEqual([]);
+  it("has no way out of empty but back to its page, so an empty node is never requested", () => {
+    expect(STATES.filter((state) => isLegal("empty", state))).toEqual(["page"]);
+  });
+
+  it("never forgets a node that is waiting, on its way or here", () => {
+    expect(STATES.filter((state) => isHeld(state) && state !== "opening" && isLegal(state, "page"))).toEqual(
+      [],
+    );
   });
 
   it("has no state that goes to itself", () => {

@@ -14,8 +14,9 @@ export type NodeState = "page" | "opening" | "empty" | "listed" | "queued" | "lo
 const LEGAL: Readonly<Record<NodeState, readonly NodeState[]>> = {
   page: ["opening"],
   opening: ["page", "empty", "listed", "failed"],
-  empty: [],
-  listed: ["queued"],
+  // Back to the page that lists it, once that is given up.
+  empty: ["page"],
+  listed: ["queued", "page"],
   queued: ["loading", "listed"],
   loading: ["ready", "listed", "failed"],
   ready: ["listed"],
@@ -31,6 +32,11 @@ export function isLegal(from: NodeState, to: NodeState): boolean {
  * Holds a change of state against the table.
  * @throws Error for a change that the table does not have: a bug of the layer's own, not a fault of the data
  */
-export function assertLegal(from: NodeState, to: NodeState, node: string): void {
-  if (!isLegal(from, to)) throw new Error(`node ${node} cannot go from ${from} to ${to}`);
+export function assertLegal(from: NodeState, to: NodeState, node: { readonly name: string }): void {
+  if (!isLegal(from, to)) throw new Error(`node ${node.name} cannot go from ${from} to ${to}`);
+}
+
+/** True where a node in this state is waiting, on its way or here: what knows of it must stay. */
+export function isHeld(state: NodeState): boolean {
+  return state === "opening" || state === "queued" || state === "loading" || state === "ready";
 }

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { HierarchyEntry } from "../sources/index.js";
+import { insertPage } from "./insert-page.fixture.js";
 import { NodeStore } from "./node-store.js";
 
 const entry = (name: string, pointCount: number, offset = 1000): HierarchyEntry => {
@@ -10,9 +11,36 @@ const entry = (name: string, pointCount: number, offset = 1000): HierarchyEntry 
 function storeOf(entries: HierarchyEntry[], limit = 1000): NodeStore {
   const store = new NodeStore("a.copc.laz", limit, { offset: 500, length: 32 });
   store.root.become("opening");
-  store.insertPage(store.root, entries);
+  insertPage(store, store.root, entries);
   return store;
 }
+
+/** Pages by their node; the first has three, two of which are said to lie at the same place. */
+const PAGES: Record<string, HierarchyEntry[]> = {
+  "0-0-0-0": [
+    ...[entry("0-0-0-0", 1), entry("1-0-0-0", -1, 600)],
+    ...[entry("1-1-0-0", -1, 700), entry("1-0-1-0", -1, 600)],
+  ],
+  "1-0-0-0": [entry("1-0-0-0", 3), entry("2-0-0-0", 1)],
+  "1-0-1-0": [entry("1-0-0-0", 3), entry("2-0-0-0", 1)],
+  "1-1-0-0": [entry("1-1-0-0", 1), entry("2-2-0-0", -1, 800)],
+  "2-2-0-0": [entry("2-2-0-0", 1)],
+};
+
+function paged(limit = 1000) {
+  const store = storeOf(PAGES["0-0-0-0"], limit);
+  const find = (name: string) => store.closest(entry(name, 0));
+  const open = (name: string) => {
+    const node = find(name);
+    node.become("opening");
+    insertPage(store, node, PAGES[name]);
+    return node;
+  };
+  const known = (name: string) => (find(name).name === name ? find(name).state : undefined);
+  return { store, open, known };
+}
+
+const unused = () => false;
 
 const hierarchyError = expect.objectContaining({ code: "FORMAT_HIERARCHY" });
 
@@ -36,7 +64,7 @@ describe("NodeStore", () => {
     const page = store.closest({ depth: 1, x: 1, y: 0, z: 0 });
     expect(page.state).toBe("page");
     page.become("opening");
-    store.insertPage(page, [entry("1-1-0-0", 7), entry("2-2-1-1", 3)]);
+    insertPage(store, page, [entry("1-1-0-0", 7), entry("2-2-1-1", 3)]);
     expect([page.state, page.pointCount, store.points]).toEqual(["listed", 7, 20]);
   });
 
@@ -57,19 +85,95 @@ describe("NodeStore", () => {
     const store = storeOf([entry("0-0-0-0", 1), entry("1-0-0-0", -1, 600), entry("1-1-0-0", -1, 500)]);
     const page = store.closest({ depth: 1, x: 0, y: 0, z: 0 });
     page.become("opening");
-    expect(() => store.insertPage(page, [entry("1-1-0-0", 1)])).toThrow(hierarchyError);
+    expect(() => insertPage(store, page, [entry("1-1-0-0", 1)])).toThrow(hierarchyError);
     const loop = store.closest({ depth: 1, x: 1, y: 0, z: 0 });
     loop.become("opening");
-    expect(() => store.insertPage(loop, [entry("1-1-0-0", 1)])).toThrow(hierarchyError);
+    expect(() => insertPage(store, loop, [entry("1-1-0-0", 1)])).toThrow(hierarchyError);
   });
 
   it("keeps nothing of a damaged page, so that it can be read again", () => {
     const store = storeOf([entry("0-0-0-0", 1), entry("1-0-0-0", -1, 600)]);
     const page = store.closest({ depth: 1, x: 0, y: 0, z: 0 });
     page.become("opening");
-    expect(() => store.insertPage(page, [entry("1-0-0-0", 3), entry("2-3-3-3", 1)])).toThrow(hierarchyError);
+    expect(() => insertPage(store, page, [entry("1-0-0-0", 3), entry("2-3-3-3", 1)])).toThrow(hierarchyError);
     expect([page.state, store.points, store.size]).toEqual(["opening", 1, 2]);
-    store.insertPage(page, [entry("1-0-0-0", 3)]);
+    insertPage(store, page, [entry("1-0-0-0", 3)]);
     expect([page.state, store.points]).toEqual(["listed", 4]);
+  });
+
+  it("reads a page that was given up again as if it came for the first time", () => {
+    const { store, open } = paged();
+    const page = open("1-0-0-0");
+    const before = [store.size, store.points];
+    store.limit = 1;
+    expect(store.trim(unused)).toBe(true);
+    expect([page.state, page.pointCount, page.children, page.address?.offset]).toEqual([
+      ...["page", 0, undefined, 600],
+    ]);
+    expect([store.size, store.points]).toEqual([4, 1]);
+    open("1-0-0-0");
+    expect([store.size, store.points]).toEqual(before);
+  });
+
+  it("gives up first what was used longest ago, no more than needed, and what lies below it too", () => {
+    const { store, open, known } = paged();
+    for (const name of ["1-0-0-0", "1-1-0-0", "2-2-0-0"]) open(name);
+    const first = store.closest({ depth: 1, x: 0, y: 0, z: 0 });
+    if (first.page) store.use(first.page);
+    store.limit = store.size - 1;
+    store.trim(unused);
+    expect([known("1-0-0-0"), known("1-1-0-0"), known("2-2-0-0")]).toEqual(["listed", "page", undefined]);
+  });
+
+  it("gives up nothing that is in use, held, or above what is held, and never the first page", () => {
+    const { store, open, known } = paged();
+    for (const name of ["1-0-0-0", "1-1-0-0", "2-2-0-0"]) open(name);
+    const below = store.closest({ depth: 2, x: 2, y: 0, z: 0 });
+    below.become("queued");
+    store.limit = 1;
+    store.trim(({ root }) => root.name === "1-0-0-0");
+    expect([known("1-0-0-0"), known("1-1-0-0"), known("2-2-0-0")]).toEqual(["listed", "listed", "queued"]);
+    below.become("listed");
+    store.trim(unused);
+    expect([store.root.state, store.size]).toEqual(["listed", 4]);
+    expect(() => below.become("queued")).toThrow("2-2-0-0 has left the octree");
+  });
+
+  it("refuses a page that two nodes share, given up or not", () => {
+    const { store, open } = paged();
+    open("1-0-0-0");
+    expect(() => open("1-0-1-0")).toThrow(hierarchyError);
+    store.limit = 1;
+    store.trim(unused);
+    const again = store.closest({ depth: 1, x: 0, y: 1, z: 0 });
+    expect(() => insertPage(store, again, PAGES["1-0-0-0"])).toThrow(hierarchyError);
+  });
+
+  it("never lets more points in than the header says, whatever was given up", () => {
+    const { store, open } = paged(5);
+    for (let round = 0; round < 5; round++) {
+      open("1-0-0-0");
+      store.limit = 1;
+      store.trim(unused);
+    }
+    open("1-0-0-0");
+    expect(() => open("1-1-0-0")).toThrow(hierarchyError);
+  });
+
+  it("shows nothing of a page until all of it is there", () => {
+    const { store } = paged();
+    const node = store.closest({ depth: 1, x: 1, y: 0, z: 0 });
+    node.become("opening");
+    const draft = store.draft(node);
+    draft.take(PAGES["1-1-0-0"]);
+    expect(draft.grow(1)).toBe(true);
+    expect([store.closest({ depth: 2, x: 2, y: 0, z: 0 }), store.size, node.pointCount]).toEqual([
+      node,
+      4,
+      0,
+    ]);
+    expect(draft.grow(1)).toBe(false);
+    store.insertPage(draft);
+    expect([store.closest({ depth: 2, x: 2, y: 0, z: 0 }).state, store.size]).toEqual(["page", 5]);
   });
 });

@@ -1,16 +1,24 @@
-import { badHierarchy, type HierarchyEntry } from "../sources/index.js";
-import { OctreeNode } from "./octree-node.js";
-import { ancestorAt, isWithin, keyName, octant, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";
+import { badHierarchy } from "../sources/index.js";
+import { type HierarchyPage, OctreeNode } from "./octree-node.js";
+import { PageDraft } from "./page-draft.js";
+import { ROOT_KEY, type VoxelKey } from "./voxel-key.js";
+
+/** Pages that one trim looks at, at most, so that no frame is held up. */
+const LOOKS = 64;
 
 /**
- * The octree as far as its hierarchy pages were read. Pages are held against each other: a page that is
- * read twice, names a node outside its own, or one that is already known, is an error.
+ * The octree as far as its hierarchy pages are known. Pages are held against each other: a page that is there twice,
+ * names a node outside its own, or one that is already known, is an error. Beyond a limit the pages used longest ago
+ * are given up; their nodes leave the octree, and come anew when the page is read again.
  */
 export class NodeStore {
   readonly root: OctreeNode;
+  /** Nodes beyond which pages are given up. */
+  limit = Number.POSITIVE_INFINITY;
   readonly #file: string;
   readonly #pointLimit: number;
-  readonly #pages = new Set<number>();
+  /** Pages that were read, by their place in the file, the one used longest ago first. */
+  readonly #pages = new Map<number, HierarchyPage>();
   #points = 0;
   #size = 1;
 
@@ -35,98 +43,81 @@ export class NodeStore {
     return this.#points;
   }
 
-  /**
-   * Takes in the entries of the page that `node` stands for; the node must be `opening` and afterwards is
-   * `listed` or `empty`.
-   * @throws FormatError FORMAT_HIERARCHY
-   */
-  insertPage(node: OctreeNode, entries: readonly HierarchyEntry[]): void {
-    const { address } = node;
-    if (!address) throw new Error(`node ${node.name} has no page`);
-    if (this.#pages.has(address.offset))
-      throw badHierarchy(this.#file, `the page at byte ${address.offset} twice`);
-    const points = this.#points;
-    const size = this.#size;
-    try {
-      this.#insert(node, entries);
-    } catch (thrown) {
-      // Nothing of a damaged page stays.
-      node.children = undefined;
-      node.pointCount = 0;
-      node.address = address;
-      this.#points = points;
-      this.#size = size;
-      throw thrown;
-    }
-    this.#pages.add(address.offset);
-    node.become(node.pointCount > 0 ? "listed" : "empty");
+  /** Begins to put together the page that a node stands for. */
+  draft(node: OctreeNode): PageDraft {
+    return new PageDraft(this.#file, node);
   }
 
-  #insert(node: OctreeNode, entries: readonly HierarchyEntry[]): void {
-    node.address = undefined;
-    // Parents first, whatever the order in the file.
-    const sorted = [...entries].sort((a, b) => a.depth - b.depth);
-    let own = 0;
-    for (const entry of sorted) {
-      if (!isWithin(entry, node.key)) {
-        throw badHierarchy(this.#file, `node ${keyName(entry)} in the page of node ${node.name}`);
-      }
-      if (!sameKey(entry, node.key)) this.#add(node, entry);
-      else if (entry.pointCount === -1 || own++ > 0)
-        throw badHierarchy(this.#file, `node ${node.name} twice`);
-      else this.#count(node, entry);
-    }
+  /**
+   * Puts a whole page into the octree; its root must be `opening` and afterwards is `listed` or `empty`.
+   * @throws FormatError FORMAT_HIERARCHY; nothing of the page is in the octree then
+   */
+  insertPage({ page, root }: PageDraft): void {
+    const { root: node, address, above } = page;
+    if (this.#pages.has(address.offset))
+      throw badHierarchy(this.#file, `the page at byte ${address.offset} twice`);
+    if (this.#points + page.points > this.#pointLimit)
+      throw badHierarchy(this.#file, `more points than the ${this.#pointLimit} of the header`);
+    node.children = root.children;
+    node.pointCount = root.pointCount;
+    node.address = root.address;
+    node.become(node.pointCount > 0 ? "listed" : "empty");
+    node.page = page;
+    above?.below.add(page);
+    this.#pages.set(address.offset, page);
+    this.#points += page.points;
+    this.#size += page.nodes;
   }
 
   /** The node with the key given as far as it is known, else its closest known ancestor. */
   closest(key: VoxelKey): OctreeNode {
-    return closestBelow(this.root, key, key.depth);
+    return this.root.closest(key, key.depth);
   }
 
-  #add(page: OctreeNode, entry: HierarchyEntry): void {
-    const parent = this.#parentOf(page, entry);
-    if (parent.child(entry)) throw badHierarchy(this.#file, `node ${keyName(entry)} twice`);
-    const { depth, x, y, z } = entry;
-    const state = entry.pointCount === -1 ? "page" : entry.pointCount > 0 ? "listed" : "empty";
-    const node = new OctreeNode({ depth, x, y, z }, state);
-    if (state === "page") node.address = entry.address;
-    else this.#count(node, entry);
-    parent.adopt(node);
-    this.#size++;
+  /** Notes that a page was used until now. */
+  use(page: HierarchyPage): void {
+    const { dropped, address } = page;
+    if (dropped) return;
+    this.#pages.delete(address.offset);
+    this.#pages.set(address.offset, page);
   }
 
-  /** Parent of an entry. Some writers leave out nodes without points: those are put in as empty. */
-  #parentOf(page: OctreeNode, entry: HierarchyEntry): OctreeNode {
-    let node = closestBelow(page, entry, entry.depth - 1);
-    if (node.state === "page") {
-      throw badHierarchy(this.#file, `node ${keyName(entry)} outside the page that it belongs to`);
+  /**
+   * Where there are more nodes than the limit, gives up pages, the one used longest ago first, with all below them.
+   * Those that are held or in use count as used now, and the first of the file always stays.
+   * @returns whether any went
+   */
+  trim(inUse: (page: HierarchyPage) => boolean): boolean {
+    let looks = 0;
+    let dropped = false;
+    for (const page of this.#pages.values()) {
+      if (this.#size <= this.limit || looks++ === LOOKS) break;
+      if (!page.above || page.held || inUse(page)) this.use(page);
+      else {
+        this.#drop(page);
+        dropped = true;
+      }
     }
-    while (node.key.depth < entry.depth - 1) {
-      const between = new OctreeNode(ancestorAt(entry, node.key.depth + 1));
-      node.adopt(between);
-      this.#size++;
-      node = between;
-    }
-    return node;
+    return dropped;
   }
 
-  #count(node: OctreeNode, entry: HierarchyEntry): void {
-    this.#points += entry.pointCount;
-    if (this.#points > this.#pointLimit) {
-      throw badHierarchy(this.#file, `more points than the ${this.#pointLimit} of the header`);
-    }
-    node.pointCount = entry.pointCount;
-    if (entry.pointCount > 0) node.address = entry.address;
+  /** Puts the root of a page back to where it was before that was read. */
+  #drop(page: HierarchyPage): void {
+    const { root, address, above } = page;
+    root.become("page");
+    root.children = undefined;
+    root.pointCount = 0;
+    root.address = address;
+    root.page = above;
+    above?.below.delete(page);
+    this.#forget(page);
   }
-}
 
-/** The deepest known node above a key, or at it, from a node above it down to a depth. */
-function closestBelow(from: OctreeNode, key: VoxelKey, depth: number): OctreeNode {
-  let node = from;
-  for (let at = from.key.depth + 1; at <= depth; at++) {
-    const next = node.children?.[octant(key, at)];
-    if (!next) break;
-    node = next;
+  #forget(page: HierarchyPage): void {
+    for (const below of page.below) this.#forget(below);
+    page.dropped = true;
+    this.#pages.delete(page.address.offset);
+    this.#points -= page.points;
+    this.#size -= page.nodes;
   }
-  return node;
 }

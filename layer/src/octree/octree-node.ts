@@ -1,5 +1,5 @@
 import type { PageAddress } from "../sources/index.js";
-import { assertLegal, type NodeState } from "./node-state.js";
+import { assertLegal, isHeld, type NodeState } from "./node-state.js";
 import { keyName, octant, type VoxelKey } from "./voxel-key.js";
 
 /** Where a node lies on the globe and how dense it is: all that a traversal needs of it. */
@@ -23,6 +23,8 @@ export class OctreeNode {
   pointCount = 0;
   /** Chunk of points, or the page while the state is `page` or `opening`. */
   address: PageAddress | undefined;
+  /** The page that lists it; while the state is `page` or `opening` the one that refers to its page. */
+  page: HierarchyPage | undefined;
   /** True where the failure was in reading the page rather than the points. */
   pageFailed = false;
   /** Set by whoever knows the coordinate system, when first asked for. */
@@ -48,11 +50,16 @@ export class OctreeNode {
 
   /**
    * Goes to another state.
-   * @throws Error where the change is not legal
+   * @throws Error where the change is not legal, or the node has left the octree
    */
   become(next: NodeState): void {
-    assertLegal(this.#state, next, this.name);
+    const state = this.#state;
+    assertLegal(state, next, this);
+    const { page } = this;
+    if (page?.dropped) throw new Error(`node ${this.name} has left the octree`);
     this.#state = next;
+    if (isHeld(next) && !isHeld(state)) page?.hold();
+    else if (isHeld(state) && !isHeld(next)) page?.release();
   }
 
   /** Child by its key, or undefined. */
@@ -60,9 +67,60 @@ export class OctreeNode {
     return this.children?.[octant(key)];
   }
 
+  /** The deepest known node above a key within this node, or at it, down to a depth. */
+  closest(key: VoxelKey, depth: number): OctreeNode {
+    let node: OctreeNode = this;
+    for (let at = this.key.depth + 1; at <= depth; at++) {
+      const next = node.children?.[octant(key, at)];
+      if (!next) break;
+      node = next;
+    }
+    return node;
+  }
+
   /** Puts a child in its octant. */
   adopt(child: OctreeNode): void {
     this.children ??= new Array<OctreeNode | undefined>(8).fill(undefined);
     this.children[octant(child.key)] = child;
+  }
+}
+
+/** One page of the hierarchy as it was read: what it brought into the octree, and whether that is in use. */
+export class HierarchyPage {
+  /** The node that stands for it in the page above. */
+  readonly root: OctreeNode;
+  readonly address: PageAddress;
+  /** The page that refers to it; undefined for the first of the file. */
+  readonly above: HierarchyPage | undefined;
+  /** Pages that it refers to, as far as they were read. */
+  readonly below = new Set<HierarchyPage>();
+  /** Nodes that it brought; its root was known before. */
+  nodes = 0;
+  /** Points of its nodes, the root's included. */
+  points = 0;
+  /** The last round of whoever streams it in which a view went through it. */
+  round = 0;
+  /** True once its nodes have left the octree. */
+  dropped = false;
+  #holds = 0;
+
+  constructor(root: OctreeNode, address: PageAddress) {
+    this.root = root;
+    this.address = address;
+    this.above = root.page;
+  }
+
+  /** Whether it must stay: a node of it, or of a page below, is waiting, on its way or here, or is being read. */
+  get held(): boolean {
+    return this.#holds > 0;
+  }
+
+  /** Keeps it, and the pages above, until as many calls of {@link release}. */
+  hold(): void {
+    for (let page: HierarchyPage | undefined = this; page; page = page.above) page.#holds++;
+  }
+
+  release(): void {
+    for (let page: HierarchyPage | undefined = this; page; page = page.above) page.#holds--;
   }
 }

@@ -1,5 +1,5 @@
 import { type BoundsOf, FRINGE, gather } from "./demand.js";
-import type { NodeBounds, OctreeNode } from "./octree-node.js";
+import type { HierarchyPage, NodeBounds, OctreeNode } from "./octree-node.js";
 import { countsAt, thresholdFor } from "./share.js";
 import type { Grant, SharedBudget } from "./shared-budget.js";
 import type { View } from "./view.js";
@@ -28,6 +28,8 @@ export interface Selection {
   readonly spacings: number[];
   /** Nodes whose hierarchy page must be read before the view is complete, most important first. */
   readonly pages: OctreeNode[];
+  /** Hierarchy pages that it rests on. */
+  readonly open: HierarchyPage[];
   /** Nodes a little too small to be drawn: not to be asked for, nor to be stopped where they are on their way. */
   readonly fringe: OctreeNode[];
   /** Sum of {@link counts}. */
@@ -52,7 +54,7 @@ export function selectNodes(
   const { maximumScreenSpaceError, pointBudget, budget, prefix = true, rejects } = options;
   const limit = Math.min(pointBudget, budget?.points ?? Number.POSITIVE_INFINITY);
   const gathered = gather(root, view, { maximumScreenSpaceError, limit, prefix, rejects }, boundsOf);
-  const { demand, pages, fringe } = gathered;
+  const { demand, pages, open, fringe } = gathered;
   const grant: Grant = budget ? budget.grant(viewer, demand, pointBudget) : alone();
   const selection = { nodes: [] as OctreeNode[], counts: [] as number[], spacings: [] as number[] };
   let points = 0;
@@ -68,7 +70,7 @@ export function selectNodes(
     selection.counts.push(count);
     selection.spacings.push(gathered.spacings[index]);
   }
-  return { ...selection, pages, fringe, points, limited: grant.threshold > 0 };
+  return { ...selection, pages, open, fringe, points, limited: grant.threshold > 0 };
 
   function alone(): Grant {
     const threshold = thresholdFor([demand], limit);

@@ -2,7 +2,7 @@ import { geodeticToEcef } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import type { NodeBounds } from "./octree-node.js";
-import { behindHorizon, distanceTo, outsideFrustum, projectedSize, type View } from "./view.js";
+import { behindHorizon, distanceTo, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
 
 const RADIAN = Math.PI / 180;
 
@@ -88,21 +88,21 @@ describe("outsideFrustum", () => {
   });
 });
 
-describe("projectedSize", () => {
+describe("lengths on the screen", () => {
   const at = (x: number): NodeBounds => ({ x, y: 0, z: 0, radius: 10, spacing: 1 });
 
-  it("is the picture's height for the length that fills it at the sphere's near side", () => {
+  it("are measured from the near side of a node's sphere", () => {
     expect(distanceTo(viewFrom([0, 0, 0]), at(110))).toBe(100);
-    // Field of view 90°: at 100 m the picture is 200 m high.
-    expect(projectedSize(viewFrom([0, 0, 0]), at(110), 200)).toBeCloseTo(1000, 9);
+    expect(distanceTo(viewFrom([0, 0, 0]), at(5))).toBe(0);
   });
 
-  it("is infinite inside", () => {
-    expect(projectedSize(viewFrom([0, 0, 0]), at(5), 1)).toBe(Number.POSITIVE_INFINITY);
+  it("fill the picture at a metre's distance where the field of view is 90° and they are 2 m long", () => {
+    const view = viewFrom([0, 0, 0]);
+    expect(2 * pixelsPerMetre(view)).toBeCloseTo(view.height, 9);
   });
 
-  it("does not depend on distance in an orthographic view", () => {
+  it("fill an orthographic picture at any distance where they are as long as its extent", () => {
     const view: View = { ...viewFrom([0, 0, 0]), projection: { kind: "orthographic", extent: 500 } };
-    expect(projectedSize(view, at(10_000), 5)).toBe(10);
+    expect(500 * pixelsPerMetre(view)).toBe(view.height);
   });
 });

@@ -88,9 +88,3 @@ export function pixelsPerMetre({ projection, height }: View): number {
   if (projection.kind === "orthographic") return height / projection.extent;
   return height / (2 * Math.tan(projection.fieldOfView / 2));
 }
-
-/** Length of a length on the ground at a node's near side in pixels; Infinity where the camera is inside. */
-export function projectedSize(view: View, bounds: NodeBounds, metres: number): number {
-  const distance = view.projection.kind === "orthographic" ? 1 : distanceTo(view, bounds);
-  return (metres * pixelsPerMetre(view)) / distance;
-}

@@ -41,7 +41,9 @@ export function sameKey(a: VoxelKey, b: VoxelKey): boolean {
 
 /** True where `key` is `ancestor` or lies below it. */
 export function isWithin(key: VoxelKey, ancestor: VoxelKey): boolean {
-  return key.depth >= ancestor.depth && sameKey(ancestorAt(key, ancestor.depth), ancestor);
+  const divisor = 2 ** (key.depth - ancestor.depth);
+  const lies = (at: number, from: number) => Math.floor(at / divisor) === from;
+  return divisor >= 1 && lies(key.x, ancestor.x) && lies(key.y, ancestor.y) && lies(key.z, ancestor.z);
 }
 
 /**

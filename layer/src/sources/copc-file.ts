@@ -137,12 +137,19 @@ function geoTiffKeys(directory: Uint8Array, doubles?: Uint8Array, ascii?: Uint8A
  * Reads one page of the hierarchy.
  * @throws SourceError, FormatError
  */
-export async function readHierarchyPage(
+export async function readHierarchyPage(copc: CopcFile, page: PageAddress): Promise<HierarchyEntry[]> {
+  return parseHierarchyPage(await readPageBytes(copc, page), copc.limits);
+}
+
+/**
+ * Reads one page of the hierarchy as it lies in the file.
+ * @throws SourceError, FormatError
+ */
+export async function readPageBytes(
   copc: CopcFile,
   page: PageAddress,
   options: ReadOptions = {},
-): Promise<HierarchyEntry[]> {
+): Promise<Uint8Array> {
   checkPageAddress(page, copc.limits);
-  const bytes = await copc.source.read(page.offset, page.offset + page.length, options);
-  return parseHierarchyPage(bytes, copc.limits);
+  return copc.source.read(page.offset, page.offset + page.length, options);
 }

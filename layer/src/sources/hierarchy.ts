@@ -74,22 +74,22 @@ export function parseHierarchyPage(bytes: Uint8Array, limits: HierarchyLimits): 
 
 function checkEntry(entry: HierarchyEntry, limits: HierarchyLimits): void {
   const { depth, x, y, z, address, pointCount } = entry;
-  const name = `node ${depth}-${x}-${y}-${z}`;
+  const name = () => `node ${depth}-${x}-${y}-${z}`;
   const edge = 2 ** depth;
   const inCube = (index: number) => index >= 0 && index < edge;
   if (depth < 0 || depth > MAX_DEPTH || !inCube(x) || !inCube(y) || !inCube(z)) {
-    throw badHierarchy(limits.file, `${name}, which no octree has`);
+    throw badHierarchy(limits.file, `${name()}, which no octree has`);
   }
   if (pointCount === -1) {
     checkPageAddress(address, limits);
     return;
   }
   if (pointCount < 0 || pointCount > Math.min(limits.pointCount, MAX_NODE_POINTS)) {
-    throw badHierarchy(limits.file, `${name} with ${pointCount} points`);
+    throw badHierarchy(limits.file, `${name()} with ${pointCount} points`);
   }
   if (pointCount === 0) return;
   if (address.length <= 0 || address.offset < limits.pointsOffset) {
-    throw badHierarchy(limits.file, `${name} with ${address.length} bytes at byte ${address.offset}`);
+    throw badHierarchy(limits.file, `${name()} with ${address.length} bytes at byte ${address.offset}`);
   }
   checkInside(address, limits);
 }

@@ -1,10 +1,11 @@
 export { BlobSource } from "./blob-source.js";
 export { type ByteSource, isByteSource, type ReadOptions } from "./byte-source.js";
-export { type CopcFile, openCopc, readHierarchyPage } from "./copc-file.js";
+export { type CopcFile, openCopc, readHierarchyPage, readPageBytes } from "./copc-file.js";
 export type { CopcInfo, PageAddress } from "./copc-info.js";
 export type { ExtraBytes, NumberType } from "./extra-bytes.js";
 export {
   badHierarchy,
+  ENTRY_LENGTH,
   type HierarchyEntry,
   type HierarchyLimits,
   MAX_DEPTH,
