@@ -243,9 +243,9 @@ describe("the visible octree on the GPU", () => {
       );
       const levels = places.map((_, point) => Math.round(values[4 * point] * 255));
       expect(levels).toEqual(expected);
-      // Width: 1.5 spacings of that level, seen from the point's depth in a view of 90°.
+      // Width: two spacings of that level, seen from the point's depth in a view of 90°.
       places.forEach(([, , z], point) => {
-        const width = (1.5 * 2 ** -expected[point] * (SIZE / 2)) / (10 * z + 5);
+        const width = (2 * 2 ** -expected[point] * (SIZE / 2)) / (10 * z + 5);
         expect(values[4 * point + 3]).toBeCloseTo(Math.max(1, width), 4);
       });
     }

@@ -99,6 +99,19 @@ describe.skipIf(pythonMissing)(
       expect(layers[0]).toBeLessThan(0.5 * layers[1]!);
     });
 
+    it("one size on the ground closes what is drawn, however little that is", {
+      timeout: 60_000,
+    }, async () => {
+      const pose = { range: 12, pitch: -90 };
+      for (const maximumScreenSpaceError of [3, 8]) {
+        const of = (style: LayerOptions["style"]) => ({ maximumScreenSpaceError, style });
+        const closed = await draw("plane-attenuated", "plane", of({ size: "attenuated" }), pose);
+        const open = await draw("plane-open", "plane", of({ pointSize: 1 }), pose);
+        expect(holes(closed)).toBeLessThan(0.002);
+        expect(holes(open)).toBeGreaterThan(0.5);
+      }
+    });
+
     /** Fragments per pixel: each adds one step of 255 to what is there, with no depth test. */
     async function overdraw(style: LayerOptions["style"], pose: Pose): Promise<number> {
       const picture = await stage.page.evaluate(

@@ -82,7 +82,7 @@ const cases: Readonly<Record<string, Case>> = {
   attenuated: {
     scan: "steps",
     options: { style: { color: "elevation", size: "attenuated" } },
-    without: { style: { color: "elevation", pointSize: 2 } },
+    without: { style: { color: "elevation", pointSize: 1 } },
   },
   adaptive: {
     scan: "density",

@@ -16,7 +16,7 @@ import {
   planEffects,
   type StyleParts,
 } from "../effects/index.js";
-import type { NodeBounds, Selection, SharedBudget } from "../octree/index.js";
+import type { NodeBounds, OctreeNode, Selection, SharedBudget } from "../octree/index.js";
 import type { Context, FrameState } from "./cesium-private.js";
 import { ContextWatch } from "./context-watch.js";
 import { CostMeter } from "./cost-meter.js";
@@ -292,14 +292,15 @@ export class PointCloudLayer {
     const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
     const selection = stream.update(this, view, options);
     this.#selection = selection;
-    const facts = sceneFacts(frameState, selection, {
+    const verticesOf = (node: OctreeNode) => stream.vertices(node);
+    const facts = sceneFacts(frameState, selection, verticesOf, {
       attributes: this.cloud.attributes,
       clips: clips?.cutting ?? 0,
       highlights: clips?.highlighting ?? 0,
       filter: this.filter,
       placing: placingFacts(
         this.#placing,
-        selection.nodes.flatMap((node) => stream.vertices(node) ?? []),
+        selection.nodes.flatMap((node) => verticesOf(node) ?? []),
       ),
     });
     // Weighted sums need colours finer than bytes.

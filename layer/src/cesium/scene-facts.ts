@@ -1,6 +1,16 @@
-import { Cartesian3, OrthographicFrustum, PerspectiveFrustum } from "cesium";
-import type { PlacingFacts, PointFilter, SceneFacts, StyledAttribute } from "../effects/index.js";
-import type { OctreeNode, Selection } from "../octree/index.js";
+import { BoundingSphere, Cartesian3, Intersect, OrthographicFrustum, PerspectiveFrustum } from "cesium";
+import {
+  drawnSpacing,
+  footprint,
+  groundSpacing,
+  type Patch,
+  type PlacingFacts,
+  type PointFilter,
+  type SceneFacts,
+  type StyledAttribute,
+} from "../effects/index.js";
+import type { NodeBounds, OctreeNode, Selection } from "../octree/index.js";
+import type { NodeVertices } from "../workers/index.js";
 import type { FrameState } from "./cesium-private.js";
 
 /** Bits of the depth buffers that Cesium and the layer draw with. */
@@ -16,52 +26,112 @@ export interface LayerFacts {
   readonly placing: PlacingFacts | undefined;
 }
 
+/** Of a node's points: their box in the node's frame, metres, and the map from there to the node's cube. */
+type Extents = Readonly<Record<keyof Pick<NodeVertices, "box" | "toCube">, ArrayLike<number>>>;
+
+/** What is known of a node's points once they are here; undefined until then. */
+export type VerticesOf = (node: OctreeNode) => Extents | undefined;
+
 /** The numbers that the magnitudes of effects are computed from. */
-export function sceneFacts(frameState: FrameState, selection: Selection, layer: LayerFacts): SceneFacts {
+export function sceneFacts(
+  frameState: FrameState,
+  selection: Selection,
+  verticesOf: VerticesOf,
+  layer: LayerFacts,
+): SceneFacts {
   const { context, pixelRatio, camera } = frameState;
-  const { nodes, counts, points } = selection;
-  const spacing = new Extent();
-  const level = new Extent();
+  const { nodes, points } = selection;
   const distance = new Extent();
-  let finestSpacing = 0;
-  const selected = new Set(nodes);
-  nodes.forEach((node, index) => {
-    const { bounds, key, pointCount } = node;
-    if (bounds) {
-      const away = Cartesian3.distance(camera.positionWC, bounds as unknown as Cartesian3);
-      distance.add(Math.max(camera.frustum.near, away - bounds.radius));
-      distance.add(away + bounds.radius);
-      finestSpacing = finestSpacing === 0 ? bounds.spacing : Math.min(finestSpacing, bounds.spacing);
-    }
-    if (isCovered(node, selected)) return;
-    level.add(key.depth);
-    // One in n points of a surface lie √n as far apart.
-    const apart = selection.spacings[index] * Math.sqrt(pointCount / counts[index]);
-    if (Number.isFinite(apart)) spacing.add(apart);
-  });
+  for (const { bounds } of nodes) {
+    if (!bounds) continue;
+    const away = Cartesian3.distance(camera.positionWC, bounds as unknown as Cartesian3);
+    distance.add(Math.max(camera.frustum.near, away - bounds.radius));
+    distance.add(away + bounds.radius);
+  }
   return {
     viewportHeight: context.drawingBufferHeight,
     pixelRatio,
     nodes: nodes.length,
     points,
-    spacings: spacing.range,
-    levels: level.range,
-    finestSpacing,
+    ...spacingFacts(frameState, selection, verticesOf),
     ...depthFacts(frameState, distance.range),
     ...layer,
   };
 }
 
-/** Octants that a surface through a node passes. */
-const OCTANTS_OF_SURFACE = 4;
+/** How far apart the points lie where nothing finer is drawn over them. */
+function spacingFacts(
+  { context, cullingVolume }: FrameState,
+  { nodes, counts, spacings }: Selection,
+  verticesOf: VerticesOf,
+) {
+  const picture = context.drawingBufferWidth * context.drawingBufferHeight;
+  const inView = ({ x, y, z, radius }: NodeBounds) =>
+    cullingVolume.computeVisibility(new BoundingSphere(new Cartesian3(x, y, z), radius)) !==
+    Intersect.OUTSIDE;
+  const wanted = new Set(nodes);
+  const here = new Set(nodes.filter((node) => verticesOf(node)));
+  const spacing = new Extent();
+  const level = new Extent();
+  const ground = new Extent();
+  const scale = new Extent();
+  const patches: Patch[] = [];
+  nodes.forEach((node, index) => {
+    const { bounds, key, pointCount, children } = node;
+    if (!bounds) return;
+    const vertices = verticesOf(node);
+    const leaf = !children?.some((child) => child !== undefined);
+    const parts = { key, points: pointCount, count: counts[index], spacing: bounds.spacing };
+    // What is not here yet is expected to be as its level says.
+    const density = vertices ? { leaf, box: vertices.box } : { leaf: false, box: [] };
+    const apart = drawnSpacing({ ...parts, ...density });
+    const pixelsPerMetre = spacings[index] / bounds.spacing;
+    const octants = vertices ? octantsUnder(vertices) : 1;
+    if (shareInSight(node, octants, wanted, inView) > 0) {
+      level.add(key.depth);
+      ground.add(apart);
+      if (Number.isFinite(pixelsPerMetre)) {
+        scale.add(pixelsPerMetre);
+        spacing.add(apart * pixelsPerMetre);
+      }
+    }
+    // Sizes are for what is drawn now.
+    const share = vertices ? shareInSight(node, octants, here, inView) : 0;
+    if (!vertices || share === 0) return;
+    const pixels = Math.min(picture, footprint(vertices.box, bounds.spacing) * pixelsPerMetre ** 2);
+    patches.push({ spacing: apart, pixels: share * pixels });
+  });
+  return {
+    spacings: spacing.range,
+    levels: level.range,
+    groundSpacings: ground.range,
+    groundSpacing: groundSpacing(patches),
+    pixelsPerMetre: scale.range[1],
+  };
+}
 
 /**
- * Whether a node's points lie among those of its children all over it. With fewer children than a surface has, the node
- * is the finest that is drawn in some part of it.
+ * Share of a node in which nothing finer is drawn: of the octants that its points pass, those without a child, and with
+ * one that is in view and not drawn. What lies outside the picture is coarse, and nobody sees it.
+ * @param octants that its points pass at least
  */
-function isCovered({ children = [] }: OctreeNode, nodes: ReadonlySet<OctreeNode>): boolean {
-  const drawn = children.filter((child) => child !== undefined && nodes.has(child));
-  return drawn.length >= OCTANTS_OF_SURFACE;
+function shareInSight(
+  { children = [] }: OctreeNode,
+  octants: number,
+  drawn: ReadonlySet<OctreeNode>,
+  inView: (bounds: NodeBounds) => boolean,
+): number {
+  const all = children.filter((child) => child !== undefined);
+  const bare = Math.max(0, octants - all.length);
+  const open = all.filter((child) => !drawn.has(child) && (!child.bounds || inView(child.bounds)));
+  return (bare + open.length) / (bare + all.length);
+}
+
+/** Octants of its cube that a surface passes which is as long and as wide as a node's points: 1, 2 or 4. */
+function octantsUnder({ box, toCube }: Extents): number {
+  const edge = 1 / Math.hypot(toCube[0], toCube[1], toCube[2]);
+  const halves = [0, 1, 2].map((axis) => (box[axis + 3] - box[axis] > edge / 2 ? 2 : 1));
+  return Math.min(4, halves[0] * halves[1] * halves[2]);
 }
 
 /**

@@ -10,7 +10,7 @@ import { cloudPlacing, placingFacts } from "./placing-facts.js";
 import { planEffects } from "./plan.js";
 import { richFacts, styleOf } from "./scene.fixture.js";
 import { defaultStyle, type PointCloudStyle } from "./style.js";
-import { encodeVisibleOctree, spacingCorrection, type VisibleNode } from "./visible-octree.js";
+import { encodeVisibleOctree, type VisibleNode } from "./visible-octree.js";
 
 const { attributes } = richFacts();
 const cloud = { attributes, file: "a.copc.laz" };
@@ -130,10 +130,10 @@ describe("the plan", () => {
     active(style, facts).has(name);
 
   it("runs each effect from its threshold on, and not before", () => {
-    const near = { spacings: [1, 8] as const, levels: [3, 5] as const };
+    const near = { spacings: [1, 8] as const, groundSpacings: [0.2, 0.8] as const };
     expect(has("adaptiveSize", { size: "adaptive" }, near)).toBe(true);
-    // One level only: one size on the ground is the same picture.
-    const single = active({ size: "adaptive" }, { levels: [5, 5] });
+    // One density only: one size on the ground is the same picture.
+    const single = active({ size: "adaptive" }, { groundSpacings: [0.2, 0.2] });
     expect([single.has("adaptiveSize"), single.has("attenuatedSize")]).toEqual([false, true]);
     expect(has("disc", { shape: "disc", pointSize: 1 })).toBe(false);
     expect(has("disc", { shape: "disc", pointSize: 1.3 })).toBe(true);
@@ -266,21 +266,8 @@ describe("the visible octree", () => {
     expect(texture[4 * 2]).toBe(1);
   });
 
-  it("corrects what its level says of a leaf: denser and sparser than that", () => {
-    const full = { leaf: true, spacing: 1, box: [0, 0, 0, 100, 100, 2] };
-    const correction = (parts: Partial<VisibleNode>) =>
-      spacingCorrection(node(6, 0, 0, 0, { ...full, ...parts }));
-    // As many points as cells, and those of the levels above between them: √(3/4) of the spacing.
-    expect(correction({ count: 10_000 })).toBeCloseTo(0.5 * Math.log2(3 / 4), 3);
-    // All points in a tenth of the node's width: the area, not the node, decides.
-    const dense = correction({ count: 10_000, box: [0, 0, 0, 10, 10, 1] });
-    expect(2 ** dense).toBeCloseTo(0.1, 2);
-    // Next to no points of its own: those of the levels above, √3 of the spacing.
-    expect(2 ** correction({ count: 1 })).toBeCloseTo(Math.sqrt(3), 2);
-  });
-
-  it("spreads an inner node by what is left out of it", () => {
-    expect(spacingCorrection(node(3, 0, 0, 0, { count: 2500 }))).toBeCloseTo(1, 9);
-    expect(spacingCorrection(node(3, 0, 0, 0))).toBe(0);
+  it("says how far the points of a node lie apart, in sixteenths of a doubling of its level's spacing", () => {
+    const { texture } = encodeVisibleOctree([node(0, 0, 0, 0, { count: 2500 }), node(1, 0, 0, 0)]);
+    expect([texture[3], texture[7]]).toEqual([128 + 16, 128]);
   });
 });

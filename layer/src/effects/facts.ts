@@ -41,14 +41,18 @@ export interface SceneFacts {
   readonly nodes: number;
   readonly points: number;
   /**
-   * Least and greatest distance between neighbouring points, drawing-buffer pixels: of the drawn nodes of which no child
-   * is drawn, for the others' points lie among those of their children.
+   * Least and greatest distance between neighbouring points, drawing-buffer pixels, of the drawn nodes that are the
+   * finest somewhere in the picture; the others' points lie among those of their children.
    */
   readonly spacings: readonly [number, number];
   /** Least and greatest level of these nodes. */
   readonly levels: readonly [number, number];
-  /** Distance between neighbouring points of the finest drawn level, metres on the ground. */
-  readonly finestSpacing: number;
+  /** Least and greatest distance between neighbouring points of these nodes, metres on the ground. */
+  readonly groundSpacings: readonly [number, number];
+  /** Distance between neighbouring points that one size on the ground has to bridge, metres; see `groundSpacing`. */
+  readonly groundSpacing: number;
+  /** Drawing-buffer pixels that a metre takes at the nearest of these nodes that the camera is not in. */
+  readonly pixelsPerMetre: number;
   /** Step of the depth buffer at the farthest node, as a share of the distance. */
   readonly depthStep: number;
   /** Step that a linear depth buffer of the scene's near and far plane would have at the farthest node, on screen, pixels. */

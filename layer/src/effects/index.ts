@@ -3,6 +3,7 @@ export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./classes.js";
 export { completeStyle, type StyledCloud, type StyleParts } from "./complete-style.js";
 export { composePointShader } from "./compose.js";
 export { composePass } from "./compose-pass.js";
+export { drawnSpacing, footprint } from "./drawn-spacing.js";
 export {
   type Colouring,
   drawsOffscreen,
@@ -15,6 +16,7 @@ export {
 export type { PlacingFacts, SceneFacts, StyledAttribute } from "./facts.js";
 export { type PointFilter, passesFilter, type ReturnKind } from "./filter.js";
 export { GRADIENTS, type GradientName, type GradientStop } from "./gradients.js";
+export { groundSpacing, type Patch } from "./ground-spacing.js";
 export { type ColumnScale, type DrawnNode, nodeUniforms } from "./node-uniforms.js";
 export {
   type CloudPlacing,

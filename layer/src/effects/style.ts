@@ -51,7 +51,8 @@ export interface PointCloudStyle {
   readonly pointSize: number;
   /**
    * Width of a point as a multiple of the spacing where the size is attenuated or adaptive, 0.1 to 10. 1 closes a square
-   * grid of squares, √2 one of discs; 2 closes any maximal Poisson-disc sample (thesis, eq. 4.4). Default: 1.5.
+   * grid of squares, √2 one of discs. 2 closes any maximal Poisson-disc sample, in which a radius of one spacing around
+   * each point leaves nothing out; it is the radius of eq. 4.4 of the thesis. Default: 2.
    */
   readonly spacingFactor: number;
   /** Least width where the size is attenuated or adaptive, CSS pixels. Default: 1. */
@@ -87,7 +88,7 @@ export function defaultStyle(hasColour: boolean): PointCloudStyle {
     classes: ASPRS_CLASSES,
     size: "fixed",
     pointSize: 2,
-    spacingFactor: 1.5,
+    spacingFactor: 2,
     minimumSize: 1,
     maximumSize: 50,
     shape: "square",

@@ -1,20 +1,9 @@
 import { ancestorAt, keyName, octant, type VoxelKey } from "../octree/voxel-key.js";
 import { CORRECTION_STEPS, CORRECTION_ZERO, OCTREE_WIDTH } from "./chunks/visible-octree.js";
+import { type DrawnDensity, drawnSpacing } from "./drawn-spacing.js";
 
 /** A node as it is drawn. */
-export interface VisibleNode {
-  readonly key: VoxelKey;
-  /** Points that it has. */
-  readonly points: number;
-  /** Of these, drawn. */
-  readonly count: number;
-  /** Whether the data set has no children of it, so that all points left over are in it, however many or few. */
-  readonly leaf: boolean;
-  /** Distance of points that its level stands for, metres on the ground. */
-  readonly spacing: number;
-  /** Least and greatest position of its points in its frame: min x, y, z, max x, y, z, metres. */
-  readonly box: ArrayLike<number>;
-}
+export type VisibleNode = DrawnDensity;
 
 /** The octree of the drawn nodes as a texture. */
 export interface VisibleOctree {
@@ -50,7 +39,7 @@ export function encodeVisibleOctree(nodes: readonly VisibleNode[]): VisibleOctre
   };
   const drawn = nodes.map((node) => {
     const entry = enter(node.key);
-    entry.correction = encodeCorrection(spacingCorrection(node));
+    entry.correction = encodeCorrection(Math.log2(drawnSpacing(node) / node.spacing));
     return entry;
   });
   const root = [...entries.values()].find(({ depth }) => depth === 0);
@@ -80,23 +69,6 @@ interface Entry {
   index: number;
   readonly children: Entry[];
   correction: number;
-}
-
-/**
- * log2 of the distance between the points where a node is the deepest drawn, over the spacing of its level.
- *
- * An inner node is a sample of its level's spacing; of a surface's points, drawing one in n spreads them by √n. A leaf
- * holds what was left, which may be sparser than its level (thesis, 4.3.3, fig. 4.17) or denser (fig. 4.18; chapter 7, 4):
- * its points lie on the two longer sides of their box, N / A per area; its ancestors add what their levels stand for,
- * 1/s² · (1/4 + 1/16 + …) = 1/(3 s²) (1 − 4^−depth). Together they are 1/d² per area.
- */
-export function spacingCorrection({ points, count, leaf, spacing, box, key }: VisibleNode): number {
-  if (!leaf) return count > 0 ? 0.5 * Math.log2(points / count) : 0;
-  const sides = [box[3] - box[0], box[4] - box[1], box[5] - box[2]].sort((a, b) => b - a);
-  const area = Math.max(sides[0], spacing) * Math.max(sides[1], spacing);
-  const above = (1 - 4 ** -key.depth) / (3 * spacing * spacing);
-  const density = count / area + above;
-  return density > 0 ? -0.5 * Math.log2(density * spacing * spacing) : 0;
 }
 
 function encodeCorrection(correction: number): number {

@@ -3,7 +3,7 @@ import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { length } from "./chart.mjs";
-import { FRAMES, measureBudgets, measureEffects, POSE, pointsInSight } from "./rendering.mjs";
+import { FRAMES, measureBudgets, measureEffects, measureWidths, POSE, pointsInSight } from "./rendering.mjs";
 import { openScene } from "./rendering-browser.mjs";
 import { renderingChart } from "./rendering-chart.mjs";
 import { percent, points } from "./rendering-figures.mjs";
@@ -44,13 +44,14 @@ export async function reportOn(root, file, folder, frames = FRAMES) {
     const inSight = await pointsInSight(scene.page);
     const measured = await measureEffects(scene.page, frames.effects);
     const effects = measured.map(({ picture, ...row }) => row);
+    const widths = await measureWidths(scene.page);
     const sweeps = (await measureBudgets(scene.page, frames.sweeps)).map(({ ratio, ...row }) => ({
       ...row,
       time: ratio,
     }));
     if (scene.watch.errors.length > 0) throw new Error(`the page failed: ${scene.watch.errors.join("; ")}`);
     const part = (name) => sweeps.filter((row) => row.part === name);
-    const parts = { effects, budget: part("budget"), spacing: part("spacing"), storage };
+    const parts = { effects, widths, budget: part("budget"), spacing: part("spacing"), storage };
     const pictures = measured.flatMap(({ effect, picture }) => (picture ? [{ effect, ...picture }] : []));
     return {
       title: TITLE,
@@ -63,7 +64,7 @@ export async function reportOn(root, file, folder, frames = FRAMES) {
       table: tables(parts, pictures),
       packages: scene.setting,
       how: HOW,
-      rows: [...effects, ...sweeps, ...storage],
+      rows: [...effects, ...widths, ...sweeps, ...storage],
       files: pictures.map(({ name, data }) => [`rendering-${name}.jpg`, Buffer.from(data, "base64")]),
     };
   } finally {
@@ -95,6 +96,9 @@ function describe({ effects, budget }, inSight, step) {
     `neighbours and ${times(find("Eye-Dome Lighting, 8"))} with eight. ` +
     "A filter draws what it leaves out outside the picture: its points are counted all the same. The scan records no " +
     "classes: the colours are those of one.\n\n" +
+    "**Widths** are multiples of the spacing (`spacingFactor`), at the default screen-space error. Holes are the share of " +
+    "the pixels inside the outline of full density that show the background, overdraw the fragments per pixel in it. A " +
+    "radius of one spacing, factor 2, leaves nothing of a maximal Poisson-disc sample of a surface open.\n\n" +
     "**The budget** is swept without any other limit, the screen-space error without a budget; the default, points of 2 px, " +
     `is 1 on the axis of time. With fixed sizes a tenth of the default budget takes ${low.time.toFixed(2)} × the time at a difference of ` +
     `${low.onRms.toFixed(1)} steps, all points ${all.time.toFixed(2)} × at ${all.onRms.toFixed(1)}: what remains ` +
@@ -105,7 +109,7 @@ function describe({ effects, budget }, inSight, step) {
   );
 }
 
-function tables({ effects, budget, spacing, storage }, pictures) {
+function tables({ effects, widths, budget, spacing, storage }, pictures) {
   const named = (row, name) => (row.chosen ? `**${name}**` : name);
   const sweep = (row, name, value) => ({
     look: row.look,
@@ -122,6 +126,8 @@ function tables({ effects, budget, spacing, storage }, pictures) {
     ...pictures.map(
       ({ effect, name }) => `![${effect}](rendering-${name}.jpg)\n\n*${effect}: off, on, full density.*`,
     ),
+    "## Widths",
+    markdownTable(widths.map(widthRow)),
     "## Point budget",
     markdownTable(
       budget.map((row) =>
@@ -146,6 +152,18 @@ function effectRow(row) {
     "change (RMS, pixels)": difference(row.changeRms, row.changedPixels),
     "to full density, off": difference(row.offRms, row.offWrongPixels),
     "to full density, on": difference(row.onRms, row.onWrongPixels),
+  };
+}
+
+function widthRow({ look, factor, chosen, holes, overdraw, onRms, onWrongPixels }) {
+  const value = factor === undefined ? "–" : String(factor);
+  return {
+    look,
+    factor: chosen ? `**${value}**` : value,
+    holes: `${(100 * holes).toFixed(2)} %`,
+    overdraw: overdraw.toFixed(1),
+    "RMS to full density": onRms.toFixed(1),
+    "pixels off": percent(onWrongPixels),
   };
 }
 

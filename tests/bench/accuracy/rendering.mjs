@@ -110,6 +110,30 @@ export async function measureBudgets(page, frames) {
   return rows;
 }
 
+/** Widths in spacings, and the default. */
+const FACTORS = [1, 1.25, 1.5, 1.75, 2, 2.5];
+const FACTOR = 2;
+
+/** What widths leave open and draw twice, at the default screen-space error. */
+export async function measureWidths(page) {
+  const looks = [
+    { look: "fixed size, 2 px", factor: undefined, style: {} },
+    ...["attenuated", "adaptive"].flatMap((size) =>
+      FACTORS.map((factor) => ({ look: `${size} size`, factor, style: { size, spacingFactor: factor } })),
+    ),
+  ];
+  const rows = [];
+  for (const { look, factor, style } of looks) {
+    const { holes, overdraw, rms, changed } = await page.evaluate((look) => window.bench.coverage(look), {
+      style,
+    });
+    const chosen = factor === FACTOR;
+    rows.push({ part: "widths", look, factor, chosen, holes, overdraw, onRms: rms, onWrongPixels: changed });
+  }
+  console.log("  widths");
+  return rows;
+}
+
 /** Points that references are drawn with. */
 export function pointsInSight(page) {
   return page.evaluate(() => window.bench.everyPoint({}));

@@ -6,15 +6,16 @@ export const adaptiveSize: Effect = {
   unit: "px",
   threshold: 1,
   source:
-    "gap left by one size on the ground, factor · s (1 − 2^(l − L)): s px between points of the coarsest level l that shows, L the finest (thesis, eq. 4.4)",
+    "what widths differ by, factor · s (1 − d / D): s px between the points that lie widest apart, d and D m the least and greatest distance on the ground (thesis, eq. 4.4)",
   wish: ({ style }) =>
     style.size === "adaptive"
-      ? { kind: "asked", why: "the style asks for adaptive sizes, and levels meet" }
+      ? { kind: "asked", why: "the style asks for adaptive sizes, and densities differ" }
       : { kind: "off", why: `the style asks for ${style.size} sizes` },
   magnitude({ style, facts }) {
-    const { spacings, levels, pixelRatio } = facts;
+    const { spacings, groundSpacings, pixelRatio } = facts;
     const width = Math.min(style.spacingFactor * spacings[1], style.maximumSize * pixelRatio);
-    return width * (1 - 2 ** (levels[0] - levels[1]));
+    const [least, greatest] = groundSpacings;
+    return greatest > 0 ? width * (1 - least / greatest) : 0;
   },
   part: () => ({
     uniforms: [

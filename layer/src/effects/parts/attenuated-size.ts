@@ -7,7 +7,7 @@ export const attenuatedSize: Effect = {
   unit: "px",
   threshold: 0,
   source:
-    "width of the nearest points on screen, factor · spacing · h / (2 tan(fov / 2) depth) (thesis, eq. 4.3)",
+    "width of the nearest points on screen, factor · d · h / (2 tan(fov / 2) depth) (thesis, eq. 4.3), d the median distance between drawn points over the picture",
   wish: ({ style }) =>
     style.size === "attenuated"
       ? { kind: "asked", why: "the style asks for one size on the ground" }
@@ -27,7 +27,7 @@ export const attenuatedSize: Effect = {
     },
   }),
   values: ({ style, facts }) => ({
-    u_groundSize: style.spacingFactor * facts.finestSpacing,
+    u_groundSize: style.spacingFactor * facts.groundSpacing,
     u_sizeLimits: [style.minimumSize, style.maximumSize],
   }),
 };

@@ -1,6 +1,7 @@
 import { ClipSet, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
 import type { LayerOptions, Pose } from "../../../browser/stage/setting.js";
 import { Stage } from "../../../browser/stage/stage.js";
+import { type Coverage, countingFragments, fragmentsIn, holesIn, outlineOf, WHITE } from "./coverage.js";
 import { type Difference, differenceOf, type Picture, pictureOf, strip } from "./picture.js";
 
 /** How a scan is drawn. */
@@ -63,7 +64,11 @@ export class Bench {
   readonly #stages: Pair<Stage>;
   readonly #fine: Stage;
   readonly #whole = new WeakSet<object>();
-  readonly #shown: Partial<Record<keyof Pair<unknown>, { readonly key: string; readonly shown: Shown }>> = {};
+  readonly #shown: Record<keyof Pair<unknown>, { readonly key: string; readonly shown: Shown } | undefined> =
+    {
+      off: undefined,
+      on: undefined,
+    };
   readonly #references = new Map<string, Picture>();
 
   private constructor(cloud: PointCloud, pose: Pose) {
@@ -109,6 +114,23 @@ export class Bench {
         on: differenceOf(pictures.on, references.on),
       },
     };
+  }
+
+  /** How well a look covers what a reference with every point shows, and how far it is from it. */
+  async coverage(look: Look): Promise<Shown & Coverage & Difference> {
+    const shown = await this.#show("on", look);
+    const difference = differenceOf(this.#picture("on"), await this.#reference({}));
+    const outline = outlineOf(await this.#reference({ style: WHITE }));
+    const stage = this.#stages.on;
+    this.#shown.on = undefined;
+    stage.layer.style = WHITE;
+    await settle(stage);
+    const holes = holesIn(this.#picture("on"), outline);
+    const overdraw = fragmentsIn(
+      countingFragments(stage, () => this.#picture("on")),
+      outline,
+    );
+    return { ...shown, ...difference, holes, overdraw };
   }
 
   /** Points that a reference is drawn with. */

@@ -1,0 +1,95 @@
+import { Cartesian3, PerspectiveFrustum } from "cesium";
+import { describe, expect, it } from "vitest";
+import { OctreeNode, type Selection, type VoxelKey } from "../octree/index.js";
+import type { FrameState } from "./cesium-private.js";
+import { sceneFacts, type VerticesOf } from "./scene-facts.js";
+
+/** A view along x from the origin, 90° wide, 100 × 100 pixels: 50 pixels per metre a metre away. */
+function frame(): FrameState {
+  const frustum = new PerspectiveFrustum({ fov: Math.PI / 2, aspectRatio: 1, near: 0.1, far: 1000 });
+  const positionWC = new Cartesian3();
+  const cullingVolume = frustum.computeCullingVolume(positionWC, Cartesian3.UNIT_X, Cartesian3.UNIT_Z);
+  const context = { drawingBufferWidth: 100, drawingBufferHeight: 100 };
+  const camera = { positionWC, frustum };
+  return { context, camera, cullingVolume, pixelRatio: 1 } as unknown as FrameState;
+}
+
+/** A node of 100 points at a place, as far apart as its level says. */
+function nodeAt(key: VoxelKey, [x, y, z]: readonly [number, number, number], radius: number): OctreeNode {
+  const node = new OctreeNode(key, "listed");
+  node.pointCount = 100;
+  node.bounds = { x, y, z, radius, spacing: 1.6 / 2 ** key.depth };
+  return node;
+}
+
+const keys = [0, 1, 2, 3].map((octant) => ({ depth: 1, x: octant & 1, y: octant >> 1, z: 0 }));
+
+/** A square of 16 m across the view at 20 m with four children, of which two lie outside the picture. */
+function square() {
+  const root = nodeAt({ depth: 0, x: 0, y: 0, z: 0 }, [20, 12, 0], 11);
+  const children = keys.map((key) => nodeAt(key, [20, key.x ? 30 : 12, key.y ? 4 : -4], 5));
+  for (const child of children) root.adopt(child);
+  return { root, children };
+}
+
+const layer = { attributes: [], clips: 0, highlights: 0, filter: undefined, placing: undefined };
+/** Points that fill their cubes, as flat as a floor. */
+function verticesOf({ key: { depth } }: OctreeNode) {
+  const edge = 16 / 2 ** depth;
+  return { box: [0, 0, 0, edge, edge, 1], toCube: [1 / edge, 0, 0, 0, 0, 1 / edge, 0, 0, 0, 0, 1 / edge, 0] };
+}
+
+function factsOf(nodes: OctreeNode[], counts: number[], spacings: number[], of: VerticesOf = verticesOf) {
+  const selection: Selection = {
+    ...{ nodes, counts, spacings, pages: [], open: [], fringe: [], limited: false },
+    points: counts.reduce((sum, count) => sum + count, 0),
+  };
+  return sceneFacts(frame(), selection, of, layer);
+}
+
+describe("what is known of the spacing", () => {
+  it("leaves out a node whose children in view are all drawn", () => {
+    const { root, children } = square();
+    const facts = factsOf([root, children[0]!, children[2]!], [100, 100, 100], [4, 2, 2]);
+    expect(facts.levels).toEqual([1, 1]);
+    expect(facts.pixelsPerMetre).toBe(2 / 0.8);
+    // 100 points on 64 m² and a quarter as many per area, as 1.6 m stands for, of the level above.
+    const apart = 1 / Math.sqrt(100 / 64 + 1 / 1.6 ** 2);
+    expect(facts.groundSpacing).toBeCloseTo(apart, 9);
+    expect(facts.spacings[1]).toBeCloseTo((2 / 0.8) * apart, 9);
+  });
+
+  it("counts a node where a child that is in view is not drawn, and by what is drawn of it", () => {
+    const { root, children } = square();
+    const facts = factsOf([root, children[0]!], [25, 100], [4, 2]);
+    expect(facts.levels).toEqual([0, 1]);
+    expect(facts.groundSpacings[1]).toBeCloseTo(3.2, 9);
+    // A root has nothing above it: a quarter of its points lie twice as far apart.
+    expect(facts.spacings[1]).toBeCloseTo(8, 9);
+  });
+
+  it("counts a node where its points go beyond its children", () => {
+    const { root, children } = square();
+    root.children![1] = undefined;
+    root.children![3] = undefined;
+    const facts = factsOf([root, children[0]!, children[2]!], [100, 100, 100], [4, 2, 2]);
+    expect(facts.levels).toEqual([0, 1]);
+    expect(facts.groundSpacings[1]).toBe(1.6);
+  });
+
+  it("takes the size on the ground from what is here, and the rest from what is wanted", () => {
+    const { root, children } = square();
+    const nodes = [root, children[0]!, children[2]!];
+    const rootOnly = (node: OctreeNode) => (node === root ? verticesOf(node) : undefined);
+    const facts = factsOf(nodes, [100, 100, 100], [4, 2, 2], rootOnly);
+    expect([facts.groundSpacing, facts.levels]).toEqual([1.6, [1, 1]]);
+    expect(factsOf([], [], []).groundSpacing).toBe(0);
+  });
+
+  it("says nothing of pixels around the camera", () => {
+    const { root, children } = square();
+    const facts = factsOf([root, children[0]!], [100, 100], [Number.POSITIVE_INFINITY, 2]);
+    expect(facts.spacings[1]).toBeLessThan(4);
+    expect(facts.groundSpacing).toBeGreaterThan(0);
+  });
+});
