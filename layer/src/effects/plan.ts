@@ -28,15 +28,29 @@ const COLOURS: Readonly<Partial<Record<EffectName, Colouring["kind"]>>> = {
   levelOfDetail: "level",
 };
 
+/** Share of its threshold down to which an effect that runs goes on, so that none flickers that hovers around it. */
+const HOLD = 0.8;
+
+const NONE: ReadonlySet<EffectName> = new Set();
+
 /**
  * The effects that a scene calls for: each that is wished for and whose magnitude reaches its threshold. Two scenes with
  * the same set have the same key, and can share their programs.
+ * @param before what ran in the last frame: it goes on down to {@link HOLD} of its threshold
  */
-export function planEffects(style: PointCloudStyle, facts: SceneFacts, forced: Forced = {}): EffectPlan {
+export function planEffects(
+  style: PointCloudStyle,
+  facts: SceneFacts,
+  forced: Forced = {},
+  before = NONE,
+): EffectPlan {
   const scene: Scene = { style, facts };
   const colourings = colouringsOf(scene);
   const rows = new Map<EffectName, LedgerRow>(
-    EFFECTS.map((effect) => [effect.name, decide(effect, scene, forcible(effect.name, forced))]),
+    EFFECTS.map((effect) => {
+      const { name } = effect;
+      return [name, decide(effect, scene, forcible(name, forced), before.has(name))];
+    }),
   );
   settleBlend(rows, colourings);
   for (const group of ONE_OF) keepOne(rows, group, forced);
@@ -87,7 +101,7 @@ function forcible(name: EffectName, forced: Forced): boolean | undefined {
     : forced[name];
 }
 
-function decide(effect: Effect, scene: Scene, forced: boolean | undefined): LedgerRow {
+function decide(effect: Effect, scene: Scene, forced: boolean | undefined, ran: boolean): LedgerRow {
   const { name, unit, threshold, source } = effect;
   const magnitude = effect.magnitude(scene);
   const row = { effect: name, magnitude, unit, threshold, source, cost: undefined };
@@ -95,8 +109,15 @@ function decide(effect: Effect, scene: Scene, forced: boolean | undefined): Ledg
   const wish = effect.wish(scene);
   if (wish.kind === "off") return { ...row, active: false, why: wish.why };
   if (wish.kind === "forced") return { ...row, active: true, why: `forced: ${wish.why}` };
-  const active = magnitude >= threshold;
-  return { ...row, active, why: active ? wish.why : `${wish.why}, but it would not show` };
+  if (magnitude >= threshold) return { ...row, active: true, why: wish.why };
+  if (ran && magnitude >= HOLD * threshold) {
+    return {
+      ...row,
+      active: true,
+      why: `${wish.why}; once on, it stays on down to ${HOLD} of the threshold`,
+    };
+  }
+  return { ...row, active: false, why: `${wish.why}, but it would not show` };
 }
 
 /** A blend whose lesser share shows nothing has one colouring left, and is none. */
