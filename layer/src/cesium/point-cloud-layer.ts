@@ -74,6 +74,8 @@ export class PointCloudLayer {
   #renderer: LayerRenderer | undefined;
   #selection: Selection | undefined;
   #ledger: readonly LedgerRow[] = [];
+  /** Effects that the last frame called for. */
+  #active: ReadonlySet<EffectName> = new Set();
   #progress = NOTHING;
   #complete = false;
   #settled = false;
@@ -305,7 +307,8 @@ export class PointCloudLayer {
     });
     // Weighted sums need colours finer than bytes.
     const forced = context.colorBufferHalfFloat ? this.forced : { ...this.forced, splats: false };
-    const plan = planEffects(this.#style, facts, forced);
+    const plan = planEffects(this.#style, facts, forced, this.#active);
+    this.#active = plan.active;
     this.#ledger = plan.ledger;
     const { cloud, style } = this;
     const waiting = renderer.render(frameState, { selection, cloud, plan, style, facts, clips });
@@ -330,13 +333,22 @@ export class PointCloudLayer {
   }
 
   /** Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other. */
-  #measure({ plan, measuresGpu, gpuMilliseconds: { points, picture = 0 } }: LayerRenderer): void {
+  #measure({
+    plan,
+    nodes,
+    measuresGpu,
+    gpuMilliseconds: { points: drawing, picture = 0 },
+  }: LayerRenderer): void {
     const now = performance.now();
     const interval = now - this.#frameStart;
     this.#frameStart = now;
     if (!plan) return;
-    if (points !== undefined) this.#costs.note(plan, points + picture, "timer query");
-    else if (!measuresGpu && interval < LONGEST_FRAME) this.#costs.note(plan, interval, "frame difference");
+    const points = nodes.reduce((sum, { count }) => sum + count, 0);
+    if (drawing !== undefined) {
+      this.#costs.note({ plan, points, milliseconds: drawing + picture, by: "timer query" });
+    } else if (!measuresGpu && interval < LONGEST_FRAME) {
+      this.#costs.note({ plan, points, milliseconds: interval, by: "frame difference" });
+    }
   }
 
   /** @returns whether the numbers changed */

@@ -26,6 +26,7 @@ export type EffectName = (typeof EFFECT_NAMES)[number];
 
 /** What an effect takes, measured. */
 export interface MeasuredCost {
+  /** Below zero where it takes less with the effect than without, as where fewer fragments are left to draw. */
   readonly value: number;
   readonly unit: "ms per frame" | "ns per point" | "bytes";
   /** How it was measured. */
