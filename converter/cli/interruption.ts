@@ -1,7 +1,7 @@
 import { GromaError } from "@groma/georef";
 
 /** The user, or the machine, stopped the command. Code: INTERRUPTED. */
-export class InterruptionError extends GromaError {}
+class InterruptionError extends GromaError {}
 
 const SIGNALS = ["SIGINT", "SIGTERM", "SIGHUP"] as const;
 

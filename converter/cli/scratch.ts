@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { GromaError } from "@groma/georef";
 
 /** There is no room for temporary files. Codes: TEMP_SPACE, TEMP_DIR. */
-export class ScratchError extends GromaError {}
+class ScratchError extends GromaError {}
 
 /** Names of the folders of this machine, before the number of the process. */
 const PREFIX = `.groma_scratch-${hostname().replace(/[^A-Za-z0-9]/g, "")}-`;

@@ -12,7 +12,7 @@ import type { ConvertOptions } from "./options.js";
 import { scanAll, sourcesOf } from "./sources.js";
 
 /** The output cannot be written. Codes: OUTPUT_EXISTS, OUTPUT_WRITE, as the core has them. */
-export class OutputError extends GromaError {}
+class OutputError extends GromaError {}
 
 /** An input, and what is known of it before its points are converted. */
 export type Prepared =

@@ -41,7 +41,7 @@ const SAME_UNIT = 1e-9;
  * @throws ProjError PROJ_FAILED when PROJ does not take it
  * @throws PlacementError PLACE_DOMAIN when it has no place for any point
  */
-export async function tryOperation(
+async function tryOperation(
   proj: Proj,
   operation: Operation,
   domain: Domain,
@@ -65,7 +65,7 @@ export async function tryOperation(
   return { operation, plan, zScale, places, covers: places.every(Number.isFinite) };
 }
 
-export function gridSteps(plan: Plan) {
+function gridSteps(plan: Plan) {
   return plan.steps.filter((step) => step.kind === "horizontalShift" || step.kind === "verticalShift");
 }
 
@@ -74,7 +74,7 @@ export function gridSteps(plan: Plan) {
  *
  * @throws ProjError PROJ_GRID when a grid is missing, cannot be read, or does not reach the data
  */
-export async function cutWindows(
+async function cutWindows(
   proj: Proj,
   { plan, zScale }: Candidate,
   domain: Domain,

@@ -4,9 +4,9 @@ import type { Proj } from "./find.js";
 import type { StepText } from "./step-text.js";
 
 /** Points inside of the domain that are compared, besides its eight corners. */
-export const CHECKED_POINTS = 500;
+const CHECKED_POINTS = 500;
 /** Metres. */
-export const DIFFERENCE_MAX = 1e-4;
+const DIFFERENCE_MAX = 1e-4;
 
 export interface CheckResult {
   /** Points that have a place, all of them compared. */

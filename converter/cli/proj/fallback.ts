@@ -4,7 +4,7 @@ import { egm96 } from "./egm96.js";
 import { type EngineOptions, type EngineResult, UNKNOWN_HEIGHT_NOTE } from "./report.js";
 
 /** Said of every place that was found without PROJ. */
-export const WITHOUT_PROJ_NOTE =
+const WITHOUT_PROJ_NOTE =
   "computed by proj4js without PROJ and its grids: where a country's datum has a shift grid, expect errors of 0.2 to 3 m in plane";
 
 /**

@@ -17,7 +17,7 @@ export function foldIfNarrow(): void {
   if (innerWidth < NARROW) setFolded(true);
 }
 
-export function setFolded(folded: boolean): void {
+function setFolded(folded: boolean): void {
   const button = byId("fold", HTMLButtonElement);
   byId("body", HTMLDivElement).hidden = folded;
   button.setAttribute("aria-expanded", String(!folded));

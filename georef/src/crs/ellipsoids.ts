@@ -5,7 +5,7 @@ export interface Figure {
 }
 
 export const WGS84_FIGURE: Figure = { a: 6378137, rf: 298.257223563 };
-export const GRS80_FIGURE: Figure = { a: 6378137, rf: 298.257222101 };
+const GRS80_FIGURE: Figure = { a: 6378137, rf: 298.257222101 };
 
 /** Inverse flattening of an ellipsoid given by its two axes. */
 function axes(a: number, b: number): Figure {

@@ -4,7 +4,7 @@ export const METRE: Unit = { name: "metre", kind: "linear", size: 1 };
 /** International foot, exactly 0.3048 m (EPSG:9002). */
 export const FOOT: Unit = { name: "foot", kind: "linear", size: 0.3048 };
 /** US survey foot, exactly 1200/3937 m (EPSG:9003); 1.2 m apart from the international one at two million feet. */
-export const US_SURVEY_FOOT: Unit = { name: "US survey foot", kind: "linear", size: 1200 / 3937 };
+const US_SURVEY_FOOT: Unit = { name: "US survey foot", kind: "linear", size: 1200 / 3937 };
 export const DEGREE: Unit = { name: "degree", kind: "angular", size: Math.PI / 180 };
 export const RADIAN: Unit = { name: "radian", kind: "angular", size: 1 };
 const GRAD: Unit = { name: "grad", kind: "angular", size: Math.PI / 200 };

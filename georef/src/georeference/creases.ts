@@ -26,7 +26,7 @@ export interface Unfolded {
 /** Lines that a node may have; with more of them looking a cell up is no slower. */
 const LINES_MAX = 2;
 /** Numbers per line in `lines` and in `folds`. */
-export const LINE_TERMS = 3;
+const LINE_TERMS = 3;
 export const QUADRATIC_TERMS = 6;
 
 /** Adds the displacement of a point to the three numbers of `out`. */

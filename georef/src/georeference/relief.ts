@@ -18,7 +18,7 @@ export interface Relief {
   readonly cells: Float64Array;
 }
 
-export const RELIEF_TERMS = 4;
+const RELIEF_TERMS = 4;
 
 /** Adds the displacement of a point to the third of the numbers of `out`. */
 export function addRelief(

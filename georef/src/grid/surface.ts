@@ -31,7 +31,7 @@ export function isNoData(window: GridWindow, value: number): boolean {
 }
 
 /** The nodes of a window in radians or metres, rounded to float32 once more as PROJ holds them. */
-export function nodeValues({ values, unit }: GridWindow): Float32Array {
+function nodeValues({ values, unit }: GridWindow): Float32Array {
   return unit === 1 ? values : values.map((value) => value * unit);
 }
 

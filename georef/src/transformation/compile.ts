@@ -12,7 +12,7 @@ export type GridStep = HorizontalShiftStep | VerticalShiftStep;
 export type SurfaceOf = (step: GridStep) => Surface;
 
 /** The window of a step, holes treated as PROJ treats them in grids of its kind. */
-export function surfaceOfWindow({ kind, window }: GridStep): Surface {
+function surfaceOfWindow({ kind, window }: GridStep): Surface {
   return bilinear(window, kind === "verticalShift" ? "renormalised" : "refused");
 }
 

@@ -1,12 +1,10 @@
 export { ByteLedger } from "./byte-ledger.js";
 export type { BoundsOf } from "./demand.js";
 export { type CacheLimits, type Cost, LruCache } from "./lru-cache.js";
-export { isLegal, type NodeState } from "./node-state.js";
+export type { NodeState } from "./node-state.js";
 export { NodeStore } from "./node-store.js";
 export { type HierarchyPage, type NodeBounds, OctreeNode } from "./octree-node.js";
-export type { PageDraft } from "./page-draft.js";
-export { PriorityQueue } from "./priority-queue.js";
 export { SharedBudget, type SharedBudgetOptions } from "./shared-budget.js";
 export { type Selection, selectNodes, type TraversalOptions } from "./traversal.js";
-export { behindHorizon, distanceTo, outsideFrustum, type View } from "./view.js";
-export { ancestorAt, isWithin, keyName, parseKey, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";
+export { distanceTo, outsideFrustum, type View } from "./view.js";
+export { ancestorAt, keyName, parseKey, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";

@@ -22,10 +22,6 @@ export class LruCache<K, V> {
     this.limits = limits;
   }
 
-  get size(): number {
-    return this.#entries.size;
-  }
-
   /** Points held. */
   get points(): number {
     return this.#points;
@@ -85,11 +81,5 @@ export class LruCache<K, V> {
       removed.push([key, value]);
     }
     return removed;
-  }
-
-  clear(): void {
-    this.#entries.clear();
-    this.#points = 0;
-    this.#bytes = 0;
   }
 }

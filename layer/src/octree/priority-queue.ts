@@ -3,10 +3,6 @@ export class PriorityQueue<T> {
   readonly #items: T[] = [];
   readonly #priorities: number[] = [];
 
-  get size(): number {
-    return this.#items.length;
-  }
-
   push(item: T, priority: number): void {
     const items = this.#items;
     const priorities = this.#priorities;

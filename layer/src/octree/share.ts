@@ -30,7 +30,7 @@ export function shareOf(pixels: number, threshold: number, base: boolean): numbe
 }
 
 /** Share of node `index` at a threshold; 0 stands for no threshold. */
-export function shareAt(demand: Demand, index: number, threshold: number): number {
+function shareAt(demand: Demand, index: number, threshold: number): number {
   const cap = demand.caps[index];
   if (threshold === 0 || cap === 0) return cap;
   const { pixels, base, prefix } = demand;

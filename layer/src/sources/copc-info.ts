@@ -1,7 +1,7 @@
 import { badHeader, notCopc, readText, readU64 } from "./las-header.js";
 
 /** Where COPC 1.0 puts the content of its info VLR: 375 bytes of header and 54 of VLR header. */
-export const COPC_INFO_BEGIN = 429;
+const COPC_INFO_BEGIN = 429;
 /** Byte after the info VLR's content. */
 export const COPC_INFO_END = COPC_INFO_BEGIN + 160;
 

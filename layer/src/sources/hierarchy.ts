@@ -5,10 +5,10 @@ import type { PageAddress } from "./copc-info.js";
 export const ENTRY_LENGTH = 32;
 
 /** LAS coordinates are 32-bit integers: below 31 halvings a cube of an octree holds one of their steps. */
-export const MAX_DEPTH = 31;
+const MAX_DEPTH = 31;
 
 /** Points that one node may hold: 2^24 of them are half a gigabyte of records in a worker. */
-export const MAX_NODE_POINTS = 2 ** 24;
+const MAX_NODE_POINTS = 2 ** 24;
 
 /** Bytes that one page may take: 2^20 entries. */
 const MAX_PAGE_LENGTH = ENTRY_LENGTH * 2 ** 20;

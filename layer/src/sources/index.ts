@@ -8,7 +8,6 @@ export {
   ENTRY_LENGTH,
   type HierarchyEntry,
   type HierarchyLimits,
-  MAX_DEPTH,
   parseHierarchyPage,
 } from "./hierarchy.js";
 export { type HttpOptions, HttpSource } from "./http-source.js";
@@ -17,7 +16,6 @@ export { openSource, type SourceLike } from "./open-source.js";
 export type { RetryPolicy } from "./retry.js";
 export {
   type AttributeStatistics,
-  attributeStatistics,
   type CloudStatistics,
   decodeStatistics,
 } from "./statistics-record.js";

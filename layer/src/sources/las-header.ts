@@ -1,7 +1,7 @@
 import { FormatError } from "../errors/index.js";
 
 /** Length of the LAS 1.4 public header block in bytes (LAS 1.4 R15, section 2.4). */
-export const LAS_HEADER_LENGTH = 375;
+const LAS_HEADER_LENGTH = 375;
 
 /** The parts of the LAS 1.4 public header block that the layer uses. */
 export interface LasHeader {

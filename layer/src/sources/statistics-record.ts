@@ -41,14 +41,6 @@ export function decodeStatistics(bytes: Uint8Array, file: string): CloudStatisti
   return { points, rgbBits, attributes, classes, returns };
 }
 
-/** The statistics of one attribute by name, or undefined. */
-export function attributeStatistics(
-  statistics: CloudStatistics | undefined,
-  name: string,
-): AttributeStatistics | undefined {
-  return statistics?.attributes.find((attribute) => attribute.name === name);
-}
-
 function isObject(value: unknown): value is Record<string, unknown> {
   return typeof value === "object" && value !== null && !Array.isArray(value);
 }

@@ -14,7 +14,7 @@ export interface OrderedRecords {
 export type ColumnSink = (column: Column) => void;
 
 /** Stored by float32 columns where a point has no value. */
-export const NO_VALUE = Math.fround(-3.4028234663852886e38);
+const NO_VALUE = Math.fround(-3.4028234663852886e38);
 
 /**
  * Plans the column of one attribute. Numbers of up to 16 bits and float32 stay as they are recorded. Wider ones become
@@ -150,7 +150,7 @@ function leastValue(records: OrderedRecords, field: RecordField): number {
 }
 
 /** Reads a record's value in the attribute's unit; NaN where it has none. */
-export function valueReader(
+function valueReader(
   { bytes, recordLength }: Pick<OrderedRecords, "bytes" | "recordLength">,
   { type, at, shift, mask, scale, offset, noData }: RecordField,
 ): (record: number, component: number) => number {
