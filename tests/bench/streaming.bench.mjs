@@ -1,18 +1,16 @@
-import { setFlagsFromString } from "node:v8";
-import { runInNewContext } from "node:vm";
 import { PointCloud } from "@groma/layer";
 import { random } from "./accuracy/timing.mjs";
 import { viewFrom } from "./streaming/camera.mjs";
 import { CORNER, countrySource, EDGE, NODES } from "./streaming/country.mjs";
+import { decodingFlights } from "./streaming/decoding.mjs";
+import { flight } from "./streaming/flights.mjs";
+import { mebibytes, memoryInUse } from "./streaming/memory.mjs";
 
 /** Bytes of a node as the fake executor makes it: real memory, so that what is kept can be weighed. */
 const NODE_BYTES = 16 * 1024;
 const FLIGHTS = 500;
 const FRAMES = 5;
 const LIMITS = { requests: 16, cacheBytes: 16 * 1024 * 1024 };
-
-setFlagsFromString("--expose-gc");
-const collectGarbage = runInNewContext("gc");
 
 /** Makes nodes of the right size out of nothing, so that streaming alone is measured. */
 const executor = {
@@ -39,16 +37,22 @@ const share = (sorted, part) => sorted[Math.min(sorted.length - 1, Math.floor(pa
 
 /**
  * The octree of a country of 1.4 million nodes, with everything but decoding: time of a frame's choice of nodes, once
- * all pages of the hierarchy are here; and 500 random flights, with the memory after each fifty.
+ * all pages of the hierarchy are here; and 500 random flights, with the memory after each fifty. Then flights over a
+ * scan with decoding.
  */
-export async function bench() {
+export async function bench(root) {
   const next = random(20261122);
-  return [...(await still(next)), ...(await flights(next))];
+  return [...(await still(next)), ...(await flights(next)), ...(await decodingFlights(root, next))];
 }
 
-async function openCountry() {
+async function openCountry(limits) {
   const crs = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
-  return PointCloud.fromUrl(countrySource(), { crs, vertical: "ellipsoidal", executor, limits: LIMITS });
+  return PointCloud.fromUrl(countrySource(), {
+    crs,
+    vertical: "ellipsoidal",
+    executor,
+    limits: { ...LIMITS, ...limits },
+  });
 }
 
 /** A pose over the country; the farther up, the more of it is in sight. */
@@ -65,7 +69,7 @@ const LEAST_VISIBLE = 300;
 
 /** The choice of nodes alone. */
 async function still(next) {
-  const cloud = await openCountry();
+  const cloud = await openCountry({ knownNodes: Number.POSITIVE_INFINITY });
   const options = { maximumScreenSpaceError: 0.8 };
   await readAllPages(cloud);
   const rows = [];
@@ -114,7 +118,7 @@ async function readAllPages(cloud) {
   if (cloud.nodeCount !== NODES) throw new Error(`${cloud.nodeCount} nodes of ${NODES}`);
 }
 
-/** Random flights with a shared pace: so many frames from one pose to another, then on from there. */
+/** Random flights with what the layer keeps by default. */
 async function flights(next) {
   const cloud = await openCountry();
   const options = { maximumScreenSpaceError: 2, pointBudget: 3_000_000 };
@@ -123,35 +127,24 @@ async function flights(next) {
   let loaded = 0;
   let evicted = 0;
   cloud.stream.subscribe({ nodeLoaded: () => loaded++, nodeEvicted: () => evicted++ });
-  let from = pose(next);
-  for (let flight = 1; flight <= FLIGHTS; flight++) {
-    const to = pose(next);
-    for (let frame = 0; frame < FRAMES; frame++) {
-      const part = frame / FRAMES;
-      const between = (name) => from[name] + (to[name] - from[name]) * part;
-      const here = { x: between("x"), y: between("y"), heading: between("heading"), pitch: between("pitch") };
-      const view = viewFrom(cloud, { ...here, height: from.height * (to.height / from.height) ** part });
-      const began = performance.now();
-      cloud.stream.update(cloud, view, options);
-      frames.push(performance.now() - began);
-      await turn();
-      await turn();
-    }
-    from = to;
-    if (flight % 50 !== 0) continue;
-    collectGarbage();
-    // What only finalisers let go of goes with a second round.
+  const path = flight(() => pose(next), FRAMES);
+  for (let frame = 1; frame <= FLIGHTS * FRAMES; frame++) {
+    const view = viewFrom(cloud, path.next().value);
+    const began = performance.now();
+    cloud.stream.update(cloud, view, options);
+    frames.push(performance.now() - began);
     await turn();
-    collectGarbage();
-    const { heapUsed, arrayBuffers } = process.memoryUsage();
+    await turn();
+    if (frame % (50 * FRAMES) !== 0) continue;
+    const { heapUsed, arrayBuffers } = await memoryInUse();
     frames.sort((a, b) => a - b);
     rows.push({
-      what: `flights to ${flight}`,
+      what: `flights to ${frame / FRAMES}`,
       "nodes known": cloud.nodeCount,
       "nodes loaded": loaded,
       "nodes given up": evicted,
-      "vertices MiB": +(arrayBuffers / 2 ** 20).toFixed(1),
-      "heap MiB": +(heapUsed / 2 ** 20).toFixed(1),
+      "vertices MiB": mebibytes(arrayBuffers),
+      "heap MiB": mebibytes(heapUsed),
       "frame ms, median": +share(frames, 0.5).toFixed(2),
       "99 %": +share(frames, 0.99).toFixed(2),
       most: +frames.at(-1).toFixed(1),
