@@ -120,9 +120,13 @@ fn convert(arguments: Convert) -> Result<()> {
     stop_cleanly(options.output.clone());
     let progress = JsonLines;
     let validated = Pipeline::scan(&options, &progress)?.validate()?;
+    let plan = validated.plan();
     if dry_run {
-        JsonLines::print(&validated.plan());
+        JsonLines::print(&plan);
         return Ok(());
+    }
+    if plan.temp_bytes > 0 {
+        memory::return_freed();
     }
     let summary = validated.distribute()?.build()?.write()?;
     let seconds = (start.elapsed().as_secs_f64() * 1000.0).round() / 1000.0;

@@ -49,6 +49,21 @@ impl Budget {
     }
 }
 
+/// Gives memory that is freed back to the system at once, for the rest of the process: a run whose points have no room
+/// frees and takes so much that glibc, left alone, keeps a fifth and more of the budget beside it (100 million points in
+/// 512 MiB: peak 613 MiB without this). Costs about a twentieth of the time, so it is for such runs alone.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+pub fn return_freed() {
+    // Blocks of points in waiting are this large once a cell has many of them.
+    const THRESHOLD: libc::c_int = 128 << 10;
+    // SAFETY: mallopt takes two numbers, and may be called at any time. It says 0 where it refuses: nothing changes.
+    unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, THRESHOLD) };
+}
+
+/// Other allocators than glibc's are left as they are.
+#[cfg(not(all(target_os = "linux", target_env = "gnu")))]
+pub fn return_freed() {}
+
 /// Parses a size such as `512MB`, `2GiB` or `1073741824`. Decimal and binary units both mean powers of 1024,
 /// as in the options of most memory-bounded tools.
 pub fn parse_size(text: &str) -> Result<u64> {

@@ -150,3 +150,46 @@ fn write_points(
 fn invalid(cause: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, cause)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::copc::chunk;
+    use crate::octree::cube::{Bounds, Cube};
+    use crate::progress::{Silent, Stage};
+    use crate::record::Target;
+
+    /// Writes two nodes of three and two points, which are said to hold `said` points, in a file of `count`.
+    fn written(said: [u64; 2], count: u64) -> Result<u64> {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::new(folder.path(), 1 << 20);
+        let laz = chunk::parameters(6, 0).unwrap();
+        let node = |key, there: usize, points| {
+            let chunk = chunk::compress(&vec![0; there * Target::Plain.length()], &laz).unwrap();
+            Node { key, points, chunk: store.keep(chunk).unwrap() }
+        };
+        let nodes = vec![node(Key::ROOT, 3, said[0]), node(Key::ROOT.child(0), 2, said[1])];
+        let bounds = Bounds { min: [0.0; 3], max: [1.0; 3] };
+        let record_length = Target::Plain.length() as u16;
+        let content = Content {
+            input: &Header::default(),
+            points: Points { target: Target::Plain, record_length, count, by_return: [0; 15], bounds },
+            info: Info { cube: Cube::around(&bounds, [0.01; 3]), root_page: (0, 0), gps_time: [0.0; 2] },
+            laz: &laz,
+            records: &Records { plain: Vec::new(), extended: Vec::new() },
+            nodes,
+            store: &store,
+        };
+        let path = folder.path().join("out.copc.laz");
+        let meter = Meter::start(&Silent, Stage::Write, count);
+        write(&mut File::create(&path).unwrap(), &content, &path, &meter)
+    }
+
+    #[test]
+    fn points_that_are_missing_or_too_many_are_a_fault_of_the_program() {
+        assert!(written([3, 2], 5).is_ok());
+        for (said, count) in [([3, 2], 6), ([3, 2], 4), ([4, 1], 5), ([3, 3], 6)] {
+            assert_eq!(written(said, count).unwrap_err().code(), "INTERNAL", "{said:?} of {count}");
+        }
+    }
+}

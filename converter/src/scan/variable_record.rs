@@ -161,6 +161,18 @@ mod tests {
     }
 
     #[test]
+    fn a_user_id_is_text_up_to_its_first_zero() {
+        let with =
+            |user_id: [u8; 16]| VariableRecord { user_id, ..VariableRecord::new("", 1, "", Vec::new()) };
+        assert!(VariableRecord::new("LASF_Projection", 2112, "", Vec::new()).is_named());
+        assert!(with(*b"sixteen letters!").is_named());
+        assert!(with([0; 16]).is_named());
+        assert!(with([b'a', 0, 0xff, 0xfe, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9]).is_named());
+        assert!(!with([0xe9; 16]).is_named());
+        assert!(!with([b'a', 0xc3, 0xa9, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]).is_named());
+    }
+
+    #[test]
     fn a_length_beyond_the_file_is_no_record() {
         let record = VariableRecord::new("groma", 7, "", vec![0; 10]);
         let mut bytes = Vec::new();

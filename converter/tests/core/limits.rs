@@ -2,11 +2,14 @@
 
 use crate::bench::{Bench, Las, cloud, records, scatter, sorted};
 use groma_core::build::Rules;
+use groma_core::octree::limits::Limits;
 use groma_core::pipeline::Pipeline;
 use groma_core::pipeline::options::Options;
 use groma_core::progress::Silent;
 use groma_core::sampling::Strategy;
 use proptest::prelude::*;
+use std::process::Stdio;
+use std::time::Duration;
 
 /// Memory with room for a part of the points of [`memory_and_threads_change_no_byte`], while others wait in files.
 const PART: u64 = 140 << 20;
@@ -124,6 +127,51 @@ fn long_records_have_small_nodes() {
     let input = bench.put("in.laz", &Las::at(6, 192, &surface(60_000)).laz());
     bench.convert(&["in.laz", "out.copc.laz", "--memory", "256MB"]);
     assert!(sorted(records(&input)) == sorted(records(&bench.path("out.copc.laz"))));
+}
+
+#[test]
+fn a_cell_with_too_many_points_is_divided() {
+    let bench = Bench::new();
+    // All but one point lie in a thousandth of the cube, in one cell of any level that the number of points calls for:
+    // more than are built at once. Long records make that few.
+    let extra = 1000;
+    let limits = Limits::of(usize::from(extra) + 30);
+    let mut positions = cloud(limits.cell + 5_000, [900_000, 900_000, 4_000]);
+    positions.push([1_000_000_000, 1_000_000_000, 0]);
+    let input = bench.put("in.las", &Las::at(6, extra, &positions).las());
+    let expected = converted(&bench, &["in.las"], 4 << 30, 2, Rules::default());
+    assert!(sorted(records(&input)) == sorted(records(&bench.path("limited.copc.laz"))));
+    assert!(converted(&bench, &["in.las"], 0, 3, Rules::default()) == expected);
+}
+
+/// The most memory that a process has had until now, bytes.
+#[cfg(target_os = "linux")]
+fn peak_of(process: u32) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    Some(line.split_whitespace().nth(1)?.parse::<u64>().ok()? << 10)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_run_keeps_within_its_memory() {
+    let bench = Bench::new();
+    let mut las = Las::at(6, 0, &surface(6_000_000));
+    // What is not a position is all alike, and costs little time.
+    las.records.chunks_exact_mut(30).for_each(|record| record[12..].fill(0));
+    bench.put("in.las", &las.las());
+    drop(las);
+    let most = 256 << 20;
+    let mut command = bench.command();
+    command.args(["convert", "in.las", "out.copc.laz", "--memory", "256MB"]).stdout(Stdio::null());
+    let mut run = command.spawn().unwrap();
+    let mut peak = 0;
+    while run.try_wait().unwrap().is_none() {
+        peak = peak_of(run.id()).map_or(peak, |now| now.max(peak));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(run.wait().unwrap().success());
+    assert!(peak > most / 4 && peak <= most, "{} MiB", peak >> 20);
 }
 
 #[test]
