@@ -1,5 +1,5 @@
 import { type Crs, ecefToGeodetic, type PointTransform, pointTransform, type Truth } from "@groma/georef";
-import { ancestorAt, keyName, LruCache, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
+import { ancestorAt, keyName, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
 import type { CopcInfo, LasHeader } from "../sources/index.js";
 import { type AffineMap, affineBounds, affineMap } from "./affine-bounds.js";
 
@@ -12,8 +12,8 @@ const CELLS_PER_EDGE = 128;
 /** Every so many levels nodes have maps that nodes below them may use. */
 const LEVELS_PER_MAP = 2;
 
-/** Maps that are kept, half a kilobyte each. */
-const MAPS = 4096;
+/** Maps that are kept at most, half a kilobyte each. */
+const MAPS = 16_384;
 
 /** Cubes of octree nodes: in source coordinates as COPC lays them, and as spheres on the globe. */
 export class NodeGeometry {
@@ -21,10 +21,7 @@ export class NodeGeometry {
   readonly #header: LasHeader;
   readonly #transform: PointTransform;
   readonly #unit: number;
-  readonly #maps = new LruCache<string, { readonly map: AffineMap | undefined }>({
-    points: MAPS,
-    bytes: Number.POSITIVE_INFINITY,
-  });
+  readonly #maps = new Map<string, AffineMap | undefined>();
 
   constructor(info: CopcInfo, header: LasHeader, truth: Truth, crs: Pick<Crs, "horizontalUnit">) {
     this.#info = info;
@@ -81,13 +78,13 @@ export class NodeGeometry {
 
   #mapOf(above: VoxelKey): AffineMap | undefined {
     const name = keyName(above);
-    const kept = this.#maps.use(name);
-    if (kept) return kept.map;
-    const box = this.#dataBox(above);
-    const map = affineMap(box, this.#sample(box), this.#unit);
-    this.#maps.set(name, { map }, { points: 1, bytes: 0 });
-    this.#maps.trim(() => false);
-    return map;
+    if (!this.#maps.has(name)) {
+      // Begun anew rather than kept in order of use, which would cost as much as a node's bounds do.
+      if (this.#maps.size === MAPS) this.#maps.clear();
+      const box = this.#dataBox(above);
+      this.#maps.set(name, affineMap(box, this.#sample(box), this.#unit));
+    }
+    return this.#maps.get(name);
   }
 
   #sampledBounds(box: readonly number[], spacing: number): NodeBounds | undefined {
