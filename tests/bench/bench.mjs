@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { root, setup } from "../../.ci/setup/main.mjs";
 import { forTest } from "../../.ci/setup/steps.mjs";
 
-const benches = ["placing", "converters", "page", "streaming"];
+const benches = ["placing", "converters", "page", "frames", "streaming"];
 
 await setup(forTest);
 const asked = process.argv.slice(2);

@@ -5,6 +5,7 @@ declare module "cesium" {
   export const Buffer: Engine["Buffer"];
   export const BufferUsage: Engine["BufferUsage"];
   export const ClearCommand: Engine["ClearCommand"];
+  export const DerivedCommand: Engine["DerivedCommand"];
   export const DrawCommand: Engine["DrawCommand"];
   export const Framebuffer: Engine["Framebuffer"];
   export const Pass: Engine["Pass"];

@@ -29,6 +29,7 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
     expect(own.RenderState.fromCache).toBeTypeOf("function");
     expect(own.RenderState.removeFromCache).toBeTypeOf("function");
     expect(own.ShaderProgram.fromCache).toBeTypeOf("function");
+    expect(own.DerivedCommand.createLogDepthCommand).toBeTypeOf("function");
   });
 
   it.each([
@@ -85,6 +86,15 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
   it("takes nothing but clear commands into every frustum, in the order of the list", () => {
     expect(source("Scene/View.js")).toMatch(/command instanceof ClearCommand[\s\S]{0,200}frustum\.near/);
     expect(source("Scene/Scene.js")).toMatch(/command instanceof ClearCommand\) \{\s+command\.execute/);
+  });
+
+  it("links a program when its attributes are counted, and finds a derived one again", () => {
+    expect(source("Renderer/ShaderProgram.js")).toMatch(
+      /numberOfVertexAttributes: \{\s+get: function \(\) \{\s+initialize/,
+    );
+    expect(source("Scene/DerivedCommand.js")).toMatch(
+      /getDerivedShaderProgram\(\s+shaderProgram,\s+"logDepth"/,
+    );
   });
 
   it("leaves a fragment shader alone that writes logarithmic depth itself", () => {

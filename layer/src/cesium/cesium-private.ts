@@ -3,6 +3,7 @@ import {
   Buffer as EngineBuffer,
   BufferUsage as EngineBufferUsage,
   ClearCommand as EngineClearCommand,
+  DerivedCommand as EngineDerivedCommand,
   DrawCommand as EngineDrawCommand,
   Framebuffer as EngineFramebuffer,
   Pass as EnginePass,
@@ -39,6 +40,7 @@ export type Buffer = resources.Buffer;
 export const BufferUsage: types.Engine["BufferUsage"] = EngineBufferUsage;
 export const ClearCommand: types.Engine["ClearCommand"] = EngineClearCommand;
 export type ClearCommand = types.ClearCommand;
+export const DerivedCommand: types.Engine["DerivedCommand"] = EngineDerivedCommand;
 export const DrawCommand: types.Engine["DrawCommand"] = EngineDrawCommand;
 export type DrawCommand = types.DrawCommand;
 export const Framebuffer: types.Engine["Framebuffer"] = EngineFramebuffer;

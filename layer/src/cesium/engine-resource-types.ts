@@ -40,6 +40,8 @@ export type VertexAttribute =
 
 /** `Renderer/ShaderProgram`, counted by the context's shader cache. */
 export interface ShaderProgram {
+  /** Compiles and links the program where that was not done yet, and waits for it. */
+  readonly numberOfVertexAttributes: number;
   destroy(): void;
 }
 

@@ -164,7 +164,13 @@ export interface Engine {
   };
   readonly BufferUsage: { readonly STATIC_DRAW: number };
   readonly ClearCommand: new (options: ClearCommandOptions) => ClearCommand;
-  readonly DrawCommand: new (options: DrawCommandOptions) => DrawCommand;
+  readonly DerivedCommand: {
+    /** The command with logarithmic depth; the program is kept with the one that it is derived from. */
+    createLogDepthCommand(command: DrawCommand, context: Context): { readonly command: DrawCommand };
+  };
+  readonly DrawCommand: new (
+    options: DrawCommandOptions | Pick<DrawCommandOptions, "owner" | "shaderProgram">,
+  ) => DrawCommand;
   readonly Framebuffer: new (options: FramebufferOptions) => Framebuffer;
   readonly Pass: { readonly OPAQUE: number; readonly TRANSLUCENT: number };
   readonly PassState: new (context: Context) => PassState;

@@ -3,6 +3,8 @@ import {
   Buffer,
   BufferUsage,
   type Context,
+  DerivedCommand,
+  DrawCommand,
   Framebuffer,
   Sampler,
   ShaderProgram,
@@ -137,6 +139,17 @@ export class GpuObjects {
       attributeLocations: attributes,
     });
     return this.own("programs", program);
+  }
+
+  /**
+   * Has a program compiled and linked now, and not when it first draws.
+   * @param owner the primitive
+   * @param logarithmic whether Cesium derives a program with logarithmic depth and draws with that
+   */
+  link(program: ShaderProgram, owner: object, logarithmic: boolean): void {
+    const command = new DrawCommand({ owner, shaderProgram: program });
+    const drawn = logarithmic ? DerivedCommand.createLogDepthCommand(command, this.context).command : command;
+    void drawn.shaderProgram.numberOfVertexAttributes;
   }
 
   /** Takes an object into the count that was made elsewhere. */

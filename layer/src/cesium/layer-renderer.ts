@@ -1,5 +1,4 @@
 import { BoundingSphere } from "cesium";
-import type { ClipSet } from "../clips/index.js";
 import type { PointCloud } from "../cloud/index.js";
 import {
   drawsOffscreen,
@@ -7,28 +6,32 @@ import {
   nodeUniforms,
   type PointCloudStyle,
   type PointPass,
+  type QuadPass,
   type SceneFacts,
   withoutClips,
 } from "../effects/index.js";
 import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
 import { type Command, type Context, type FrameState, Pass, type PickId } from "./cesium-private.js";
+import type { ClipAnswers } from "./clip-answers.js";
+import { ClipRecords } from "./clip-records.js";
 import { CompositeQuad } from "./composite-quad.js";
 import type { DrawnNode } from "./drawn-node.js";
+import type { FrameAllowance } from "./frame-allowance.js";
 import { GpuObjects } from "./gpu-objects.js";
 import { GpuTimer } from "./gpu-timer.js";
 import { Look } from "./look.js";
-import { NodeClipCache } from "./node-clips.js";
 import { NodeUploads } from "./node-uploads.js";
 import { OffscreenPass } from "./offscreen-pass.js";
 import { OffscreenTarget } from "./offscreen-target.js";
 import { candidatesAt } from "./pick-candidates.js";
 import { bufferPixel, windowPixels } from "./pick-window.js";
 import { PictureUniforms } from "./picture-uniforms.js";
-import { fitFrustum, type PointFrustum } from "./point-frustum.js";
+import { fitFrustum, isOrthographic, type PointFrustum } from "./point-frustum.js";
 import { PointPicker } from "./point-picker.js";
-import { PointPrograms } from "./point-programs.js";
+import { PointPrograms, type ProgramNeed } from "./point-programs.js";
 import { SceneStates } from "./scene-states.js";
 import { hookCommand } from "./timing-hook.js";
+import type { AttributeSet } from "./vertex-attributes.js";
 
 /** What a frame is to show. */
 export interface RenderRequest {
@@ -37,7 +40,9 @@ export interface RenderRequest {
   readonly plan: EffectPlan;
   readonly style: PointCloudStyle;
   readonly facts: SceneFacts;
-  readonly clips: ClipSet | undefined;
+  readonly clips: ClipAnswers;
+  /** What of it may be prepared in this frame. */
+  readonly allowance: FrameAllowance;
 }
 
 /** How a place of the picture is asked for its point. */
@@ -67,7 +72,7 @@ export class LayerRenderer {
   readonly #quad: CompositeQuad;
   readonly #picker: PointPicker;
   readonly #picture: PictureUniforms;
-  readonly #clips = new NodeClipCache();
+  readonly #clips = new ClipRecords();
   #look: Look | undefined;
   /** The look to come, while nodes still lack attributes that it reads. */
   #next: Look | undefined;
@@ -86,7 +91,7 @@ export class LayerRenderer {
     this.#timer = new GpuTimer(context, this.objects);
     this.#pickId = context.createPickId(picked);
     this.#picture = new PictureUniforms(this.#pickId);
-    this.#programs = new PointPrograms(this.objects);
+    this.#programs = new PointPrograms(this.objects, owner);
     this.#target = new OffscreenTarget(this.objects);
     this.#quad = new CompositeQuad(this.objects, owner, this.#states);
     this.#picker = new PointPicker(this.objects, this.#pass);
@@ -133,25 +138,33 @@ export class LayerRenderer {
   }
 
   /**
-   * Draws a frame: uploads what it can, and puts commands into Cesium's list.
-   * @returns nodes that are here but have to wait for a later frame, and whether a new look has to
+   * Draws a frame: prepares what it may, and puts commands into Cesium's list. A new look and new volumes show once
+   * all that they need is there; until then the former ones are drawn.
+   * @returns steps that wait for a later frame: nodes to be uploaded or held against volumes, and a new look
    */
   render(frameState: FrameState, request: RenderRequest): number {
     this.#frameState = frameState;
     this.#timer.nextFrame();
-    const look = this.#wanted(request.plan);
-    const attributes = this.#attributes(look.plan);
-    const { selection, cloud } = request;
+    const { selection, cloud, plan, style, facts, clips, allowance } = request;
+    const look = this.#wanted(plan);
+    const linked = this.#programs.prepare(this.#needs(look.plan), frameState.useLogDepth, allowance);
     const vertices = (node: OctreeNode) => cloud.stream.vertices(node);
-    const waiting = this.#uploads.upload(this.objects, selection.nodes, vertices, attributes);
-    if (this.#next && (waiting === 0 || !this.#look)) this.#change(this.#next);
-    const shown = this.#look ?? look;
-    if (shown === look) shown.update(request.plan, request.style, request.facts);
-    this.#clips.follow(request.clips, cloud);
-    this.#nodes = this.#collect(shown, request);
-    this.#commands = this.#draw(frameState, shown);
+    const unformed = clips.form(
+      selection.nodes.flatMap((node) => vertices(node) ?? []),
+      allowance,
+    );
+    const next = linked ? look : this.#look;
+    const waiting = next
+      ? this.#uploads.upload(this.objects, selection.nodes, vertices, this.#reads(next.plan), allowance)
+      : 0;
+    if (this.#next && linked && unformed === 0 && (waiting === 0 || !this.#look)) this.#change(this.#next);
+    if (unformed === 0 && this.#look?.plan.key === plan.key) clips.advance();
+    const shown = this.#look;
+    if (shown === look) shown.update(plan, style, facts);
+    this.#nodes = shown ? this.#collect(shown, request) : [];
+    this.#commands = shown ? this.#draw(frameState, shown) : [];
     frameState.commandList.push(...this.#commands);
-    return waiting;
+    return waiting + unformed + (this.#next ? 1 : 0);
   }
 
   /** Puts the points of the last frame into Cesium's list for a pass of picking or of depth. */
@@ -239,23 +252,43 @@ export class LayerRenderer {
     this.#look?.destroy();
     this.#look = next;
     this.#next = undefined;
-    this.#uploads.keep(this.#attributes(next.plan));
+    this.#uploads.keep(this.#reads(next.plan));
     if (!drawsOffscreen(next.plan)) this.#target.release();
   }
 
-  /** What the passes of a set of effects read of a node. */
-  #attributes(plan: EffectPlan) {
-    return this.#programs.points(plan, "color", "scene").shader.attributes;
+  /** The programs that a set of effects is drawn with. */
+  #needs(plan: EffectPlan): ProgramNeed[] {
+    const plans = new Set([plan, withoutClips(plan)]);
+    if (!drawsOffscreen(plan)) {
+      return [...plans].map((plan) => ({ plan, pass: "color", drawer: "scene", logarithmic: false }));
+    }
+    const camera = this.#frameState?.camera;
+    const logarithmic = camera !== undefined && !isOrthographic(camera.frustum);
+    const points = [...plans].flatMap((plan) =>
+      passesOf(plan).map((pass) => ({ plan, pass, drawer: "own", logarithmic }) as const),
+    );
+    return [...points, { plan, pass: quadPassOf(plan), drawer: "quad" }];
   }
 
-  #collect(look: Look, { selection, style, facts }: RenderRequest): DrawnNode[] {
-    const attributes = this.#attributes(look.plan);
+  /** What these programs read of a node. */
+  #reads(plan: EffectPlan): AttributeSet[] {
+    const sets = new Map<string, AttributeSet>();
+    for (const need of this.#needs(plan)) {
+      if (need.drawer === "quad") continue;
+      const { reads } = this.#programs.points(need.plan, need.pass, need.drawer, need.logarithmic);
+      sets.set(reads.signature, reads);
+    }
+    return [...sets.values()];
+  }
+
+  #collect(look: Look, { selection, style, facts, clips: answers }: RenderRequest): DrawnNode[] {
+    const reads = this.#reads(look.plan);
     const plain = withoutClips(look.plan);
     const drawn: DrawnNode[] = [];
     let firstId = 0;
     selection.nodes.forEach((node, index) => {
-      const drawable = this.#uploads.ready(node, attributes);
-      const clips = drawable && this.#clips.of(drawable.vertices);
+      const drawable = this.#uploads.ready(node, reads);
+      const clips = drawable && answers.of(drawable.vertices);
       if (!drawable || !clips || clips.state === "out") return;
       const count = Math.min(selection.counts[index], drawable.vertices.count);
       const plan = clips.state === "in" ? plain : look.plan;
@@ -319,18 +352,18 @@ export class LayerRenderer {
     const frustum = fitFrustum(camera, spheresOf(this.#nodes));
     this.#timer.measure(this.#label("points"), () => {
       this.#pass.clear(context, picture.points, true);
-      const first = blended ? "depth" : "color";
+      const [first, second] = passesOf(plan);
       this.#pass.draw(first, this.#nodes, { ...this.#setting(first, frustum), target: picture.points });
-      if (!picture.blending) return;
+      if (!picture.blending || !second) return;
       this.#pass.clear(context, picture.blending, false);
-      this.#pass.draw("splat", this.#nodes, {
-        ...this.#setting("splat", frustum),
+      this.#pass.draw(second, this.#nodes, {
+        ...this.#setting(second, frustum),
         target: picture.blending,
       });
     });
     context.uniformState.updateFrustum(camera.frustum as PointFrustum["frustum"]);
     this.#picture.take(picture, frustum);
-    const program = this.#programs.quad(plan, plan.active.has("eyeDomeLighting") ? "edl" : "splatNormalise");
+    const program = this.#programs.quad(plan, quadPassOf(plan));
     const sphere = BoundingSphere.fromBoundingSpheres([...spheresOf(this.#nodes)]);
     return this.#quad.command(program, look.map, sphere, plan.active.has("opacity"));
   }
@@ -340,6 +373,15 @@ export class LayerRenderer {
       this.#programs.points(plan, pass, "own", !frustum.orthographic);
     return { context: this.objects.context, frustum, owner: this.#owner, programOf };
   }
+}
+
+/** The passes over the points that make their picture. */
+function passesOf({ active }: EffectPlan): readonly [PointPass, ...PointPass[]] {
+  return active.has("splats") ? ["depth", "splat"] : ["color"];
+}
+
+function quadPassOf({ active }: EffectPlan): QuadPass {
+  return active.has("eyeDomeLighting") ? "edl" : "splatNormalise";
 }
 
 function* spheresOf(nodes: readonly DrawnNode[]): Generator<BoundingSphere> {

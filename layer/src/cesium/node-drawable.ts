@@ -1,5 +1,4 @@
 import { BoundingSphere, Cartesian3, Matrix4, PrimitiveType } from "cesium";
-import type { AttributeDeclaration } from "../effects/index.js";
 import type { NodeVertices } from "../workers/index.js";
 import {
   type Buffer,
@@ -10,7 +9,7 @@ import {
 } from "./cesium-private.js";
 import type { GpuObjects } from "./gpu-objects.js";
 import type { PointProgram } from "./point-programs.js";
-import { bufferAttribute, constantAttribute, POSITION, signatureOf } from "./vertex-attributes.js";
+import { type AttributeSet, bufferAttribute, constantAttribute, POSITION } from "./vertex-attributes.js";
 
 /** How a node is drawn: by which program, where to, and with which values. */
 export interface NodeDress {
@@ -30,7 +29,7 @@ export class NodeDrawable {
   readonly vertices: NodeVertices;
   readonly #objects: GpuObjects;
   readonly #buffers = new Map<string, Buffer>();
-  readonly #arrays = new Map<string, VertexArray>();
+  readonly #arrays = new Map<string, { readonly array: VertexArray; readonly columns: readonly string[] }>();
   #place: ReturnType<typeof placeOf>;
   #sceneCommand: DrawCommand | undefined;
   #ownCommand: DrawCommand | undefined;
@@ -53,30 +52,26 @@ export class NodeDrawable {
     return this.#place.boundingVolume;
   }
 
-  /** Bytes that have to go to the GPU before a program with these attributes can draw the node. */
-  missingBytes(attributes: readonly AttributeDeclaration[]): number {
-    let bytes = 0;
-    for (const { column } of attributes) {
-      if (!this.#buffers.has(column)) bytes += this.#data(column)?.byteLength ?? 0;
-    }
-    return bytes;
+  /** Whether programs that read these attributes can draw the node. */
+  has({ signature }: AttributeSet): boolean {
+    return this.#arrays.has(signature);
   }
 
-  /** Puts on the GPU what these attributes read. */
-  upload(attributes: readonly AttributeDeclaration[]): void {
-    for (const { column } of attributes) this.#buffer(column);
+  /** Puts on the GPU what programs with these attributes need. */
+  upload(set: AttributeSet): void {
+    this.#array(set);
   }
 
   /** Frees what none of these attributes reads. */
-  keep(attributes: readonly AttributeDeclaration[]): void {
-    const kept = new Set([POSITION, ...attributes.map(({ column }) => column)]);
+  keep(sets: readonly AttributeSet[]): void {
+    const kept = new Set([POSITION, ...sets.flatMap(({ columns }) => columns)]);
     const unused = [...this.#buffers].filter(([column]) => !kept.has(column));
     if (unused.length === 0) return;
-    // Vertex arrays are made again from the buffers that stay.
-    for (const array of this.#arrays.values()) this.#objects.free(array);
-    this.#arrays.clear();
-    this.#sceneCommand = undefined;
-    this.#ownCommand = undefined;
+    for (const [signature, { array, columns }] of this.#arrays) {
+      if (columns.every((column) => kept.has(column))) continue;
+      this.#objects.free(array);
+      this.#arrays.delete(signature);
+    }
     for (const [column, buffer] of unused) {
       this.#buffers.delete(column);
       this.#bytes -= buffer.sizeInBytes;
@@ -105,7 +100,7 @@ export class NodeDrawable {
 
   /** Frees all that the node has on the GPU. */
   destroy(): void {
-    for (const array of this.#arrays.values()) this.#objects.free(array);
+    for (const { array } of this.#arrays.values()) this.#objects.free(array);
     for (const buffer of this.#buffers.values()) this.#objects.free(buffer);
     this.#arrays.clear();
     this.#buffers.clear();
@@ -114,7 +109,7 @@ export class NodeDrawable {
 
   #command(command: DrawCommand | undefined, dress: NodeDress, count: number): DrawCommand {
     const { owner, program, renderState, uniformMap, pass } = dress;
-    const vertexArray = this.#array(program);
+    const vertexArray = this.#array(program.reads);
     const shaderProgram = program.program;
     if (command)
       return Object.assign(command, { vertexArray, shaderProgram, renderState, uniformMap, pass, count });
@@ -132,10 +127,9 @@ export class NodeDrawable {
     });
   }
 
-  #array({ shader: { attributes } }: PointProgram): VertexArray {
-    const signature = signatureOf(attributes);
+  #array({ attributes, columns, signature }: AttributeSet): VertexArray {
     const found = this.#arrays.get(signature);
-    if (found) return found;
+    if (found) return found.array;
     const made = attributes.map((attribute) => {
       const buffer = this.#buffer(attribute.column);
       const data = this.#data(attribute.column);
@@ -144,7 +138,7 @@ export class NodeDrawable {
         : constantAttribute(attribute, this.vertices.columns[attribute.column]);
     });
     const array = this.#objects.vertexArray(made);
-    this.#arrays.set(signature, array);
+    this.#arrays.set(signature, { array, columns });
     return array;
   }
 

@@ -1,18 +1,12 @@
-import type { AttributeDeclaration } from "../effects/index.js";
 import type { OctreeNode } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
+import type { FrameAllowance } from "./frame-allowance.js";
 import type { GpuObjects } from "./gpu-objects.js";
 import { NodeDrawable } from "./node-drawable.js";
+import type { AttributeSet } from "./vertex-attributes.js";
 
-/** How much of a frame may go into uploads; whichever comes first ends it, one node always goes through. */
-export interface UploadBudget {
-  /** Default: 4. */
-  readonly milliseconds: number;
-  /** Default: 4 MiB. */
-  readonly bytes: number;
-}
-
-const DEFAULT_BUDGET: UploadBudget = { milliseconds: 4, bytes: 4 * 1024 * 1024 };
+/** Bytes that a frame uploads at most, besides its allowance of time; one node always goes through. */
+const BYTES = 4 * 1024 * 1024;
 
 /** The nodes of a layer that are on the GPU. */
 export class NodeUploads {
@@ -24,48 +18,46 @@ export class NodeUploads {
     return this.#heightOffset;
   }
 
-  /** The node, where all that these attributes read is on the GPU. */
-  ready(node: OctreeNode, attributes: readonly AttributeDeclaration[]): NodeDrawable | undefined {
+  /** The node, where all that programs with these attributes need is on the GPU. */
+  ready(node: OctreeNode, sets: readonly AttributeSet[]): NodeDrawable | undefined {
     const drawable = this.#drawables.get(node);
-    return drawable && drawable.missingBytes(attributes) === 0 ? drawable : undefined;
+    return drawable && sets.every((set) => drawable.has(set)) ? drawable : undefined;
   }
 
   /**
-   * Uploads what is here and not on the GPU yet, in the order given, within the budget.
+   * Uploads what is here and not on the GPU yet, in the order given, as far as the frame allows.
    * @returns nodes that are here but have to wait for a later frame
    */
   upload(
     objects: GpuObjects,
     nodes: Iterable<OctreeNode>,
     vertices: (node: OctreeNode) => NodeVertices | undefined,
-    attributes: readonly AttributeDeclaration[],
-    budget: UploadBudget = DEFAULT_BUDGET,
+    sets: readonly AttributeSet[],
+    allowance: FrameAllowance,
   ): number {
-    const end = performance.now() + budget.milliseconds;
-    let left = budget.bytes;
+    let left = BYTES;
     let waiting = 0;
     for (const node of nodes) {
-      let drawable = this.#drawables.get(node);
-      if (drawable && drawable.missingBytes(attributes) === 0) continue;
-      const content = drawable?.vertices ?? vertices(node);
+      if (this.ready(node, sets)) continue;
+      const there = this.#drawables.get(node);
+      const content = there?.vertices ?? vertices(node);
       if (!content) continue;
-      drawable ??= new NodeDrawable(objects, content, this.#heightOffset);
-      const bytes = drawable.missingBytes(attributes);
-      const first = left === budget.bytes;
-      if (!first && (bytes > left || performance.now() >= end)) {
+      if (waiting > 0 || left <= 0 || !allowance.grants()) {
         waiting++;
         continue;
       }
-      drawable.upload(attributes);
+      const drawable = there ?? new NodeDrawable(objects, content, this.#heightOffset);
+      const before = drawable.bytes;
+      for (const set of sets) drawable.upload(set);
       this.#drawables.set(node, drawable);
-      left -= bytes;
+      left -= drawable.bytes - before;
     }
     return waiting;
   }
 
-  /** Frees of all nodes what none of these attributes reads. */
-  keep(attributes: readonly AttributeDeclaration[]): void {
-    for (const drawable of this.#drawables.values()) drawable.keep(attributes);
+  /** Frees of all nodes what programs with these attributes do not read. */
+  keep(sets: readonly AttributeSet[]): void {
+    for (const drawable of this.#drawables.values()) drawable.keep(sets);
   }
 
   /** Draws all nodes so many metres above their places, those to come as well. */

@@ -18,8 +18,10 @@ import {
 } from "../effects/index.js";
 import type { NodeBounds, OctreeNode, Selection, SharedBudget } from "../octree/index.js";
 import type { Context, FrameState } from "./cesium-private.js";
+import { ClipAnswers } from "./clip-answers.js";
 import { ContextWatch } from "./context-watch.js";
 import { CostMeter } from "./cost-meter.js";
+import { FrameAllowance } from "./frame-allowance.js";
 import { viewOfFrame } from "./frame-view.js";
 import { NO_OBJECTS } from "./gpu-objects.js";
 import { checkHeightOffset, liftOf } from "./height-offset.js";
@@ -67,6 +69,7 @@ export class PointCloudLayer {
   readonly #placing: CloudPlacing;
   readonly #unsubscribe: () => void;
   readonly #costs = new CostMeter();
+  readonly #clips = new ClipAnswers();
   readonly #watch = new ContextWatch(() => this.#release());
   #style: PointCloudStyle;
   #filter: PointFilter | undefined;
@@ -276,6 +279,7 @@ export class PointCloudLayer {
     if (this.#selection) this.cloud.stream.detach(this);
     this.#selection = undefined;
     this.#renderer?.rest();
+    this.#clips.rest();
     this.#progress = NOTHING;
     this.#complete = false;
     // Where nothing is to be drawn, nothing is to be waited for.
@@ -289,16 +293,18 @@ export class PointCloudLayer {
     const renderer = this.#rendererFor(context);
     const { maximumScreenSpaceError, pointBudget, budget, clips } = this;
     const view = viewOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
-    const volumes = clips && clips.size > 0 ? clips.over(this.cloud) : undefined;
-    const rejects = volumes && ((bounds: NodeBounds) => volumes.rejects(bounds));
+    const allowance = new FrameAllowance();
+    const answers = this.#clips;
+    answers.follow(clips, this.cloud, allowance);
+    const rejects = (bounds: NodeBounds) => answers.rejects(bounds, allowance);
     const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
     const selection = stream.update(this, view, options);
     this.#selection = selection;
     const verticesOf = (node: OctreeNode) => stream.vertices(node);
     const facts = sceneFacts(frameState, selection, verticesOf, {
       attributes: this.cloud.attributes,
-      clips: clips?.cutting ?? 0,
-      highlights: clips?.highlighting ?? 0,
+      clips: answers.volumes?.cutting ?? 0,
+      highlights: answers.volumes?.highlighting ?? 0,
       filter: this.filter,
       placing: placingFacts(
         this.#placing,
@@ -311,11 +317,13 @@ export class PointCloudLayer {
     this.#active = plan.active;
     this.#ledger = plan.ledger;
     const { cloud, style } = this;
-    const waiting = renderer.render(frameState, { selection, cloud, plan, style, facts, clips });
+    const request = { selection, cloud, plan, style, facts, clips: answers, allowance };
+    const waiting = renderer.render(frameState, request);
     if (budget) renderer.keepWithin(budget.gpu, this);
     this.#measure(renderer);
     const changed = this.#report(stream.progress(this));
-    const done = this.#progress.pending === 0 && waiting === 0 && (budget?.balanced ?? true);
+    const prepared = waiting === 0 && !answers.pending;
+    const done = this.#progress.pending === 0 && prepared && (budget?.balanced ?? true);
     const complete = done && this.#progress.failed === 0 && stream.active === 0;
     const finished = complete && !this.#complete;
     this.#complete = complete;

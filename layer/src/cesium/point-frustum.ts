@@ -47,6 +47,7 @@ export function fitFrustum(camera: Camera, spheres: Iterable<BoundingSphere>): P
   return { frustum: frustum as FrustumLike, orthographic: isOrthographic(whole) };
 }
 
-function isOrthographic(frustum: CameraFrustum): boolean {
+/** Whether lengths do not shrink with distance. */
+export function isOrthographic(frustum: CameraFrustum | Camera["frustum"]): boolean {
   return frustum instanceof OrthographicFrustum || frustum instanceof OrthographicOffCenterFrustum;
 }

@@ -8,12 +8,14 @@ import {
   type UniformDeclaration,
 } from "../effects/index.js";
 import { type ShaderProgram, ShaderSource } from "./cesium-private.js";
+import type { FrameAllowance } from "./frame-allowance.js";
 import type { GpuObjects } from "./gpu-objects.js";
+import { type AttributeSet, attributeSet } from "./vertex-attributes.js";
 
 /** A program for points, with what it reads. */
 export interface PointProgram {
   readonly program: ShaderProgram;
-  readonly shader: PointShader;
+  readonly reads: AttributeSet;
 }
 
 /** A program for a quad over the whole picture. */
@@ -25,14 +27,49 @@ export interface QuadProgram {
 /** Who draws with a program: Cesium, which derives others from it, or the layer itself. */
 export type Drawer = "scene" | "own";
 
+/** A program that a set of effects is drawn with. */
+export type ProgramNeed =
+  | {
+      readonly pass: PointPass;
+      readonly plan: EffectPlan;
+      readonly drawer: Drawer;
+      readonly logarithmic: boolean;
+    }
+  | { readonly pass: QuadPass; readonly plan: EffectPlan; readonly drawer: "quad" };
+
 /** Programs by the set of active effects: two scenes that call for the same set share one. */
 export class PointPrograms {
   readonly #objects: GpuObjects;
   readonly #points = new Map<string, PointProgram>();
   readonly #quads = new Map<string, QuadProgram>();
+  readonly #owner: object;
+  readonly #linked = new Set<string>();
 
-  constructor(objects: GpuObjects) {
+  /** @param owner the primitive */
+  constructor(objects: GpuObjects, owner: object) {
     this.#objects = objects;
+    this.#owner = owner;
+  }
+
+  /**
+   * Links programs before they are drawn with, one in a frame at most: the browser waits for the compiler.
+   * @param derived whether Cesium adds logarithmic depth to those that it draws with
+   * @returns whether all are linked
+   */
+  prepare(needs: readonly ProgramNeed[], derived: boolean, allowance: FrameAllowance): boolean {
+    const keyOf = (need: ProgramNeed) =>
+      `${need.plan.key}|${need.pass}|${need.drawer}|${"logarithmic" in need && need.logarithmic}|${derived}`;
+    const open = needs.filter((need) => !this.#linked.has(keyOf(need)));
+    if (open.length === 0) return true;
+    if (!allowance.grants()) return false;
+    const [next] = open;
+    const { program } =
+      next.drawer === "quad"
+        ? this.quad(next.plan, next.pass)
+        : this.points(next.plan, next.pass, next.drawer, next.logarithmic);
+    this.#objects.link(program, this.#owner, derived && next.drawer !== "own");
+    this.#linked.add(keyOf(next));
+    return open.length === 1;
   }
 
   /**
@@ -46,7 +83,8 @@ export class PointPrograms {
       const shader = composePointShader(plan, "cesium", pass);
       const text = drawer === "own" && logarithmic ? withLogarithmicDepth(shader) : shader;
       const attributes = Object.fromEntries(shader.attributes.map(({ name, location }) => [name, location]));
-      found = { shader, program: this.#objects.program({ ...text, attributes }) };
+      const program = this.#objects.program({ ...text, attributes });
+      found = { program, reads: attributeSet(shader.attributes) };
       this.#points.set(key, found);
     }
     return found;
@@ -73,6 +111,7 @@ export class PointPrograms {
       this.#objects.free(program);
     this.#points.clear();
     this.#quads.clear();
+    this.#linked.clear();
   }
 }
 

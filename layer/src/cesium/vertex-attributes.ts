@@ -37,7 +37,19 @@ export function constantAttribute(
   return { index: location, value };
 }
 
-/** What tells two sets of attributes apart: programs with the same signature share vertex arrays. */
+/** What a program reads of each point: programs with the same signature share vertex arrays. */
+export interface AttributeSet {
+  readonly attributes: readonly AttributeDeclaration[];
+  /** The columns behind them. */
+  readonly columns: readonly string[];
+  readonly signature: string;
+}
+
+export function attributeSet(attributes: readonly AttributeDeclaration[]): AttributeSet {
+  return { attributes, columns: attributes.map(({ column }) => column), signature: signatureOf(attributes) };
+}
+
+/** What tells two sets of attributes apart. */
 export function signatureOf(attributes: readonly AttributeDeclaration[]): string {
   return attributes
     .map(({ column, location, normalized }) => `${location}${normalized ? "n" : ""}${column}`)

@@ -1,12 +1,14 @@
 import type { Clip } from "./clip.js";
-import { ClipVolumes } from "./clip-volumes.js";
-import { checkClip } from "./compile-clip.js";
-import type { SourceSpace } from "./volume.js";
+import { type ClipVolume, ClipVolumes } from "./clip-volumes.js";
+import { checkClip, compileClip } from "./compile-clip.js";
+import { finish, type Steps } from "./steps.js";
+import type { SourceSpace, Volume } from "./volume.js";
 
 /** The volumes of a scene; layers may share one. */
 export class ClipSet {
   readonly #clips: Clip[] = [];
   readonly #listeners = new Set<() => void>();
+  readonly #compiled = new WeakMap<SourceSpace, WeakMap<Clip, Volume>>();
   #volumes = new WeakMap<SourceSpace, ClipVolumes>();
   #revision = 0;
 
@@ -85,12 +87,31 @@ export class ClipSet {
    * @throws StyleError STYLE_CLIP; PlacementError where a volume in source coordinates has no place there
    */
   over(space: SourceSpace): ClipVolumes {
-    let volumes = this.#volumes.get(space);
-    if (!volumes) {
-      volumes = new ClipVolumes(this.#clips, space);
-      this.#volumes.set(space, volumes);
+    return finish(this.overInSteps(space));
+  }
+
+  /**
+   * The same in steps, of the volumes as they are now; each is compiled once for a data set. The steps throw what
+   * {@link over} does.
+   */
+  overInSteps(space: SourceSpace): Steps<ClipVolumes> {
+    return this.#compile([...this.#clips], this.#revision, space);
+  }
+
+  *#compile(clips: readonly Clip[], revision: number, space: SourceSpace): Steps<ClipVolumes> {
+    const known = this.#volumes.get(space);
+    if (known && revision === this.#revision) return known;
+    const compiled = this.#compiled.get(space) ?? new WeakMap<Clip, Volume>();
+    this.#compiled.set(space, compiled);
+    const volumes: ClipVolume[] = [];
+    for (const clip of clips) {
+      const volume = compiled.get(clip) ?? (yield* compileClip(clip, space));
+      compiled.set(clip, volume);
+      volumes.push({ mode: clip.mode, volume });
     }
-    return volumes;
+    const all = new ClipVolumes(volumes);
+    if (revision === this.#revision) this.#volumes.set(space, all);
+    return all;
   }
 
   #changed(): void {

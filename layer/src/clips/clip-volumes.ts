@@ -1,8 +1,7 @@
 import type { NodeBounds } from "../octree/index.js";
-import type { Clip } from "./clip.js";
 import { CLIP_WIDTH, ROLES } from "./clip-roles.js";
-import { compileClip } from "./compile-clip.js";
-import type { ClipMode, ClipNode, Relation, SourceSpace, Volume, VolumeRecord } from "./volume.js";
+import { finish, type Steps } from "./steps.js";
+import type { ClipMode, ClipNode, Relation, Volume, VolumeRecord } from "./volume.js";
 
 /** What all volumes together make of a node. */
 export interface NodeClips {
@@ -11,7 +10,13 @@ export interface NodeClips {
   /** Number of records. */
   readonly count: number;
   /** Their texels; see {@link CLIP_ROLES}. */
-  readonly texels: readonly number[];
+  readonly texels: ArrayLike<number>;
+}
+
+/** A volume that is compiled for a data set, and what it is for. */
+export interface ClipVolume {
+  readonly mode: ClipMode;
+  readonly volume: Volume;
 }
 
 /** ECEF, metres. */
@@ -27,15 +32,18 @@ const EVERYWHERE: VolumeRecord = { kind: 0, count: 0, bits: 0, texels: [] };
  * and in none that cuts.
  */
 export class ClipVolumes {
-  readonly #volumes: readonly { readonly mode: ClipMode; readonly volume: Volume }[];
+  /** Number of volumes that cut: that keep their inside, or leave it out. */
+  readonly cutting: number;
+  /** Number of volumes that highlight. */
+  readonly highlighting: number;
+  readonly #volumes: readonly ClipVolume[];
   readonly #keeps: boolean;
-  /** Answers by the spheres asked about: a traversal asks about the same ones in every frame. */
-  readonly #rejected = new WeakMap<Sphere, boolean>();
 
-  /** @throws StyleError STYLE_CLIP */
-  constructor(clips: readonly Clip[], space: SourceSpace) {
-    this.#volumes = clips.map((clip) => ({ mode: clip.mode, volume: compileClip(clip, space) }));
-    this.#keeps = clips.some(({ mode }) => mode === "inside");
+  constructor(volumes: readonly ClipVolume[]) {
+    this.#volumes = volumes;
+    this.#keeps = volumes.some(({ mode }) => mode === "inside");
+    this.highlighting = volumes.filter(({ mode }) => mode === "highlight").length;
+    this.cutting = volumes.length - this.highlighting;
   }
 
   /** Whether a record stays, by its exact place: ECEF, metres, and source coordinates. For picks and exports. */
@@ -50,17 +58,8 @@ export class ClipVolumes {
     return kept;
   }
 
-  /** Whether a node is cut wholly, by the sphere around it (which must not change): such nodes need not be loaded. */
-  rejects(sphere: Sphere): boolean {
-    let rejected = this.#rejected.get(sphere);
-    if (rejected === undefined) {
-      rejected = this.#leavesNothingOf(sphere);
-      this.#rejected.set(sphere, rejected);
-    }
-    return rejected;
-  }
-
-  #leavesNothingOf({ x, y, z, radius }: Sphere): boolean {
+  /** Whether a node is cut wholly, by the sphere around it: such nodes need not be loaded. */
+  rejects({ x, y, z, radius }: Sphere): boolean {
     let apart = this.#keeps;
     for (const { mode, volume } of this.#volumes) {
       if (mode === "highlight" || (mode === "inside" && !apart)) continue;
@@ -76,12 +75,17 @@ export class ClipVolumes {
    * them to 2⁻²⁴ of the node's size anywhere on the globe.
    */
   forNode(node: ClipNode): NodeClips {
-    const cutting: { readonly role: number; readonly record: VolumeRecord }[] = [];
+    return finish(this.forNodeInSteps(node));
+  }
+
+  /** The same in steps. */
+  *forNodeInSteps(node: ClipNode): Steps<NodeClips> {
+    const cutting: RoleRecord[] = [];
     const keeping: VolumeRecord[] = [];
     let kept = !this.#keeps;
     let wholly = kept;
     for (const { mode, volume } of this.#volumes) {
-      const relation = volume.toNode(node);
+      const relation = yield* volume.toNode(node);
       if (relation === "out") continue;
       const whole = relation === "in";
       if (mode === "inside") {
@@ -100,15 +104,25 @@ export class ClipVolumes {
       ...cutting,
     ];
     if (records.length === 0) return WHOLE;
-    return {
-      state: "crossing",
-      count: records.length,
-      texels: records.flatMap(({ role, record }) => [
-        ...[record.kind, role, record.count, record.bits],
-        ...record.texels,
-      ]),
-    };
+    return { state: "crossing", count: records.length, texels: texelsOf(records) };
   }
+}
+
+/** A record with what its volume is for. */
+interface RoleRecord {
+  readonly role: number;
+  readonly record: VolumeRecord;
+}
+
+function texelsOf(records: readonly RoleRecord[]): Float32Array {
+  const texels = new Float32Array(records.reduce((sum, { record }) => sum + 4 + record.texels.length, 0));
+  let at = 0;
+  for (const { role, record } of records) {
+    texels.set([record.kind, role, record.count, record.bits], at);
+    texels.set(record.texels, at + 4);
+    at += 4 + record.texels.length;
+  }
+  return texels;
 }
 
 /** The records of several nodes in one texture. */

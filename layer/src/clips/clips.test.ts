@@ -14,6 +14,7 @@ import { ClipSet } from "./clip-set.js";
 import { draws } from "./clip-shader.fixture.js";
 import { sourceRing } from "./rings.js";
 import { type Corner, extendedPlace } from "./source-space.js";
+import { finish } from "./steps.js";
 import { pointIn, type Vector } from "./vectors.js";
 import type { SourceSpace } from "./volume.js";
 
@@ -219,7 +220,7 @@ describe("polygons in source coordinates", () => {
       const angle = (2 * Math.PI * index) / 60;
       return [3_512_000 + 150 * Math.cos(angle), 5_402_000 + 150 * Math.sin(angle)];
     });
-    expect(sourceRing(corners, extendedPlace(space)).count).toBe(60);
+    expect(finish(sourceRing(corners, extendedPlace(space))).count).toBe(60);
   });
 
   it("end where source z says, to the tolerance", () => {
@@ -338,6 +339,40 @@ describe("boxes and planes", () => {
 
 describe("ClipSet", () => {
   const center = { longitude: 0, latitude: 0, height: 0 };
+  it("compiles each volume once, whatever comes and goes beside it, and in steps what it compiles at once", () => {
+    let places = 0;
+    const space: SourceSpace = {
+      place(x, y, z, out) {
+        places++;
+        const [longitude, latitude] = [1e-7 * x, 1e-7 * y];
+        geodeticToEcef(longitude, latitude, z, out);
+        return out;
+      },
+      boundingBox: { min: [0, 0, 0], max: [1000, 1000, 10] },
+    };
+    const ring = Array.from({ length: 300 }, (_, index): Corner => {
+      const angle = (2 * Math.PI * index) / 300;
+      return [500 + 300 * Math.cos(angle), 500 + 300 * Math.sin(angle)];
+    });
+    const set = new ClipSet([Clip.polygon(ring, { coordinates: "source" })]);
+    const node = {
+      frame: eastNorthUp(space.place(800, 500, 0, new Float64Array(3))),
+      box: [-9, -9, -9, 9, 9, 9],
+    };
+    const steps = set.overInSteps(space);
+    let count = 0;
+    while (!steps.next().done) count++;
+    expect(count).toBeGreaterThan(10);
+    const alone = set.over(space).forNode(node);
+    expect(alone).toEqual(new ClipSet(set).over(space).forNode(node));
+    const before = places;
+    const box = set.add(Clip.box({ center, size: [1, 1, 1], mode: "outside" }));
+    set.over(space);
+    set.remove(box);
+    expect(set.over(space).forNode(node)).toEqual(alone);
+    expect(places).toBe(before);
+  });
+
   it("tells of its changes and compiles anew after them", () => {
     const set = new ClipSet();
     let changes = 0;

@@ -7,8 +7,9 @@ import { prism } from "./prism.js";
 import { geodeticShape, sourceShape } from "./prism-shapes.js";
 import { placed } from "./rings.js";
 import { type Corner, extendedPlace } from "./source-space.js";
+import type { Steps } from "./steps.js";
 import { unit, type Vector } from "./vectors.js";
-import type { SourceSpace, Volume } from "./volume.js";
+import { remembering, type SourceSpace, type Volume } from "./volume.js";
 
 /**
  * Checks what can be checked of a volume without a data set.
@@ -36,18 +37,17 @@ export function checkClip(clip: Clip): void {
 }
 
 /**
- * A volume in float64, for one data set.
+ * A volume in float64, for one data set; it remembers the nodes that it was asked about.
  * @throws StyleError STYLE_CLIP; PlacementError where it is given in source coordinates that have no place
  */
-export function compileClip(clip: Clip, space: SourceSpace): Volume {
-  checkClip(clip);
-  if (clip.kind === "polygon") return polygonVolume(clip, space);
-  return halfSpaces(clip.kind === "box" ? boxSides(clip, space) : [planeSide(clip, space)]);
+export function* compileClip(clip: Clip, space: SourceSpace): Steps<Volume> {
+  if (clip.kind === "polygon") return remembering(yield* polygonVolume(clip, space));
+  return remembering(halfSpaces(clip.kind === "box" ? boxSides(clip, space) : [planeSide(clip, space)]));
 }
 
-function polygonVolume({ coordinates, ring, bottom, top }: PolygonClip, space: SourceSpace): Volume {
-  if (coordinates === "source") return prism(sourceShape(ring, { bottom, top }, space));
-  const shape = geodeticShape(ring, { bottom, top });
+function* polygonVolume({ coordinates, ring, bottom, top }: PolygonClip, space: SourceSpace): Steps<Volume> {
+  if (coordinates === "source") return prism(yield* sourceShape(ring, { bottom, top }, space));
+  const shape = yield* geodeticShape(ring, { bottom, top });
   if (!shape) {
     return fail("a polygon reaches farther than 85° from its middle", "Cut it into several polygons");
   }

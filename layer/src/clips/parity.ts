@@ -1,4 +1,5 @@
 import type { Ring } from "./rings.js";
+import { STRIDE, type Steps } from "./steps.js";
 import { cross, difference, dot, unit, type Vector } from "./vectors.js";
 
 /** Pieces that share a bounding sphere. */
@@ -13,7 +14,7 @@ export interface PieceGroup {
 }
 
 /** Groups of the pieces of a ring; piece i runs from vertex i to the next. */
-export function groupsOf({ count, feet }: Ring): PieceGroup[] {
+export function* groupsOf({ count, feet }: Ring): Steps<PieceGroup[]> {
   const groups: PieceGroup[] = [];
   for (let from = 0; from < count; from += GROUP) {
     const to = Math.min(from + GROUP, count);
@@ -31,6 +32,7 @@ export function groupsOf({ count, feet }: Ring): PieceGroup[] {
       );
     }
     groups.push({ from, to, centre, radius });
+    yield;
   }
   return groups;
 }
@@ -48,17 +50,21 @@ const RADIUS = 6.4e6;
  * the way are counted. Inside is the side away from the antipode of the middle.
  * @returns undefined where the ring reaches farther than 85° from its middle
  */
-export function insideTest(ring: Ring, groups: readonly PieceGroup[]): InsideRing | undefined {
+export function* insideTest(ring: Ring, groups: readonly PieceGroup[]): Steps<InsideRing | undefined> {
   const { count, feet } = ring;
   const at = (i: number) => feet.subarray(3 * (i % count), 3 * (i % count) + 3);
   const sum = [0, 0, 0];
   for (let i = 0; i < count; i++) {
     const direction = unit(at(i));
     for (let axis = 0; axis < 3; axis++) sum[axis] += direction[axis];
+    if (i % STRIDE === STRIDE - 1) yield;
   }
   const middle = unit(sum);
   let least = 1;
-  for (let i = 0; i < count; i++) least = Math.min(least, dot(middle, unit(at(i))));
+  for (let i = 0; i < count; i++) {
+    least = Math.min(least, dot(middle, unit(at(i))));
+    if (i % STRIDE === STRIDE - 1) yield;
+  }
   if (!(least > Math.cos((85 * Math.PI) / 180))) return undefined;
   const outside = perpendicular(middle).map((part) => RADIUS * part) as unknown as Vector;
   return (foot) => {

@@ -1,11 +1,15 @@
 import type { PieceGroup } from "./parity.js";
 import { type NodePlan, toPlan } from "./plan-of-node.js";
 import type { Ring } from "./rings.js";
+import { STRIDE, type Steps } from "./steps.js";
 import { pointIn, type Vector } from "./vectors.js";
 import type { ClipNode } from "./volume.js";
 
-/** An edge in the plan of a node: from (ax, ay) to (bx, by), metres. */
-export type PlanEdge = readonly [ax: number, ay: number, bx: number, by: number];
+/** Edges in the plan of a node, one after the other: from (ax, ay) to (bx, by), metres. */
+export type PlanEdges = readonly number[];
+
+/** Numbers of an edge. */
+export const EDGE = 4;
 
 /** How the ring's verticals lean in the plan, metres per metre of z over the middle of the box. */
 export type Tilt = readonly [number, number];
@@ -68,7 +72,10 @@ export function tiltAt(ring: Ring, vertex: number, { frame }: ClipNode, plan: No
 
 /** Whether an edge may come into a rectangle: whether its own does. */
 export function nears(
-  [ax, ay, bx, by]: PlanEdge,
+  ax: number,
+  ay: number,
+  bx: number,
+  by: number,
   [west, south, east, north]: NodePlan["rectangle"],
 ): boolean {
   return (
@@ -84,73 +91,76 @@ export function nears(
  * as the node is small. Where an edge comes in from the west, the western side is an edge from there to the north, for
  * the way along that side to the south-western corner.
  */
-export function edgesForRays(pieces: readonly PlanEdge[], rectangle: NodePlan["rectangle"]): PlanEdge[] {
+export function* edgesForRays(pieces: PlanEdges, rectangle: NodePlan["rectangle"]): Steps<number[]> {
   const [west, south, , north] = rectangle;
-  const edges: PlanEdge[] = [];
-  for (const piece of pieces) {
-    const edge = cutOff(piece, rectangle);
-    if (!edge) continue;
-    edges.push(edge);
-    for (const [x, y] of [edge.slice(0, 2), edge.slice(2)]) {
-      const comesIn = x === west && Math.min(piece[0], piece[2]) < west;
-      if (comesIn) edges.push([west, y, west, 2 * north - south]);
+  const edges: number[] = [];
+  for (let at = 0; at < pieces.length; at += EDGE) {
+    const [ax, bx] = [pieces[at], pieces[at + 2]];
+    const first = edges.length;
+    if (!cutOff(edges, ax, pieces[at + 1], bx, pieces[at + 3], rectangle)) continue;
+    const comesIn = Math.min(ax, bx) < west;
+    for (const end of [first, first + 2]) {
+      if (comesIn && edges[end] === west) edges.push(west, edges[end + 1], west, 2 * north - south);
     }
+    if (at % (EDGE * STRIDE) === 0) yield;
   }
   return edges;
 }
 
 /**
- * The part of an edge in a rectangle (Y.-D. Liang, B. Barsky, 1984); undefined where there is none. Ends that lie inside
+ * Adds the part of an edge in a rectangle (Y.-D. Liang, B. Barsky, 1984); false where there is none. Ends that lie inside
  * stay as they are, to the last bit, so that neighbouring edges meet; an end on the western side has exactly its x.
  */
 function cutOff(
-  [ax, ay, bx, by]: PlanEdge,
+  edges: number[],
+  ax: number,
+  ay: number,
+  bx: number,
+  by: number,
   [west, south, east, north]: NodePlan["rectangle"],
-): PlanEdge | undefined {
+): boolean {
   const [dx, dy] = [bx - ax, by - ay];
   let [from, to] = [0, 1];
   let [fromWest, toWest] = [false, false];
-  const sides = [
-    [-dx, ax - west],
-    [dx, east - ax],
-    [-dy, ay - south],
-    [dy, north - ay],
-  ] as const;
-  for (const [index, [along, room]] of sides.entries()) {
+  for (let side = 0; side < 4; side++) {
+    const along = side === 0 ? -dx : side === 1 ? dx : side === 2 ? -dy : dy;
+    const room = side === 0 ? ax - west : side === 1 ? east - ax : side === 2 ? ay - south : north - ay;
     if (along === 0) {
-      if (room < 0) return undefined;
+      if (room < 0) return false;
     } else if (along < 0 && room / along > from) {
       from = room / along;
-      fromWest = index === 0;
+      fromWest = side === 0;
     } else if (along > 0 && room / along < to) {
       to = room / along;
-      toWest = index === 0;
+      toWest = side === 0;
     }
   }
-  if (from > to) return undefined;
-  const x = (share: number, atWest: boolean) => (atWest ? west : ax + share * dx);
-  return [
-    ...(from === 0 ? ([ax, ay] as const) : ([x(from, fromWest), ay + from * dy] as const)),
-    ...(to === 1 ? ([bx, by] as const) : ([x(to, toWest), ay + to * dy] as const)),
-  ];
+  if (from > to) return false;
+  if (from === 0) edges.push(ax, ay);
+  else edges.push(fromWest ? west : ax + from * dx, ay + from * dy);
+  if (to === 1) edges.push(bx, by);
+  else edges.push(toWest ? west : ax + to * dx, ay + to * dy);
+  return true;
 }
 
 /** Whether a ray to the west, and the way from its end to the south-western corner, meets an odd number of edges. */
-export function oddWayTo(edges: readonly PlanEdge[], x: number, y: number): boolean {
+export function oddWayTo(edges: PlanEdges, x: number, y: number): boolean {
   let odd = false;
-  for (const [ax, ay, bx, by] of edges) {
+  for (let at = 0; at < edges.length; at += EDGE) {
+    const [ay, by] = [edges[at + 1], edges[at + 3]];
     if (ay > y === by > y) continue;
-    const side = (x - ax) * (by - ay) - (y - ay) * (bx - ax);
+    const ax = edges[at];
+    const side = (x - ax) * (by - ay) - (y - ay) * (edges[at + 2] - ax);
     if (side > 0 === by > ay) odd = !odd;
   }
   return odd;
 }
 
 /** Of a grid over a rectangle, the place farthest from all edges: there, inside and outside are sure. */
-export function farFromEdges(
-  edges: readonly PlanEdge[],
+export function* farFromEdges(
+  edges: PlanEdges,
   [west, south, east, north]: NodePlan["rectangle"],
-): readonly [number, number] {
+): Steps<readonly [number, number]> {
   let best: readonly [number, number] = [(west + east) / 2, (south + north) / 2];
   if (edges.length === 0) return best;
   let farthest = -1;
@@ -160,18 +170,21 @@ export function farFromEdges(
       const x = west + ((east - west) * column) / steps;
       const y = south + ((north - south) * row) / steps;
       let nearest = Number.POSITIVE_INFINITY;
-      for (const [ax, ay, bx, by] of edges) {
-        nearest = Math.min(nearest, squaredDistance(ax, ay, bx, by, x, y));
+      for (let at = 0; at < edges.length && nearest > farthest; at += EDGE) {
+        const distance = squaredDistance(edges[at], edges[at + 1], edges[at + 2], edges[at + 3], x, y);
+        if (distance < nearest) nearest = distance;
       }
       if (nearest > farthest) [farthest, best] = [nearest, [x, y]];
     }
+    if (edges.length > EDGE * STRIDE) yield;
   }
   return best;
 }
 
 /** Square of the distance of a place from an edge. */
 function squaredDistance(ax: number, ay: number, bx: number, by: number, x: number, y: number): number {
-  const [dx, dy] = [bx - ax, by - ay];
+  const dx = bx - ax;
+  const dy = by - ay;
   const squared = dx * dx + dy * dy;
   const along = squared > 0 ? Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / squared, 0), 1) : 0;
   return (ax + along * dx - x) ** 2 + (ay + along * dy - y) ** 2;
@@ -181,34 +194,46 @@ function squaredDistance(ax: number, ay: number, bx: number, by: number, x: numb
  * Chains of edges with those vertices left out that lie within a tolerance of the line between the others (D. Douglas,
  * T. Peucker, 1973): a large node need not follow every kilometre of a long edge.
  */
-export function simplify(edges: readonly PlanEdge[], tolerance: number): PlanEdge[] {
-  const simple: PlanEdge[] = [];
+export function* simplify(edges: PlanEdges, tolerance: number): Steps<number[]> {
+  const simple: number[] = [];
   for (let from = 0; from < edges.length; ) {
-    let to = from + 1;
-    while (to < edges.length && edges[to][0] === edges[to - 1][2] && edges[to][1] === edges[to - 1][3]) to++;
-    const chain = edges.slice(from, to);
-    const points = [[chain[0][0], chain[0][1]] as const, ...chain.map((edge) => [edge[2], edge[3]] as const)];
-    const kept = keptOf(points, tolerance);
-    for (let i = 1; i < kept.length; i++) simple.push([...points[kept[i - 1]], ...points[kept[i]]]);
+    let to = from + EDGE;
+    while (to < edges.length && edges[to] === edges[to - 2] && edges[to + 1] === edges[to - 1]) to += EDGE;
+    const kept = yield* keptOf(edges, from, to - EDGE, tolerance);
+    for (let i = 0; i < kept.length; i++) {
+      const start = i === 0 ? from : kept[i - 1] + 2;
+      simple.push(edges[start], edges[start + 1], edges[kept[i] + 2], edges[kept[i] + 3]);
+    }
     from = to;
   }
   return simple;
 }
 
-function keptOf(points: readonly (readonly [number, number])[], tolerance: number): number[] {
-  const kept = [0];
-  const stack: (readonly [number, number])[] = [[0, points.length - 1]];
-  for (let span = stack.pop(); span; span = stack.pop()) {
-    const [from, to] = span;
-    const [[ax, ay], [bx, by]] = [points[from], points[to]];
+/** Of a chain from an edge to another, those whose ends stay. */
+function* keptOf(edges: PlanEdges, first: number, last: number, tolerance: number): Steps<number[]> {
+  const kept: number[] = [];
+  // Vertices by the edge that ends there; the first of all by the one before.
+  const stack: number[] = [first - EDGE, last];
+  while (stack.length > 0) {
+    const to = stack.pop()!;
+    const from = stack.pop()!;
+    const start = from < first ? first : from + 2;
     let farthest = tolerance * tolerance;
     let split = -1;
-    for (let i = from + 1; i < to; i++) {
-      const distance = squaredDistance(ax, ay, bx, by, points[i][0], points[i][1]);
-      if (distance > farthest) [farthest, split] = [distance, i];
+    for (let at = from + EDGE; at < to; at += EDGE) {
+      const distance = squaredDistance(
+        edges[start],
+        edges[start + 1],
+        edges[to + 2],
+        edges[to + 3],
+        edges[at + 2],
+        edges[at + 3],
+      );
+      if (distance > farthest) [farthest, split] = [distance, at];
     }
     if (split < 0) kept.push(to);
-    else stack.push([split, to], [from, split]);
+    else stack.push(split, to, from, split);
+    if (to - from > EDGE * STRIDE) yield;
   }
   return kept;
 }

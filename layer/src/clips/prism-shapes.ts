@@ -3,6 +3,7 @@ import { heightIn, type NodePlan } from "./plan-of-node.js";
 import type { End, PrismShape } from "./prism.js";
 import { footOf, geodesicRing, placed, sourceRing } from "./rings.js";
 import { type Corner, extendedPlace, insideRing, ringOver, sourceOf } from "./source-space.js";
+import type { Steps } from "./steps.js";
 import { pointIn } from "./vectors.js";
 import type { ClipNode, Place, SourceSpace } from "./volume.js";
 
@@ -16,13 +17,13 @@ export interface PrismEnds {
  * A prism over a ring of geodesics; heights over the ellipsoid, metres.
  * @returns undefined where the ring reaches farther than 85° from its middle
  */
-export function geodeticShape(
+export function* geodeticShape(
   corners: readonly Corner[],
   { bottom, top }: PrismEnds,
-): PrismShape | undefined {
-  const ring = geodesicRing(corners);
-  const groups = groupsOf(ring);
-  const inside = insideTest(ring, groups);
+): Steps<PrismShape | undefined> {
+  const ring = yield* geodesicRing(corners);
+  const groups = yield* groupsOf(ring);
+  const inside = yield* insideTest(ring, groups);
   if (!inside) return undefined;
   const end = (height: number | undefined, plan: NodePlan): End | undefined =>
     height === undefined ? undefined : { height: height - plan.height, slope: [0, 0] };
@@ -47,20 +48,20 @@ export function geodeticShape(
 const SOURCE_SLACK = 500;
 
 /** A prism over a ring that is straight in source coordinates; heights are source z. */
-export function sourceShape(
+export function* sourceShape(
   corners: readonly Corner[],
   { bottom, top }: PrismEnds,
   space: SourceSpace,
-): PrismShape {
+): Steps<PrismShape> {
   const place = extendedPlace(space);
   const over = ringOver(corners, space);
-  const ring = sourceRing(over, place);
+  const ring = yield* sourceRing(over, place);
   const { min, max } = space.boundingBox;
   const middle = [0, 1, 2].map((axis) => (min[axis] + max[axis]) / 2) as [number, number, number];
   const range = (z: number | undefined) => (z === undefined ? undefined : heightsOf(z, place, space));
   return {
     ring,
-    groups: groupsOf(ring),
+    groups: yield* groupsOf(ring),
     tilted: true,
     slack: SOURCE_SLACK,
     contains(_, source) {

@@ -1,12 +1,12 @@
 import { HAS_BOTTOM, HAS_TOP, PRISM, STARTS_INSIDE } from "./clip-roles.js";
 import type { PieceGroup } from "./parity.js";
 import {
+  EDGE,
   edgesForRays,
   farFromEdges,
   groundRadius,
   nears,
   oddWayTo,
-  type PlanEdge,
   piecesNear,
   simplify,
   type Tilt,
@@ -15,6 +15,7 @@ import {
 } from "./plan-edges.js";
 import { fromPlan, type NodePlan, planOf } from "./plan-of-node.js";
 import { footOf, type Ring } from "./rings.js";
+import { STRIDE, type Steps } from "./steps.js";
 import { pointOf, type Vector } from "./vectors.js";
 import type { ClipNode, Relation, Volume, VolumeRecord } from "./volume.js";
 
@@ -88,7 +89,7 @@ function touches({ feet, count }: Ring, piece: number, foot: Vector, reach: numb
   return Math.sqrt(distance) <= reach + 1;
 }
 
-function nodeRelation(shape: PrismShape, node: ClipNode): "in" | "out" | VolumeRecord {
+function* nodeRelation(shape: PrismShape, node: ClipNode): Steps<"in" | "out" | VolumeRecord> {
   const plan = planOf(node);
   const bottom = shape.bottomOver(node, plan);
   const top = shape.topOver(node, plan);
@@ -101,8 +102,8 @@ function nodeRelation(shape: PrismShape, node: ClipNode): "in" | "out" | VolumeR
   if (top && low > top.height + span(top)) return "out";
   const cutsBottom = bottom !== undefined && low < bottom.height + span(bottom);
   const cutsTop = top !== undefined && high > top.height - span(top);
-  const { edges, tilt } = edgesIn(shape, node, plan);
-  const [x, y] = farFromEdges(edges, plan.rectangle);
+  const { edges, tilt } = yield* edgesIn(shape, node, plan);
+  const [x, y] = yield* farFromEdges(edges, plan.rectangle);
   const sure = shape.inside(pointOf(node.frame, ...fromPlan(plan, x, y, plan.middle)));
   if (edges.length === 0) {
     if (!sure) return "out";
@@ -112,38 +113,38 @@ function nodeRelation(shape: PrismShape, node: ClipNode): "in" | "out" | VolumeR
   const curvature = (plan.inverseRadii[0] + plan.inverseRadii[1]) / 2;
   return {
     kind: PRISM,
-    count: edges.length,
+    count: edges.length / EDGE,
     bits: (startsInside ? STARTS_INSIDE : 0) | (cutsBottom ? HAS_BOTTOM : 0) | (cutsTop ? HAS_TOP : 0),
     texels: [
       ...[...plan.inverseRadii, ...tilt],
       ...[plan.middle, bottom?.height ?? 0, top?.height ?? 0, curvature],
       ...[...(bottom?.slope ?? [0, 0]), ...(top?.slope ?? [0, 0])],
-      ...edges.flat(),
-    ],
+    ].concat(edges),
   };
 }
 
 /** The edges that cross a node, as rays need them, and the tilt that they are drawn with. */
-function edgesIn(
+function* edgesIn(
   { ring, groups, tilted, slack }: PrismShape,
   node: ClipNode,
   plan: NodePlan,
-): { readonly edges: PlanEdge[]; readonly tilt: Tilt } {
+): Steps<{ readonly edges: number[]; readonly tilt: Tilt }> {
   const { foot } = footOf(...plan.centre);
   const near = piecesNear(groups, foot, groundRadius(plan) + slack);
   if (near.length === 0) return { edges: [], tilt: [0, 0] };
   const tilt: Tilt = tilted ? tiltAt(ring, near[0], node, plan) : [0, 0];
-  const pieces: PlanEdge[] = [];
+  const pieces: number[] = [];
   let last = -2;
-  let end: [number, number] = [0, 0];
-  for (const piece of near) {
+  let end: readonly [number, number] = [0, 0];
+  for (const [index, piece] of near.entries()) {
     const start = piece === last + 1 ? end : vertexInPlan(ring, piece, node, plan, tilt);
     end = vertexInPlan(ring, piece + 1, node, plan, tilt);
     last = piece;
-    const edge: PlanEdge = [...start, ...end];
-    if (nears(edge, plan.rectangle)) pieces.push(edge);
+    if (nears(...start, ...end, plan.rectangle)) pieces.push(...start, ...end);
+    if (index % STRIDE === STRIDE - 1) yield;
   }
   const reach = Math.max(...plan.rectangle.map(Math.abs));
   const tolerance = Math.max(SIMPLIFICATION, reach * 2 ** -25);
-  return { edges: edgesForRays(simplify(pieces, tolerance), plan.rectangle), tilt };
+  const simple = yield* simplify(pieces, tolerance);
+  return { edges: yield* edgesForRays(simple, plan.rectangle), tilt };
 }

@@ -1,4 +1,5 @@
 import { ecefToGeodetic, geodesicBetween, geodesicFrom, geodeticToEcef } from "@groma/georef";
+import { STRIDE, type Steps } from "./steps.js";
 import { cross, difference, dot, type Vector } from "./vectors.js";
 import type { Place } from "./volume.js";
 
@@ -24,24 +25,32 @@ export interface Ring {
  * A ring of geodesics of WGS 84, verticals along its normals.
  * @param corners longitude and latitude of each corner, radians
  */
-export function geodesicRing(corners: readonly (readonly [number, number])[]): Ring {
+export function* geodesicRing(corners: readonly (readonly [number, number])[]): Steps<Ring> {
   const feet: number[] = [];
   const ups: number[] = [];
-  const foot = new Float64Array(3);
-  corners.forEach(([longitude, latitude], index) => {
+  const add = (foot: Vector, longitude: number, latitude: number) => {
+    feet.push(...foot);
+    ups.push(...normalAt(longitude, latitude));
+  };
+  let end = onEllipsoid(...corners[0]);
+  for (const [index, [longitude, latitude]] of corners.entries()) {
     const next = corners[(index + 1) % corners.length];
-    const { distance, azimuthFrom } = geodesicBetween(longitude, latitude, next[0], next[1]);
-    const pieces = Math.max(1, Math.ceil(distance / LONGEST_PIECE));
-    for (let piece = 0; piece < pieces; piece++) {
-      const at =
-        piece === 0
-          ? { longitude, latitude }
-          : geodesicFrom(longitude, latitude, azimuthFrom, (distance * piece) / pieces);
-      geodeticToEcef(at.longitude, at.latitude, 0, foot);
-      feet.push(...foot);
-      ups.push(...normalAt(at.longitude, at.latitude));
+    const start = end;
+    end = onEllipsoid(...next);
+    add(start, longitude, latitude);
+    // A geodesic is longer than its chord by less than a hundredth of a millimetre here.
+    const whole = Math.hypot(...difference(end, start)) < LONGEST_PIECE - 1;
+    if (!whole) {
+      const { distance, azimuthFrom } = geodesicBetween(longitude, latitude, next[0], next[1]);
+      const pieces = Math.ceil(distance / LONGEST_PIECE);
+      for (let piece = 1; piece < pieces; piece++) {
+        const at = geodesicFrom(longitude, latitude, azimuthFrom, (distance * piece) / pieces);
+        add(onEllipsoid(at.longitude, at.latitude), at.longitude, at.latitude);
+        if (piece % STRIDE === 0) yield;
+      }
     }
-  });
+    if (index % STRIDE === STRIDE - 1) yield;
+  }
   return { count: feet.length / 3, feet: Float64Array.from(feet), ups: Float64Array.from(ups) };
 }
 
@@ -49,7 +58,7 @@ export function geodesicRing(corners: readonly (readonly [number, number])[]): R
  * A ring straight in source coordinates, verticals along source z.
  * @param corners source x and y of each corner
  */
-export function sourceRing(corners: readonly (readonly [number, number])[], place: Place): Ring {
+export function* sourceRing(corners: readonly (readonly [number, number])[], place: Place): Steps<Ring> {
   const feet: number[] = [];
   const ups: number[] = [];
   const add = (x: number, y: number) => {
@@ -57,7 +66,7 @@ export function sourceRing(corners: readonly (readonly [number, number])[], plac
     ups.push(...upAt(place, x, y));
   };
   /** Adds what lies between two points: nothing where the arc is straight enough. */
-  const between = (ax: number, ay: number, bx: number, by: number, left: number) => {
+  function* between(ax: number, ay: number, bx: number, by: number, left: number): Steps<void> {
     const [mx, my] = [(ax + bx) / 2, (ay + by) / 2];
     const [a, m, b] = [placed(place, ax, ay, 0), placed(place, mx, my, 0), placed(place, bx, by, 0)];
     // Of differences: the product of two places themselves is no finer than a millimetre over 10 m.
@@ -66,16 +75,24 @@ export function sourceRing(corners: readonly (readonly [number, number])[], plac
     const aside = Math.abs(dot(plane, difference(m, a))) / Math.hypot(...plane);
     const length = Math.hypot(...along);
     if (left === 0 || !(aside > STRAIGHTNESS || length > 4 * LONGEST_PIECE)) return;
-    between(ax, ay, mx, my, left - 1);
+    yield* between(ax, ay, mx, my, left - 1);
     add(mx, my);
-    between(mx, my, bx, by, left - 1);
-  };
-  corners.forEach(([x, y], index) => {
+    yield;
+    yield* between(mx, my, bx, by, left - 1);
+  }
+  for (const [index, [x, y]] of corners.entries()) {
     const next = corners[(index + 1) % corners.length];
     add(x, y);
-    between(x, y, next[0], next[1], 14);
-  });
+    yield* between(x, y, next[0], next[1], 14);
+    if (index % STRIDE === STRIDE - 1) yield;
+  }
   return { count: feet.length / 3, feet: Float64Array.from(feet), ups: Float64Array.from(ups) };
+}
+
+function onEllipsoid(longitude: number, latitude: number): Vector {
+  const foot = new Float64Array(3);
+  geodeticToEcef(longitude, latitude, 0, foot);
+  return [foot[0], foot[1], foot[2]];
 }
 
 /** Normal of the ellipsoid: the direction of the vertical. */

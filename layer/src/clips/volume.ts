@@ -1,5 +1,6 @@
 import type { Frame } from "@groma/georef";
 import type { ROLES } from "./clip-roles.js";
+import type { Steps } from "./steps.js";
 
 /** What happens to the points inside a volume: only they stay, they are cut, or they stand out. */
 export type ClipMode = keyof typeof ROLES;
@@ -44,5 +45,18 @@ export interface Volume {
   /** How it lies to a sphere in ECEF, metres; `crossing` where that is not certain. */
   toSphere(x: number, y: number, z: number, radius: number): Relation;
   /** How it lies to a node; a record of what crosses it. */
-  toNode(node: ClipNode): "in" | "out" | VolumeRecord;
+  toNode(node: ClipNode): Steps<"in" | "out" | VolumeRecord>;
+}
+
+/** The same volume, which works out each node once: others may come and go beside it. */
+export function remembering(volume: Volume): Volume {
+  const known = new WeakMap<ClipNode, "in" | "out" | VolumeRecord>();
+  return {
+    ...volume,
+    *toNode(node) {
+      const found = known.get(node) ?? (yield* volume.toNode(node));
+      known.set(node, found);
+      return found;
+    },
+  };
 }

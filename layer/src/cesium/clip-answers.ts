@@ -1,0 +1,175 @@
+import type { ClipSet, ClipVolumes, NodeClips, SourceSpace, Steps } from "../clips/index.js";
+import type { NodeBounds } from "../octree/index.js";
+import type { NodeVertices } from "../workers/index.js";
+import type { FrameAllowance } from "./frame-allowance.js";
+
+const WHOLE: NodeClips = { state: "in", count: 0, texels: [] };
+
+/** The volumes of a set at one time, and what they make of nodes as far as that was asked. */
+interface Answers {
+  /** What they were taken from; undefined: none. */
+  readonly set: ClipSet | undefined;
+  readonly revision: number;
+  /** Undefined: everything stays. */
+  readonly volumes: ClipVolumes | undefined;
+  readonly nodes: WeakMap<NodeVertices, NodeClips>;
+}
+
+/**
+ * What a layer's volumes make of its nodes, worked out within the allowance of frames, most important nodes first.
+ *
+ * A change of the volumes shows all at once: until the new ones are compiled, and have been held against all nodes that
+ * are drawn, the former ones hold for the whole picture. A node that comes anew is not drawn before the volumes that
+ * hold were held against it, so no point is ever drawn that they cut. Before the first volumes hold, nothing is drawn.
+ * While volumes are being prepared others wait: of one that is dragged, each picture shows some place that it was at.
+ */
+export class ClipAnswers {
+  #now: Answers | undefined;
+  #next: Answers | undefined;
+  #compiling:
+    | { readonly set: ClipSet; readonly revision: number; readonly steps: Steps<ClipVolumes> }
+    | undefined;
+  /** The node that is being held against volumes, which several frames may take. */
+  #forming:
+    | { readonly answers: Answers; readonly node: NodeVertices; readonly steps: Steps<NodeClips> }
+    | undefined;
+  /** Answers to a traversal, which asks about the same spheres in every frame; outdated ones do for some frames. */
+  readonly #rejected = new WeakMap<
+    NodeBounds,
+    { readonly by: ClipVolumes | undefined; readonly rejected: boolean }
+  >();
+  #outdated = false;
+  #rested = false;
+  /** Whether this frame found an answer to its traversal, and how often it had to do with an outdated one. */
+  #found = false;
+  #guesses = 0;
+
+  /**
+   * Begins a frame: compiles volumes that are new, as far as the frame allows.
+   * @throws StyleError STYLE_CLIP; PlacementError
+   */
+  follow(clips: ClipSet | undefined, space: SourceSpace, allowance: FrameAllowance): void {
+    this.#found = false;
+    this.#guesses = 0;
+    const set = clips && clips.size > 0 ? clips : undefined;
+    const revision = set?.revision ?? 0;
+    if (this.#rested && !isOf(this.#now, set, revision)) {
+      this.#now = undefined;
+      this.#next = undefined;
+      this.#compiling = undefined;
+    }
+    this.#rested = false;
+    if (!this.#next && !this.#compiling && !isOf(this.#now, set, revision)) {
+      if (set) this.#compiling = { set, revision, steps: set.overInSteps(space) };
+      else this.#take({ set, revision, volumes: undefined, nodes: new WeakMap() });
+    }
+    this.#compile(allowance);
+    this.#outdated = !isOf(this.#next ?? this.#now, set, revision);
+  }
+
+  /** The volumes that hold now or, where there are some, are to hold next; a frame's effects follow from these. */
+  get volumes(): ClipVolumes | undefined {
+    return (this.#next ?? this.#now)?.volumes;
+  }
+
+  /** Whether a node is cut wholly; asked by a traversal. Beyond what a frame allows, an outdated answer has to do. */
+  rejects(bounds: NodeBounds, allowance: FrameAllowance): boolean {
+    const volumes = this.#now?.volumes;
+    if (!volumes) return false;
+    const known = this.#rejected.get(bounds);
+    if (known?.by === volumes) return known.rejected;
+    // One answer in each frame is found whatever it takes, so that all are in the end.
+    if (this.#found && !allowance.left) {
+      this.#guesses++;
+      return known?.rejected ?? false;
+    }
+    this.#found = true;
+    const rejected = volumes.rejects(bounds);
+    this.#rejected.set(bounds, { by: volumes, rejected });
+    return rejected;
+  }
+
+  /** What is left of a node by the volumes that hold; undefined where it has to wait. */
+  of(node: NodeVertices): NodeClips | undefined {
+    if (!this.#now) return undefined;
+    return this.#now.volumes ? this.#now.nodes.get(node) : WHOLE;
+  }
+
+  /**
+   * Holds volumes against nodes, as far as the frame allows: those that hold, then those that are to hold next.
+   * @returns nodes that have to wait
+   */
+  form(nodes: readonly NodeVertices[], allowance: FrameAllowance): number {
+    return this.#answer(this.#now, nodes, allowance) || this.#answer(this.#next, nodes, allowance);
+  }
+
+  /** Lets the next volumes hold; called once all nodes have been held against them. */
+  advance(): void {
+    if (!this.#next) return;
+    this.#now = this.#next;
+    this.#next = undefined;
+    // The traversal of this frame went by the former ones.
+    this.#guesses++;
+  }
+
+  /** Nothing is drawn for now: there will be no former picture to keep. */
+  rest(): void {
+    this.#rested = true;
+  }
+
+  /** Whether what this frame shows is not yet what the volumes asked for make of it. */
+  get pending(): boolean {
+    return this.#outdated || this.#next !== undefined || this.#guesses > 0;
+  }
+
+  #take(answers: Answers): void {
+    if (this.#now || answers.volumes) this.#next = answers;
+    else this.#now = answers;
+  }
+
+  #compile(allowance: FrameAllowance): void {
+    if (!this.#compiling) return;
+    const { set, revision, steps } = this.#compiling;
+    try {
+      while (allowance.grants()) {
+        const { done, value } = steps.next();
+        if (!done) continue;
+        this.#compiling = undefined;
+        this.#take({ set, revision, volumes: value, nodes: new WeakMap() });
+        return;
+      }
+    } catch (thrown) {
+      this.#compiling = undefined;
+      throw thrown;
+    }
+  }
+
+  #answer(answers: Answers | undefined, nodes: readonly NodeVertices[], allowance: FrameAllowance): number {
+    if (!answers?.volumes) return 0;
+    const open = nodes.filter((node) => !answers.nodes.has(node));
+    // What was begun is finished first, whatever the order is now.
+    const begun = open.findIndex((node) => answers === this.#forming?.answers && node === this.#forming.node);
+    if (begun > 0) open.unshift(...open.splice(begun, 1));
+    const stopped = open.findIndex((node) => !this.#form(answers, node, allowance));
+    return stopped < 0 ? 0 : open.length - stopped;
+  }
+
+  /** @returns whether it is done */
+  #form(answers: Answers, node: NodeVertices, allowance: FrameAllowance): boolean {
+    while (allowance.grants()) {
+      if (this.#forming?.answers !== answers || this.#forming.node !== node) {
+        this.#forming = { answers, node, steps: answers.volumes!.forNodeInSteps(node) };
+      }
+      const { done, value } = this.#forming.steps.next();
+      if (!done) continue;
+      this.#forming = undefined;
+      answers.nodes.set(node, value);
+      return true;
+    }
+    return false;
+  }
+}
+
+function isOf(answers: Answers | undefined, set: ClipSet | undefined, revision: number): boolean {
+  return answers !== undefined && answers.set === set && answers.revision === revision;
+}

@@ -1,0 +1,90 @@
+import { eastNorthUp, geodeticToEcef } from "@groma/georef";
+import { describe, expect, it } from "vitest";
+import { OctreeNode } from "../octree/index.js";
+import type { NodeVertices } from "../workers/index.js";
+import { FrameAllowance } from "./frame-allowance.js";
+import type { GpuObjects } from "./gpu-objects.js";
+import { NodeUploads } from "./node-uploads.js";
+import { attributeSet } from "./vertex-attributes.js";
+
+const origin = new Float64Array(3);
+geodeticToEcef(0.1, 0.8, 0, origin);
+
+const read = (column: string, location: number, normalized = false) => ({
+  ...{ name: `a_${column}`, type: "vec3" as const, components: 3 as const, column, location, normalized },
+});
+const PLAIN = attributeSet([read("position", 0)]);
+const COLOURED = attributeSet([read("position", 0), read("color", 1, true)]);
+
+/** GPU objects that are counted and nothing else. */
+function counted() {
+  const alive = new Set<object>();
+  const make = <T extends object>(object: T) => {
+    alive.add(object);
+    return object;
+  };
+  const objects = {
+    vertexBuffer: (data: ArrayBufferView) => make({ kind: "buffer", sizeInBytes: data.byteLength }),
+    vertexArray: () => make({ kind: "array" }),
+    free: (object: object) => void alive.delete(object),
+  } as unknown as GpuObjects;
+  const count = (kind: string) =>
+    [...alive].filter((object) => (object as { kind: string }).kind === kind).length;
+  return { objects, count };
+}
+
+/** Nodes of so many points that are here. */
+function nodesOf(count: number, points: number) {
+  const nodes = Array.from({ length: count }, (_, x) => new OctreeNode({ depth: 4, x, y: 0, z: 0 }));
+  const vertices = {
+    positions: new Float32Array(3 * points),
+    columns: { color: { data: new Uint8Array(3 * points) } },
+    count: points,
+    frame: eastNorthUp(origin),
+    box: [0, 0, 0, 1, 1, 1],
+  } as unknown as NodeVertices;
+  return { nodes, of: () => vertices };
+}
+
+/** A frame with time for so many steps; for one at least. */
+function frame(steps: number): FrameAllowance {
+  let now = -1;
+  return new FrameAllowance(() => now++, steps);
+}
+
+describe("NodeUploads", () => {
+  it("uploads as many nodes as a frame allows, in their order, and says how many wait", () => {
+    const { objects, count } = counted();
+    const { nodes, of } = nodesOf(7, 10);
+    const uploads = new NodeUploads();
+    const waiting = [0, 3, 100].map((steps) => uploads.upload(objects, nodes, of, [PLAIN], frame(steps)));
+    expect(waiting).toEqual([6, 3, 0]);
+    expect(nodes.every((node) => uploads.ready(node, [PLAIN]))).toBe(true);
+    expect([count("buffer"), count("array")]).toEqual([7, 7]);
+  });
+
+  it("uploads no more bytes in a frame than 4 MiB and what the last node is over", () => {
+    const { objects } = counted();
+    const { nodes, of } = nodesOf(5, 150_000);
+    const uploads = new NodeUploads();
+    // 1.8 MB each.
+    expect(uploads.upload(objects, nodes, of, [PLAIN], frame(100))).toBe(2);
+    expect(uploads.upload(objects, nodes, of, [PLAIN], frame(100))).toBe(0);
+  });
+
+  it("draws a node in a former style while it waits for what a new one reads, and frees that at last", () => {
+    const { objects, count } = counted();
+    const { nodes, of } = nodesOf(3, 10);
+    const uploads = new NodeUploads();
+    uploads.upload(objects, nodes, of, [COLOURED], frame(100));
+    expect(uploads.upload(objects, nodes, of, [PLAIN], frame(0))).toBe(2);
+    expect(nodes.map((node) => uploads.ready(node, [COLOURED]) !== undefined)).toEqual([true, true, true]);
+    expect(nodes.map((node) => uploads.ready(node, [PLAIN]) !== undefined)).toEqual([true, false, false]);
+    uploads.upload(objects, nodes, of, [PLAIN], frame(100));
+    expect(count("buffer")).toBe(6);
+    uploads.keep([PLAIN]);
+    expect([count("buffer"), count("array")]).toEqual([3, 3]);
+    expect(nodes.every((node) => uploads.ready(node, [PLAIN]))).toBe(true);
+    expect(uploads.ready(nodes[0], [COLOURED])).toBeUndefined();
+  });
+});

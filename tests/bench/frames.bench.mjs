@@ -1,0 +1,95 @@
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, mkdtempSync, rmSync, statSync } from "node:fs";
+import { loadavg, tmpdir } from "node:os";
+import { join } from "node:path";
+import { openScanPage, SCAN } from "./accuracy/rendering-browser.mjs";
+import { CATEGORIES, phasesOf } from "./frames/trace.mjs";
+
+/** Source coordinates of the middle of what is looked at. */
+const AT = [637_290, 851_210, 430];
+
+/** CPU milliseconds beyond which the main thread counts as held. */
+const LIMIT = 8;
+
+/** Parts of a frame that are not of the layer's own making: Cesium's, and what WebGL takes. */
+const FOREIGN = ["scene", "GL data", "GL programs"];
+
+/**
+ * How long the main thread is held by the layer while a scan is loaded, flown over, restyled and cut: in each frame by
+ * its update and what the application calls, between frames by what workers send. In system Chromium with WebGL in
+ * software, where calls of WebGL take what a driver would not: they are told apart.
+ */
+export async function bench(root) {
+  const scan = join(root, "../shared/data/autzen.laz");
+  if (!existsSync(scan)) return [{ note: "autzen.laz is not in ../shared/data: skipped" }];
+  const folder = mkdtempSync(join(tmpdir(), "groma-frames-"));
+  try {
+    const { page, setting, watch, close } = await openScanPage(
+      root,
+      join(root, "tests/bench/frames"),
+      converted(root, scan),
+      folder,
+    );
+    try {
+      console.log(`${setting}, load ${loadavg()[0].toFixed(1)}`);
+      const browser = page.context().browser();
+      await browser.startTracing(page, { categories: CATEGORIES });
+      await page.evaluate(([scan, at]) => new window.Frames().run(scan, at), [SCAN, AT]);
+      const phases = phasesOf(await browser.stopTracing());
+      if (watch.errors.length > 0) throw new Error(`the page failed: ${watch.errors.join("; ")}`);
+      console.table(phases.map(parts));
+      return phases.map(row);
+    } finally {
+      await close();
+    }
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+/** What the tests convert, where that is newer than the converter. */
+function converted(root, scan) {
+  const groma = join(root, "converter/dist/main.js");
+  const file = join(root, "tests/artifacts/copc/autzen.copc.laz");
+  const inputs = [groma, join(root, "converter/target/release/groma-core"), scan];
+  const newest = Math.max(...inputs.map((input) => statSync(input).mtimeMs));
+  if (existsSync(file) && statSync(file).mtimeMs > newest) return file;
+  mkdirSync(join(root, "tests/artifacts/copc"), { recursive: true });
+  execFileSync(process.execPath, [groma, "convert", scan, file, "--overwrite"], { stdio: "pipe" });
+  return file;
+}
+
+/** CPU milliseconds of a frame that are the layer's own. */
+function own({ cpu }) {
+  return Object.entries(cpu).reduce((sum, [part, time]) => (FOREIGN.includes(part) ? sum : sum + time), 0);
+}
+
+/** CPU milliseconds, and of WebGL what the thread waited. */
+function row({ name, frames, messages }) {
+  const times = frames.map(own).sort((a, b) => a - b);
+  const share = (part) => times[Math.min(times.length - 1, Math.floor(part * times.length))];
+  const longest = (part) => figure(Math.max(...frames.map(({ wall }) => wall[part] ?? 0)));
+  return {
+    phase: name,
+    updates: times.length,
+    median: figure(share(0.5)),
+    "95 %": figure(share(0.95)),
+    longest: figure(times.at(-1)),
+    [`over ${LIMIT} ms`]: times.filter((time) => time > LIMIT).length,
+    "GL data, wall": longest("GL data"),
+    "GL programs, wall": longest("GL programs"),
+    messages: messages.length,
+    "longest message": figure(Math.max(0, ...messages)),
+  };
+}
+
+/** The longest CPU milliseconds of each part in any frame of a phase. */
+function parts({ name, frames }) {
+  const names = [...new Set(frames.flatMap(({ cpu }) => Object.keys(cpu)))];
+  const longest = names.map((part) => [part, figure(Math.max(...frames.map(({ cpu }) => cpu[part] ?? 0)))]);
+  return { phase: name, ...Object.fromEntries(longest) };
+}
+
+function figure(milliseconds) {
+  return Number(milliseconds.toFixed(1));
+}

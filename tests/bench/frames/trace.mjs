@@ -1,0 +1,43 @@
+/** Categories of the browser's trace that hold the marks. */
+export const CATEGORIES = ["blink.user_timing"];
+
+/**
+ * The phases that a page marked, each with its frames and messages: CPU milliseconds of the page's thread by part (what
+ * a part holds that is a part of its own counts there), and wall milliseconds in `wall`.
+ *
+ * @param {Buffer} trace JSON
+ */
+export function phasesOf(trace) {
+  const marks = JSON.parse(trace.toString())
+    .traceEvents.filter(
+      ({ cat, name }) => cat.includes("blink.user_timing") && /^([<>]|frame$|phase )/.test(name),
+    )
+    .sort((a, b) => a.ts - b.ts);
+  const phases = [];
+  const open = [];
+  let frame;
+  for (const { name, ts, tts } of marks) {
+    if (name === "frame") {
+      frame = { cpu: {}, wall: {} };
+      phases.at(-1).frames.push(frame);
+    } else if (name.startsWith("phase "))
+      phases.push({ name: name.slice("phase ".length), frames: [], messages: [] });
+    else if (name !== "<") open.push({ part: name.slice(2), ts, tts, cpu: 0, wall: 0 });
+    else {
+      const { part, ...began } = open.pop();
+      const cpu = (tts - began.tts) / 1000;
+      const wall = (ts - began.ts) / 1000;
+      const outer = open.at(-1);
+      if (outer) {
+        outer.cpu += cpu;
+        outer.wall += wall;
+      }
+      if (part === "message") phases.at(-1)?.messages.push(cpu);
+      else if (frame) {
+        frame.cpu[part] = (frame.cpu[part] ?? 0) + cpu - began.cpu;
+        frame.wall[part] = (frame.wall[part] ?? 0) + wall - began.wall;
+      }
+    }
+  }
+  return phases;
+}

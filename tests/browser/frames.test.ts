@@ -1,0 +1,204 @@
+import { Clip } from "@groma/layer";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { pythonMissing } from "../python.js";
+import { MIDDLE } from "./stage/setting.js";
+import { decode, difference, openStage, type StagePage } from "./stage.js";
+
+const [EAST, NORTH] = MIDDLE;
+
+/** Half the edge of a square that cuts, metres. */
+const HALF = 4;
+
+/** A square of many corners, so that holding a node against it takes several steps. */
+const SQUARE = Clip.polygon(
+  (
+    [
+      [-1, -1],
+      [1, -1],
+      [1, 1],
+      [-1, 1],
+    ] as const
+  ).flatMap(([x, y], side, all) => {
+    const [toX, toY] = all[(side + 1) % 4]!;
+    return Array.from({ length: 24 }, (_, at) => {
+      const share = at / 24;
+      return [EAST + HALF * (x + share * (toX - x)), NORTH + HALF * (y + share * (toY - y))] as const;
+    });
+  }),
+  { coordinates: "source" },
+);
+
+/** Background of a stage. */
+const BACKGROUND = [24, 28, 40];
+
+/** Width of the pictures, pixels. */
+const WIDTH = 256;
+
+/** Pixels from the middle to the square's edge, seen from above from so many metres. */
+function reachAt(range: number): number {
+  return (HALF * WIDTH) / (2 * range * Math.tan(Math.PI / 6));
+}
+
+describe.skipIf(pythonMissing)(
+  `changes that take several frames${pythonMissing ? ` (skipped: ${pythonMissing})` : ""}`,
+  () => {
+    let stage: StagePage;
+    beforeAll(async () => {
+      stage = await openStage();
+      await stage.page.evaluate(() => {
+        const clock = performance.now.bind(performance);
+        let ahead = 0;
+        // A machine on which each look at the clock takes longer than a frame may prepare: one step in each frame.
+        Object.assign(window, {
+          slow: (work: () => Promise<unknown>) => {
+            performance.now = () => {
+              ahead += 5;
+              return clock() + ahead;
+            };
+            return work().finally(() => {
+              performance.now = () => clock() + ahead;
+            });
+          },
+        });
+      });
+    }, 120_000);
+    afterAll(() => stage?.close());
+
+    it("a clip shows all at once: each frame is the former picture or the new one", {
+      timeout: 120_000,
+    }, async () => {
+      const result = await stage.page.evaluate(
+        async ([square]) => {
+          const { Stage, layer: api } = window.page;
+          const stage = new Stage();
+          const options = { style: { pointSize: 3 }, maximumScreenSpaceError: 1 };
+          const layer = await stage.show("density", options);
+          stage.look({ range: 30 });
+          await stage.settle();
+          const before = stage.picture();
+          const changes: string[][] = [];
+          const until = async () => {
+            const pictures: string[] = [];
+            do {
+              pictures.push(stage.picture());
+              await new Promise((done) => setTimeout(done));
+            } while (!layer.settled && pictures.length < 500);
+            changes.push(pictures);
+          };
+          const { slow } = window as unknown as { slow: (work: () => Promise<unknown>) => Promise<unknown> };
+          await slow(async () => {
+            layer.clips = new api.ClipSet([square]);
+            await until();
+            layer.clips.clear();
+            await until();
+          });
+          const settled = layer.settled;
+          // The same on a machine that does all in one frame.
+          layer.clips = new api.ClipSet([square]);
+          await stage.settle();
+          const whole = stage.picture();
+          const errors = stage.errors();
+          stage.destroy();
+          return { before, changes, whole, settled, errors };
+        },
+        [SQUARE] as const,
+      );
+      expect(result.errors).toEqual([]);
+      expect(result.settled).toBe(true);
+      const [added, removed] = result.changes as [string[], string[]];
+      expect(
+        difference(decode(result.before, "frames-before"), decode(result.whole, "frames-whole")),
+      ).toBeGreaterThan(0.2);
+      const states = (pictures: string[]) =>
+        pictures.map((picture) =>
+          picture === result.before ? "before" : picture === result.whole ? "cut" : "neither",
+        );
+      const cutFrom = states(added).indexOf("cut");
+      expect(cutFrom).toBeGreaterThan(5);
+      expect(states(added)).toEqual([
+        ...Array(cutFrom).fill("before"),
+        ...Array(added.length - cutFrom).fill("cut"),
+      ]);
+      const whole = states(removed);
+      expect(whole.at(-1)).toBe("before");
+      expect(whole).not.toContain("neither");
+    });
+
+    it("never draws a point that is cut: not while nodes load, nor while the camera moves or the style changes", {
+      timeout: 120_000,
+    }, async () => {
+      const result = await stage.page.evaluate(
+        async ([square]) => {
+          const { Stage, layer: api } = window.page;
+          const stage = new Stage();
+          const { slow } = window as unknown as { slow: (work: () => Promise<unknown>) => Promise<unknown> };
+          const frames: { picture: string; range: number; drawn: number }[] = [];
+          const draw = async (range: number, count: number) => {
+            stage.look({ range });
+            for (let at = 0; at < count; at++) {
+              const picture = stage.picture();
+              frames.push({ picture, range, drawn: stage.layer.statistics.pointsDrawn });
+              await new Promise((done) => setTimeout(done));
+              if (stage.layer.settled) return;
+            }
+          };
+          await slow(async () => {
+            const clips = new api.ClipSet([square]);
+            // Another cloud object: nothing of it is loaded.
+            const opened = await api.PointCloudLayer.fromUrl("/clouds/density.copc.laz", {
+              style: { pointSize: 3 },
+              maximumScreenSpaceError: 1,
+              clips,
+              workers: { size: 1 },
+            });
+            stage.layer = opened;
+            stage.scene.primitives.add(opened);
+            await draw(60, 400);
+            await draw(40, 100);
+            opened.style = { color: "elevation", eyeDomeLighting: true };
+            await draw(25, 100);
+            await draw(20, 100);
+          });
+          // What is on the GPU already, was out of sight while the clips were changed, and comes back.
+          const { layer } = stage;
+          layer.clips = undefined;
+          await stage.settle();
+          stage.look({ range: 60 });
+          await stage.settle();
+          layer.clips = new api.ClipSet([square]);
+          await stage.settle();
+          await slow(() => draw(20, 100));
+          const { settled } = layer;
+          const errors = stage.errors();
+          stage.destroy();
+          return { frames, settled, errors };
+        },
+        [SQUARE] as const,
+      );
+      expect(result.errors).toEqual([]);
+      expect(result.settled).toBe(true);
+      expect(result.frames.length).toBeGreaterThan(20);
+      // Frames differ in how much is there, or there would be nothing to see.
+      expect(new Set(result.frames.map(({ drawn }) => drawn)).size).toBeGreaterThan(3);
+      const seen = new Set<string>();
+      for (const { picture, range } of result.frames) {
+        if (seen.has(picture)) continue;
+        seen.add(picture);
+        const reach = reachAt(range) + 3;
+        const { data, width, height } = decode(picture, "frames-cut");
+        let outside = 0;
+        for (let at = 0; at < width * height; at++) {
+          const [x, y] = [(at % width) + 0.5 - width / 2, Math.floor(at / width) + 0.5 - height / 2];
+          if (Math.max(Math.abs(x), Math.abs(y)) <= reach) continue;
+          if (BACKGROUND.some((value, channel) => Math.abs(data[4 * at + channel]! - value) > 2)) outside++;
+        }
+        expect([range, outside]).toEqual([range, 0]);
+      }
+      const last = decode(result.frames.at(-1)!.picture, "frames-last");
+      const middle = 4 * (Math.floor(last.height / 2) * last.width + last.width / 2);
+      expect(BACKGROUND.some((value, channel) => Math.abs(last.data[middle + channel]! - value) > 20)).toBe(
+        true,
+      );
+    });
+  },
+);
