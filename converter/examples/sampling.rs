@@ -1,12 +1,12 @@
 //! What sampling costs and how even it is: `cargo run --release --example sampling -- scan.laz [strategy …]`.
 //!
-//! Builds the tree in memory on one thread, bottom-up and in eight phases as the converter does, and prints per
-//! strategy the seconds spent in `choose`, and per level the density at borders against the interior.
+//! Builds the tree in memory on one thread, bottom-up and in eight phases as the converter does, but as if it knew all
+//! candidates of neighbours everywhere, and prints per strategy the seconds spent in `choose`, and per level the density at borders against the interior.
 
 use clap::ValueEnum;
 use groma_core::octree::cube::{Bounds, Cube};
 use groma_core::octree::key::{BITS, Key};
-use groma_core::sampling::{Cell, Scratch, Strategy, choose};
+use groma_core::sampling::{Around, Cell, REACH, Rival, Scratch, Strategy, choose};
 use groma_core::scan::Scan;
 use laz::{LasZipDecompressor, LazVlr};
 use std::collections::{BTreeMap, HashMap};
@@ -118,18 +118,30 @@ impl Cloud {
                 continue;
             }
             let key = |node: u64| Key::of(node << (3 * (BITS - level)), level);
+            let rivals: HashMap<[u32; 3], Vec<Rival>> = parents
+                .iter()
+                .map(|(node, own)| {
+                    let rival = |i: &u32| (self.seeds[*i as usize], self.positions[*i as usize]);
+                    let Key { x, y, z, .. } = key(*node);
+                    ([x, y, z], own.iter().map(rival).collect())
+                })
+                .collect();
             for phase in 0..8u64 {
                 for (node, own) in parents.iter_mut().filter(|(node, _)| *node & 7 == phase) {
                     own.sort_unstable();
                     let (name, cell) = (key(*node), self.cell(key(*node)));
                     let positions: Vec<_> = own.iter().map(|i| self.positions[*i as usize]).collect();
                     let seeds: Vec<_> = own.iter().map(|i| self.seeds[*i as usize]).collect();
-                    let near = neighbours(&chosen, [name.x, name.y, name.z], &cell);
+                    let place = [name.x, name.y, name.z];
+                    let near = beside(place, &cell, 1.0, |other| chosen.get(&other), |p| p);
+                    let later = |other| rivals.get(&other).filter(|_| !chosen.contains_key(&other));
+                    let later = beside(place, &cell, REACH, later, |(_, p)| p);
+                    let around = Around { chosen: &near, rivals: &later, unknown: [false; 6] };
                     let mut least = Duration::MAX;
                     let mut taken = Vec::new();
                     for _ in 0..ROUNDS {
                         let began = Instant::now();
-                        taken = choose(strategy, &cell, &positions, &seeds, &near, &mut scratch);
+                        taken = choose(strategy, &cell, &positions, &seeds, around, &mut scratch);
                         least = least.min(began.elapsed());
                     }
                     spent += least;
@@ -176,17 +188,23 @@ impl Cloud {
     }
 }
 
-/// Positions that the 26 neighbours hold within one spacing of a cell.
-fn neighbours(chosen: &HashMap<[u32; 3], Vec<[f64; 3]>>, name: [u32; 3], cell: &Cell) -> Vec<[f64; 3]> {
+/// What the 26 neighbours hold within some spacings of a cell.
+fn beside<'a, T: Copy + 'a>(
+    name: [u32; 3],
+    cell: &Cell,
+    spacings: f64,
+    held: impl Fn([u32; 3]) -> Option<&'a Vec<T>>,
+    place: impl Fn(&T) -> &[f64; 3],
+) -> Vec<T> {
+    let width = spacings * cell.spacing;
     let mut near = Vec::new();
-    for step in 0..27u32 {
+    for step in (0..27u32).filter(|step| *step != 13) {
         let other = [step % 3, step / 3 % 3, step / 9];
         let other = [0, 1, 2].map(|i| (name[i] + other[i]).wrapping_sub(1));
-        let points = chosen.get(&other).into_iter().flatten();
-        near.extend(points.filter(|p| {
+        near.extend(held(other).into_iter().flatten().filter(|item| {
             (0..3).all(|i| {
-                let from = p[i] - cell.min[i];
-                from > -cell.spacing && from < cell.side + cell.spacing
+                let from = place(item)[i] - cell.min[i];
+                from > -width && from < cell.side + width
             })
         }));
     }

@@ -1,10 +1,11 @@
 //! A node's choice among the points of its children.
 
 use super::site::{Desk, Site};
+use super::surroundings::{hash, seed};
 use crate::error::Result;
 use crate::octree::key::Key;
 use crate::record::colour;
-use crate::sampling::{self, Strategy};
+use crate::sampling;
 
 /// Points that a node chooses among: records, in order.
 pub struct Candidates<'a> {
@@ -21,30 +22,30 @@ pub struct Candidates<'a> {
 pub fn choose(site: &Site, key: Key, candidates: Candidates, desk: &mut Desk) -> Result<Vec<u32>> {
     let Candidates { records, numbers, weights } = candidates;
     let (length, cell) = (site.inputs.length, site.cube.cell(key));
-    let Desk { positions, seeds, near, scratch, .. } = desk;
+    let Desk { positions, seeds, surroundings, scratch, .. } = desk;
     let record = |number: u32| &records[number as usize * length..][..length];
     positions.clear();
-    positions.extend(
-        numbers.iter().map(|number| site.inputs.frame.coordinates(crate::record::position(record(*number)))),
-    );
+    positions.extend(numbers.iter().map(|number| site.position(record(*number))));
     seeds.clear();
-    let salt = hash(key.morton() ^ u64::from(key.level) << 60);
-    seeds.extend(numbers.iter().map(|number| hash(salt ^ u64::from(*number))));
-    near.clear();
-    let keeps_distance = site.rules.sampling == Strategy::Poisson;
-    if keeps_distance {
-        site.borders.near(key, &cell, site.store, near)?;
+    if site.keeps_distance() {
+        seeds.extend(positions.iter().map(|position| seed(key.level, position)));
+        surroundings.look(site, key, &cell)?;
+    } else {
+        // Points at one place have seeds of their own.
+        let salt = hash(key.morton() ^ u64::from(key.level) << 60);
+        seeds.extend(numbers.iter().map(|number| hash(salt ^ u64::from(*number))));
     }
-    let mut chosen = sampling::choose(site.rules.sampling, &cell, positions, seeds, near, scratch);
+    let around = surroundings.around();
+    let mut chosen = sampling::choose(site.rules.sampling, &cell, positions, seeds, around, scratch);
     let most = site.limits.node as usize;
     if chosen.len() > most {
         chosen.select_nth_unstable_by_key(most, |index| (seeds[*index as usize], *index));
         chosen.truncate(most);
         chosen.sort_unstable();
     }
-    if keeps_distance {
+    if site.keeps_distance() {
         let taken = chosen.iter().map(|index| positions[*index as usize]);
-        site.borders.keep(key, &cell, taken, site.store)?;
+        site.borders.keep(key, &cell, cell.spacing, taken, site.store)?;
     }
     if site.averages() {
         let colours: Vec<_> = numbers.iter().map(|number| colour(record(*number))).collect();
@@ -58,12 +59,4 @@ pub fn choose(site: &Site, key: Key, candidates: Candidates, desk: &mut Desk) ->
     }
     chosen.iter_mut().for_each(|index| *index = numbers[*index as usize]);
     Ok(chosen)
-}
-
-/// A number with no visible relation to another (SplitMix64: Steele, Lea, Flood 2014).
-fn hash(value: u64) -> u64 {
-    let mut v = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    v = (v ^ v >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    v = (v ^ v >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    v ^ v >> 31
 }

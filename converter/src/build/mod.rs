@@ -13,14 +13,16 @@
 //! because they touch, are never worked on at the same time.
 
 mod arrange;
+mod bands;
 mod board;
-mod borders;
 mod choose;
 mod merge;
+mod outline;
 mod pile;
 mod plan;
 mod site;
 mod split;
+mod surroundings;
 
 pub use site::{Node, Rules};
 
@@ -68,10 +70,10 @@ pub fn build(
     meter: &Meter,
 ) -> Result<Vec<Node>> {
     let limits = Limits::of(inputs.length);
-    let plan::Plan { phases, pending } = plan::plan(cells, &limits);
+    let plan::Plan { phases, pending, outline } = plan::plan(cells, &limits);
     let bytes = |job: &Job| job_bytes(job.points(&limits), inputs.length);
     let board = Board::new(phases, bytes, force);
-    let site = Site::new(inputs, cube, limits, rules, laz, store, meter, pending, &board);
+    let site = Site::new(inputs, cube, limits, rules, laz, store, meter, (pending, outline), &board);
     let work = || {
         let _watch = board.watch();
         let mut desk = Desk::default();

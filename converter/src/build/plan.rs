@@ -1,5 +1,6 @@
 //! Which nodes are built in which order.
 
+use super::outline::Outline;
 use super::site::Pending;
 use crate::distribute::cells::{Cell, Cells};
 use crate::octree::key::Key;
@@ -34,30 +35,22 @@ pub struct Plan {
     /// The jobs of a phase may be done at once: no two of its nodes touch.
     pub phases: Vec<Vec<Job>>,
     pub pending: HashMap<Key, Pending>,
-}
-
-/// What is below a node.
-#[derive(Debug, Clone, Copy)]
-struct Total {
-    points: u64,
-    codes: (u64, u64),
+    pub outline: Outline,
 }
 
 /// From the deepest level up, and on each level the nodes of one colour after those of another.
 pub fn plan(cells: Cells, limits: &Limits) -> Plan {
     let cells: Vec<_> = cells.into_cells().collect();
-    let totals = totals(&cells);
-    let is_leaf = |key: Key| totals[&key].points <= limits.leaf;
-    let is_pile = |key: Key| totals[&key].codes.0 == totals[&key].codes.1;
+    let outline = Outline::of(cells.iter().map(|(key, cell)| (*key, cell.points, cell.codes)), limits);
     let mut pending: HashMap<Key, Vec<Cell>> = HashMap::new();
     let mut jobs = Vec::new();
     let mut merges: HashMap<Key, u32> = HashMap::new();
     let mut cells = cells;
     cells.sort_by_key(|(_, cell)| cell.codes.0);
     for (key, cell) in cells {
-        if let Some(leaf) = topmost(key, is_leaf) {
+        if let Some(leaf) = outline.leaf(key) {
             pending.entry(leaf).or_default().push(cell);
-        } else if let Some(key) = topmost(key, is_pile) {
+        } else if let Some(key) = outline.pile(key) {
             jobs.push((key, Job::Pile { key, cell }));
         } else {
             jobs.push((key, Job::Split { key, cell }));
@@ -89,33 +82,5 @@ pub fn plan(cells: Cells, limits: &Limits) -> Plan {
     }
     phases.push(vec![Job::Root]);
     let pending = pending.into_iter().map(|(key, cells)| (key, Pending::of_cells(cells))).collect();
-    Plan { phases, pending }
-}
-
-fn totals(cells: &[(Key, Cell)]) -> HashMap<Key, Total> {
-    let mut totals: HashMap<Key, Total> = HashMap::new();
-    for (key, cell) in cells {
-        let mut key = *key;
-        loop {
-            let total = totals.entry(key).or_insert(Total { points: 0, codes: cell.codes });
-            total.points += cell.points;
-            total.codes = (total.codes.0.min(cell.codes.0), total.codes.1.max(cell.codes.1));
-            if key.level == 0 {
-                break;
-            }
-            key = key.parent();
-        }
-    }
-    totals
-}
-
-/// The highest node above a key, or itself, of which something holds that holds of every node below.
-fn topmost(mut key: Key, holds: impl Fn(Key) -> bool) -> Option<Key> {
-    if !holds(key) {
-        return None;
-    }
-    while key.level > 0 && holds(key.parent()) {
-        key = key.parent();
-    }
-    Some(key)
+    Plan { phases, pending, outline }
 }

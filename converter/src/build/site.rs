@@ -1,8 +1,10 @@
 //! What all jobs of a build share.
 
 use super::arrange::{Arranger, Selection};
+use super::bands::Bands;
 use super::board::Board;
-use super::borders::Borders;
+use super::outline::Outline;
+use super::surroundings::Surroundings;
 use crate::copc::chunk;
 use crate::distribute::Inputs;
 use crate::distribute::cells::Cell;
@@ -12,7 +14,7 @@ use crate::octree::key::Key;
 use crate::octree::limits::Limits;
 use crate::progress::Meter;
 use crate::record::has_colour;
-use crate::sampling::{Scratch, Strategy};
+use crate::sampling::{REACH, Scratch, Strategy};
 use crate::temporary::store::{Held, Store};
 use laz::LazVlr;
 use std::collections::HashMap;
@@ -80,7 +82,7 @@ pub struct Batch {
 pub struct Desk {
     pub positions: Vec<[f64; 3]>,
     pub seeds: Vec<u64>,
-    pub near: Vec<[f64; 3]>,
+    pub surroundings: Surroundings,
     pub scratch: Scratch,
     pub arranger: Arranger,
 }
@@ -92,7 +94,11 @@ pub struct Site<'a> {
     pub rules: Rules,
     pub laz: &'a LazVlr,
     pub store: &'a Store,
-    pub borders: Borders,
+    /// What nodes have chosen, near their faces.
+    pub borders: Bands,
+    /// What nodes hold until their parents choose, near the faces of these.
+    pub rims: Bands,
+    pub outline: Outline,
     meter: &'a Meter<'a>,
     board: &'a Board,
     pending: Mutex<HashMap<Key, Pending>>,
@@ -109,7 +115,7 @@ impl<'a> Site<'a> {
         laz: &'a LazVlr,
         store: &'a Store,
         meter: &'a Meter<'a>,
-        pending: HashMap<Key, Pending>,
+        (pending, outline): (HashMap<Key, Pending>, Outline),
         board: &'a Board,
     ) -> Self {
         let (pending, nodes) = (Mutex::new(pending), Mutex::new(Vec::new()));
@@ -120,7 +126,9 @@ impl<'a> Site<'a> {
             rules,
             laz,
             store,
-            borders: Borders::default(),
+            borders: Bands::default(),
+            rims: Bands::default(),
+            outline,
             meter,
             board,
             pending,
@@ -133,6 +141,16 @@ impl<'a> Site<'a> {
         self.rules.average_colors && has_colour(self.inputs.target)
     }
 
+    /// Whether points keep a distance from those of neighbours.
+    pub fn keeps_distance(&self) -> bool {
+        self.rules.sampling == Strategy::Poisson
+    }
+
+    /// Where a record's point is, source coordinates.
+    pub fn position(&self, record: &[u8]) -> [f64; 3] {
+        self.inputs.frame.coordinates(crate::record::position(record))
+    }
+
     /// Weights of points of the input.
     pub fn weights(&self, points: usize) -> Vec<u32> {
         if self.averages() { vec![1; points] } else { Vec::new() }
@@ -140,6 +158,12 @@ impl<'a> Site<'a> {
 
     /// Keeps the points of a node until its parent chooses.
     pub fn keep(&self, key: Key, batch: Batch) -> Result<()> {
+        if key.level > 0 && self.keeps_distance() {
+            let parent = self.cube.cell(key.parent());
+            let positions =
+                batch.records.chunks_exact(self.inputs.length).map(|record| self.position(record));
+            self.rims.keep(key, &parent, REACH * parent.spacing, positions, self.store)?;
+        }
         let mut bytes = batch.records;
         batch.weights.iter().for_each(|weight| bytes.extend(weight.to_le_bytes()));
         let held = self.store.keep(bytes)?;
@@ -149,6 +173,7 @@ impl<'a> Site<'a> {
 
     /// Takes back the points of a node; none where there is no such node.
     pub fn take(&self, key: Key) -> Result<Batch> {
+        self.rims.forget(key, self.store)?;
         let length = self.inputs.length;
         let pending = self.pending().remove(&key);
         match pending {

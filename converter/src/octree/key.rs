@@ -49,6 +49,17 @@ impl Key {
         })
     }
 
+    /// The cube beyond a face, if it lies in the root cube: faces are low x, high x, low y, high y, low z, high z.
+    pub fn beyond(self, face: usize) -> Option<Self> {
+        let last = (1u32 << self.level) - 1;
+        let step = |value: u32, axis: usize| match face {
+            _ if face / 2 != axis => Some(value),
+            _ if face.is_multiple_of(2) => value.checked_sub(1),
+            _ => (value < last).then(|| value + 1),
+        };
+        Some(Self { level: self.level, x: step(self.x, 0)?, y: step(self.y, 1)?, z: step(self.z, 2)? })
+    }
+
     /// One of eight numbers; nodes of a level with the same one do not touch.
     pub fn colour(self) -> u32 {
         self.x & 1 | (self.y & 1) << 1 | (self.z & 1) << 2

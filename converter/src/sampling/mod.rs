@@ -15,6 +15,7 @@ mod rivals;
 mod scene;
 
 pub use average::average;
+pub use rivals::Rival;
 
 use lattice::Lattice;
 
@@ -49,6 +50,21 @@ impl Cell {
     }
 }
 
+/// How far beyond a node candidates of its neighbours matter to it, in spacings: what those that are farther do to its
+/// own hardly shows.
+pub const REACH: f64 = 2.0;
+
+/// What is known around a node; only [`Strategy::Poisson`] asks for it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Around<'a> {
+    /// Positions that neighbours of the same level hold already, within one spacing of the cell.
+    pub chosen: &'a [[f64; 3]],
+    /// What neighbours of the same level will choose among, within [`REACH`] of the cell, with the seeds that it will have.
+    pub rivals: &'a [Rival],
+    /// Faces behind which there may be more that nobody knows yet: low x, high x, low y, high y, low z, high z.
+    pub unknown: [bool; 6],
+}
+
 /// Buffers that live from one choice to the next, so that nothing is allocated per point.
 #[derive(Debug, Default)]
 pub struct Scratch {
@@ -62,23 +78,22 @@ pub struct Scratch {
 /// Chooses among candidates (source coordinates, in the input's order of points).
 ///
 /// `seed[i]` belongs to point i itself, so that the choice depends on nothing else; equal seeds go by place
-/// among the candidates. `near` are positions that neighbours of the same level hold already, within one
-/// spacing of the cell; only [`Strategy::Poisson`] keeps away from them.
+/// among the candidates.
 ///
-/// A Poisson sample comes within one spacing of each candidate, at faces behind which `near` has nothing
-/// within 1.15. Returns ascending indices, at least one if there is a candidate: but none by [`Strategy::Poisson`] if
-/// each candidate is closer than one spacing to `near`.
+/// A Poisson sample keeps away from the neighbours' points, and together with them and with what the rivals leave comes
+/// within one spacing of each candidate; at faces behind which nothing is known, within 1.15. Returns ascending indices, at
+/// least one if there is a candidate: but none by [`Strategy::Poisson`] if neighbours' points and rivals cover all.
 pub fn choose(
     strategy: Strategy,
     cell: &Cell,
     candidates: &[[f64; 3]],
     seed: &[u64],
-    near: &[[f64; 3]],
+    around: Around,
     scratch: &mut Scratch,
 ) -> Vec<u32> {
     debug_assert_eq!(candidates.len(), seed.len());
     match strategy {
-        Strategy::Poisson => poisson::choose(cell, candidates, seed, near, scratch),
+        Strategy::Poisson => poisson::choose(cell, candidates, seed, around, scratch),
         Strategy::Grid => grid::choose(cell, candidates, seed, scratch),
         Strategy::Random => random::choose(cell, candidates, seed, scratch),
         Strategy::First => first::choose(cell, candidates, scratch),

@@ -1,9 +1,10 @@
 //! A maximal Poisson-disk sample of the candidates (Schütz 2016, 3.3.1), with the flaws named there (3.3.2)
 //! mended: points are taken in the order of their seeds, which leaves no trace of the input's order, and
-//! keep their distance from the neighbours' points too. At faces whose neighbours have not chosen yet,
-//! stand-ins of their points keep the density even.
+//! keep their distance from the neighbours' points too. Neighbours that choose later are thought along: where their
+//! candidates are known these are rivals as if they were the node's own, so that borders leave no trace; at other faces
+//! stand-ins keep the density even.
 
-use super::{Cell, Scratch};
+use super::{Around, Cell, Scratch};
 
 /// The largest distance of a candidate from the sample, in spacings, that stand-ins may leave. With this one, what
 /// the first node and then its neighbour take are together as dense as the inside: with less the first takes too
@@ -14,12 +15,12 @@ pub fn choose(
     cell: &Cell,
     candidates: &[[f64; 3]],
     seed: &[u64],
-    near: &[[f64; 3]],
+    around: Around,
     scratch: &mut Scratch,
 ) -> Vec<u32> {
     let Scratch { order, discs, rim, .. } = scratch;
-    rim.find(cell, candidates, seed, near);
-    discs.begin(cell, near);
+    rim.find(cell, candidates, seed, around);
+    discs.begin(cell, around.chosen);
     let mut chosen = Vec::new();
     let own = candidates.len();
     let seed_of = |index: usize| if index < own { seed[index] } else { rim.rivals[index - own].0 };
@@ -31,7 +32,7 @@ pub fn choose(
         }
     }
     if !rim.candidates.is_empty() {
-        discs.begin(&Cell { spacing: WIDEST * cell.spacing, ..*cell }, near);
+        discs.begin(&Cell { spacing: WIDEST * cell.spacing, ..*cell }, around.chosen);
         chosen.iter().for_each(|index| discs.push(&candidates[*index as usize]));
         let left = order.all(rim.candidates.len(), |number| seed[rim.candidates[number] as usize]);
         let left = left.map(|number| rim.candidates[number as usize]);

@@ -13,18 +13,20 @@ const ALL: [Strategy; 4] = [Strategy::Poisson, Strategy::Grid, Strategy::Random,
 /// distance those that only stand-ins kept away.
 fn dart_throwing(scene: &Scene) -> Vec<u32> {
     let mut rim = Rim::default();
-    rim.find(&scene.cell, &scene.points, &scene.seed, &scene.near);
+    rim.find(&scene.cell, &scene.points, &scene.seed, scene.around());
+    let rivals = rim.rivals.iter().map(|(seed, position)| (*seed, *position));
     let own = || scene.seed.iter().copied().zip(scene.points.iter().copied());
-    let mut chosen = throw(own().chain(rim.rivals), &scene.near, scene.cell.spacing);
+    let mut chosen = throw(own().chain(rivals).zip(0..), &scene.near, scene.cell.spacing);
     chosen.retain(|index| (*index as usize) < scene.points.len());
     let taken: Vec<_> = chosen.iter().map(|index| scene.points[*index as usize]).collect();
-    chosen.extend(throw(own(), &[&scene.near[..], &taken].concat(), 1.15 * scene.cell.spacing));
+    let left = own().zip(0..).filter(|(_, index)| rim.candidates.contains(index));
+    chosen.extend(throw(left, &[&scene.near[..], &taken].concat(), 1.15 * scene.cell.spacing));
     chosen.sort_unstable();
     chosen
 }
 
-fn throw(darts: impl Iterator<Item = (u64, [f64; 3])>, near: &[[f64; 3]], spacing: f64) -> Vec<u32> {
-    let mut order: Vec<_> = darts.zip(0..).collect();
+fn throw(darts: impl Iterator<Item = ((u64, [f64; 3]), u32)>, near: &[[f64; 3]], spacing: f64) -> Vec<u32> {
+    let mut order: Vec<_> = darts.collect();
     order.sort_by_key(|((seed, _), index)| (*seed, *index));
     let mut taken = near.to_vec();
     let mut chosen = Vec::new();
@@ -62,6 +64,26 @@ proptest! {
     }
 
     #[test]
+    fn a_border_leaves_no_trace_where_the_candidates_behind_it_are_known(scene in scenes(), at in 0.0..6.0f64) {
+        let whole = Scene { near: Vec::new(), rivals: Vec::new(), unknown: [false; 6], ..scene };
+        let border = whole.cell.min[0] + at * whole.cell.spacing;
+        let (first, second): (Vec<u32>, Vec<u32>) =
+            (0..whole.points.len() as u32).partition(|index| whole.points[*index as usize][0] < border);
+        let part = |numbers: &[u32]| {
+            let points = numbers.iter().map(|index| whole.points[*index as usize]).collect();
+            let seed = numbers.iter().map(|index| whole.seed[*index as usize]).collect();
+            Scene { points, seed, ..whole.clone() }
+        };
+        let (mut low, mut high) = (part(&first), part(&second));
+        low.rivals = high.seed.iter().copied().zip(high.points.iter().copied()).collect();
+        high.near = low.chosen(Strategy::Poisson);
+        let mut both: Vec<u32> = low.choose(Strategy::Poisson).into_iter().map(|i| first[i as usize]).collect();
+        both.extend(high.choose(Strategy::Poisson).into_iter().map(|i| second[i as usize]));
+        both.sort_unstable();
+        prop_assert_eq!(both, whole.choose(Strategy::Poisson));
+    }
+
+    #[test]
     fn poisson_keeps_its_distance_and_leaves_no_hole(scene in scenes()) {
         let least = scene.cell.spacing * scene.cell.spacing;
         let chosen = scene.chosen(Strategy::Poisson);
@@ -70,7 +92,8 @@ proptest! {
         }
         for point in &scene.points {
             let widest = if inside(&scene.cell, point) { least } else { 1.15 * 1.15 * 1.000_001 * least };
-            prop_assert!(chosen.iter().chain(&scene.near).any(|other| distance2(other, point) < widest));
+            let left = scene.rivals.iter().any(|(_, rival)| distance2(rival, point) < least);
+            prop_assert!(left || chosen.iter().chain(&scene.near).any(|other| distance2(other, point) < widest));
         }
     }
 
@@ -105,6 +128,7 @@ proptest! {
     #[test]
     fn indices_ascend_and_there_is_one_at_least(mut scene in scenes()) {
         scene.near.clear();
+        scene.rivals.clear();
         for strategy in ALL {
             let chosen = scene.choose(strategy);
             prop_assert!(chosen.windows(2).all(|pair| pair[0] < pair[1]));
