@@ -1,0 +1,57 @@
+import { describe, expect, it } from "vitest";
+import { type PointFilter, passesFilter } from "../../layer/src/effects/index.js";
+import { styleOf } from "../../layer/src/effects/scene.fixture.js";
+import { draw, random, usePage } from "./effect-draw.js";
+
+const page = usePage();
+
+describe("filters on the GPU", () => {
+  it("leave the same points as on exact records", async () => {
+    const filter: PointFilter = {
+      classes: [2, 6, 255],
+      returns: ["last", "first"],
+      ranges: { intensity: [100, 60_000], elevation: [12.34, 80] },
+    };
+    const next = random(6);
+    const scales: Record<string, { scale: number; offset: number }> = {
+      elevation: { scale: 0.01, offset: 12 },
+    };
+    const points = Array.from({ length: 800 }, () => {
+      const of = 1 + Math.floor(3 * next());
+      return {
+        classification: [2, 6, 7, 255][Math.floor(4 * next())],
+        numberOfReturns: of,
+        returnNumber: 1 + Math.floor(of * next()),
+        intensity: [99, 100, 101, 59_999, 60_000, 60_001][Math.floor(6 * next())],
+        // Stored numbers around the ends of the range.
+        elevation: [33, 34, 35, 6799, 6800, 6801][Math.floor(6 * next())],
+      };
+    });
+    const column = (name: keyof (typeof points)[0]) => points.map((point) => point[name]);
+    const { values } = await draw(
+      page(),
+      {
+        facts: { filter },
+        node: { columns: { get: (name) => scales[name] ?? { scale: 1, offset: 0 } } },
+        columns: {
+          position: points.flatMap(() => [0, 0, -5]),
+          color: points.flatMap(() => [255, 255, 255, 255]),
+          classification: column("classification"),
+          numberOfReturns: column("numberOfReturns"),
+          returnNumber: column("returnNumber"),
+          intensity: column("intensity"),
+          elevation: column("elevation"),
+        },
+      },
+      ["gl_Position"],
+    );
+    const drawn = points.map((_, point) => values[4 * point] !== 2);
+    const kept = points.map((point) => {
+      // The record's own decimal number: stored hundredths over 12.
+      const record = { ...point, elevation: (1200 + point.elevation) / 100 };
+      return passesFilter(record, filter, styleOf());
+    });
+    expect(drawn).toEqual(kept);
+    expect(new Set(kept).size).toBe(2);
+  });
+});
