@@ -30,6 +30,7 @@ import { fitFrustum, isOrthographic, type PointFrustum } from "./point-frustum.j
 import { PointPicker } from "./point-picker.js";
 import { PointPrograms, type ProgramNeed } from "./point-programs.js";
 import { SceneStates } from "./scene-states.js";
+import { SilhouetteProbe } from "./silhouette-probe.js";
 import { hookCommand } from "./timing-hook.js";
 import type { AttributeSet } from "./vertex-attributes.js";
 
@@ -71,6 +72,7 @@ export class LayerRenderer {
   readonly #target: OffscreenTarget;
   readonly #quad: CompositeQuad;
   readonly #picker: PointPicker;
+  readonly #probe: SilhouetteProbe;
   readonly #picture: PictureUniforms;
   readonly #clips = new ClipRecords();
   #look: Look | undefined;
@@ -95,6 +97,7 @@ export class LayerRenderer {
     this.#target = new OffscreenTarget(this.objects);
     this.#quad = new CompositeQuad(this.objects, owner, this.#states);
     this.#picker = new PointPicker(this.objects, this.#pass);
+    this.#probe = new SilhouetteProbe(this.objects, this.#pass);
   }
 
   /** Nodes of the last frame, as they were drawn. */
@@ -120,6 +123,11 @@ export class LayerRenderer {
   /** Whether the browser says how long the GPU takes. */
   get measuresGpu(): boolean {
     return this.#timer.supported;
+  }
+
+  /** Share of the pixels that show points whose depth steps by 1 % or more; undefined where it was not measured. */
+  get silhouettes(): number | undefined {
+    return this.#probe.share;
   }
 
   /** Metres above their places at which nodes are drawn. */
@@ -167,6 +175,25 @@ export class LayerRenderer {
     return waiting + unformed + (this.#next ? 1 : 0);
   }
 
+  /**
+   * Measures the silhouettes of the frame that was just drawn, or no more.
+   * @returns whether an answer is awaited
+   */
+  probe(asked: boolean): boolean {
+    if (!asked || !this.#frameState || this.#nodes.length === 0) {
+      this.#probe.rest();
+      return false;
+    }
+    const frustum = fitFrustum(this.#frameState.camera, spheresOf(this.#nodes));
+    return this.#probe.follow({
+      frameState: this.#frameState,
+      nodes: this.#nodes,
+      heightOffset: this.heightOffset,
+      widest: this.#widest,
+      setting: this.#setting("id", frustum),
+    });
+  }
+
   /** Puts the points of the last frame into Cesium's list for a pass of picking or of depth. */
   repeat(frameState: FrameState): void {
     frameState.commandList.push(...this.#sceneCommands());
@@ -177,6 +204,7 @@ export class LayerRenderer {
     this.#nodes = [];
     this.#commands = [];
     this.#target.release();
+    this.#probe.rest();
   }
 
   /**
@@ -189,10 +217,8 @@ export class LayerRenderer {
     if (!frameState || !look || this.#nodes.length === 0) return undefined;
     const { context, camera, pixelRatio } = frameState;
     const size = { width: context.drawingBufferWidth, height: context.drawingBufferHeight };
-    const { style } = look;
-    const widest = style?.size === "fixed" ? style.pointSize : (style?.maximumSize ?? 0);
     const nodes = this.#nodes;
-    const candidates = candidatesAt(camera, position, window / 2 + widest + 1, nodes);
+    const candidates = candidatesAt(camera, position, window / 2 + this.#widest + 1, nodes);
     if (candidates.length === 0) return undefined;
     context.uniformState.update(frameState);
     return this.#picker.pick({
@@ -221,6 +247,7 @@ export class LayerRenderer {
   destroy(): void {
     this.#nodes = [];
     this.#picker.destroy();
+    this.#probe.rest();
     this.#uploads.destroy();
     this.#look?.destroy();
     this.#next?.destroy();
@@ -366,6 +393,12 @@ export class LayerRenderer {
     const program = this.#programs.quad(plan, quadPassOf(plan));
     const sphere = BoundingSphere.fromBoundingSpheres([...spheresOf(this.#nodes)]);
     return this.#quad.command(program, look.map, sphere, plan.active.has("opacity"));
+  }
+
+  /** Greatest width of a point, CSS pixels. */
+  get #widest(): number {
+    const style = this.#look?.style;
+    return style?.size === "fixed" ? style.pointSize : (style?.maximumSize ?? 0);
   }
 
   #setting(pass: PointPass, frustum: PointFrustum) {

@@ -2,6 +2,7 @@ import { BoundingSphere, type Camera, Cartesian3, Event, SceneMode } from "cesiu
 import type { ClipSet } from "../clips/index.js";
 import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
 import {
+  asksForSilhouettes,
   type CloudPlacing,
   checkFilter,
   cloudPlacing,
@@ -306,6 +307,7 @@ export class PointCloudLayer {
       clips: answers.volumes?.cutting ?? 0,
       highlights: answers.volumes?.highlighting ?? 0,
       filter: this.filter,
+      silhouettes: renderer.silhouettes,
       placing: placingFacts(
         this.#placing,
         selection.nodes.flatMap((node) => verticesOf(node) ?? []),
@@ -319,10 +321,11 @@ export class PointCloudLayer {
     const { cloud, style } = this;
     const request = { selection, cloud, plan, style, facts, clips: answers, allowance };
     const waiting = renderer.render(frameState, request);
+    const probing = renderer.probe(asksForSilhouettes(style, forced));
     if (budget) renderer.keepWithin(budget.gpu, this);
     this.#measure(renderer);
     const changed = this.#report(stream.progress(this));
-    const prepared = waiting === 0 && !answers.pending;
+    const prepared = waiting === 0 && !answers.pending && !probing;
     const done = this.#progress.pending === 0 && prepared && (budget?.balanced ?? true);
     const complete = done && this.#progress.failed === 0 && stream.active === 0;
     const finished = complete && !this.#complete;

@@ -1,19 +1,10 @@
-import { BoundingRectangle, WebGLConstants } from "cesium";
-import {
-  type Buffer,
-  type Context,
-  type Framebuffer,
-  PassState,
-  Sync,
-  type Texture,
-} from "./cesium-private.js";
+import { BoundingRectangle } from "cesium";
+import { type Framebuffer, PassState, type Texture } from "./cesium-private.js";
 import { type DrawnNode, pointOf } from "./drawn-node.js";
 import type { GpuObjects } from "./gpu-objects.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
 import { nearestId, type Size } from "./pick-window.js";
-
-/** Milliseconds between two looks at whether an answer is there. */
-const PATIENCE = 2;
+import { readPixels } from "./pixel-readback.js";
 
 /** What is asked for: the point nearest to a pixel of the drawing buffer. */
 export interface PickRequest {
@@ -64,7 +55,7 @@ export class PointPicker {
   ): Promise<{ readonly drawn: DrawnNode; readonly index: number } | undefined> {
     const { window, nodes, signal } = request;
     signal?.throwIfAborted();
-    const pixels = await this.#answer(this.#draw(request), window, signal);
+    const pixels = await this.#draw(request);
     const id = pixels && nearestId(pixels, window);
     return id ? pointOf(nodes, id - 1) : undefined;
   }
@@ -77,7 +68,7 @@ export class PointPicker {
     this.#targets.clear();
   }
 
-  #draw({ x, y, window, size, candidates, setting }: PickRequest) {
+  #draw({ x, y, window, size, candidates, setting, signal }: PickRequest): Promise<Uint8Array | undefined> {
     const { context } = setting;
     const { framebuffer } = this.#target(window);
     const reach = (window - 1) / 2;
@@ -87,33 +78,15 @@ export class PointPicker {
     target.viewport = new BoundingRectangle(reach - x, reach - y, size.width, size.height);
     this.#pass.clear(context, target, true);
     this.#pass.draw("id", candidates, { ...setting, target });
-    const rectangle = { x: 0, y: 0, width: window, height: window };
-    const pixels = this.#objects.own("buffers", context.readPixelsToPBO({ ...rectangle, framebuffer }));
-    const fence = this.#objects.own("fences", Sync.create({ context }));
+    const square = { width: window, height: window };
+    const answer = readPixels(this.#objects, framebuffer, {
+      size: square,
+      gone: () => this.#destroyed,
+      signal,
+    });
     context._gl.flush();
     context.endFrame();
-    return { pixels, fence, context };
-  }
-
-  async #answer(
-    { pixels, fence, context }: { readonly pixels: Buffer; readonly fence: Sync; readonly context: Context },
-    window: number,
-    signal: AbortSignal | undefined,
-  ): Promise<Uint8Array | undefined> {
-    const gone = () => this.#destroyed || context._gl.isContextLost();
-    try {
-      do {
-        await new Promise((resolve) => setTimeout(resolve, PATIENCE));
-        signal?.throwIfAborted();
-        if (gone()) return undefined;
-      } while (fence.getStatus() !== WebGLConstants.SIGNALED);
-      const bytes = new Uint8Array(4 * window * window);
-      pixels.getBufferData(bytes);
-      return bytes;
-    } finally {
-      this.#objects.free(pixels);
-      this.#objects.free(fence);
-    }
+    return answer;
   }
 
   #target(window: number): Target {

@@ -32,7 +32,10 @@ function square() {
   return { root, children };
 }
 
-const layer = { attributes: [], clips: 0, highlights: 0, filter: undefined, placing: undefined };
+const layer = {
+  ...{ attributes: [], clips: 0, highlights: 0 },
+  ...{ filter: undefined, silhouettes: undefined, placing: undefined },
+};
 /** Points that fill their cubes, as flat as a floor. */
 function verticesOf({ key: { depth } }: OctreeNode) {
   const edge = 16 / 2 ** depth;

@@ -23,6 +23,7 @@ export interface LayerFacts {
   readonly clips: number;
   readonly highlights: number;
   readonly filter: PointFilter | undefined;
+  readonly silhouettes: number | undefined;
   readonly placing: PlacingFacts | undefined;
 }
 

@@ -18,6 +18,7 @@ export { type PointFilter, passesFilter, type ReturnKind } from "./filter.js";
 export { GRADIENTS, type GradientName, type GradientStop } from "./gradients.js";
 export { groundSpacing, type Patch } from "./ground-spacing.js";
 export { type ColumnScale, type DrawnNode, nodeUniforms } from "./node-uniforms.js";
+
 export {
   type CloudPlacing,
   cloudPlacing,
@@ -25,7 +26,7 @@ export {
   type PlacedNode,
   placingFacts,
 } from "./placing-facts.js";
-export { type Forced, planEffects, withoutClips } from "./plan.js";
+export { asksForSilhouettes, type Forced, planEffects, withoutClips } from "./plan.js";
 export type {
   AttributeDeclaration,
   PointPass,

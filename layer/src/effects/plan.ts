@@ -73,6 +73,11 @@ export function planEffects(
   return { active, ledger, key: keyOf(active, traits), ...traits };
 }
 
+/** Whether Eye-Dome Lighting is left to how much depth steps in the picture, which then has to be measured. */
+export function asksForSilhouettes({ eyeDomeLighting }: PointCloudStyle, forced: Forced): boolean {
+  return eyeDomeLighting === "auto" && forced.eyeDomeLighting === undefined;
+}
+
 /** The plan for nodes that no volume touches: the same without the effects of volumes. */
 export function withoutClips(plan: EffectPlan): EffectPlan {
   if (!plan.active.has("clip") && !plan.active.has("highlight")) return plan;

@@ -12,10 +12,16 @@ export const eyeDomeLighting: Effect = {
   threshold: 0.01,
   source:
     "share of pixels whose depth steps by 1 % or more, where measured; else the share of colour that does not show the shape (thesis, eq. 4.5)",
-  wish({ style }) {
+  wish({ style, facts }) {
     if (style.eyeDomeLighting === false) return { kind: "off", why: "the style does not ask for it" };
     return style.eyeDomeLighting === "auto"
-      ? { kind: "auto", why: "colours do not show the shape" }
+      ? {
+          kind: "auto",
+          why:
+            facts.silhouettes === undefined
+              ? "colours do not show the shape; how much depth steps is not measured yet"
+              : "depth steps, as measured in the picture",
+        }
       : { kind: "forced", why: "the style asks for it" };
   },
   magnitude: (scene) => scene.facts.silhouettes ?? 1 - shareOf(scene, "own"),
