@@ -66,6 +66,10 @@ pub fn check_target(target: &Path, overwrite: bool) -> Result<()> {
     if target.file_name().is_none() || target.is_dir() {
         return Err(Error::output_write(target, "this is a folder"));
     }
+    if !parent(target).is_dir() {
+        let cause = format!("there is no folder {}", parent(target).display());
+        return Err(Error::output_write(target, cause));
+    }
     if !overwrite && target.symlink_metadata().is_ok() {
         return Err(Error::output_exists(target, "the file is there already"));
     }
