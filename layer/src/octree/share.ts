@@ -47,7 +47,7 @@ export function pointsAt(demand: Demand, threshold: number): number {
   return points;
 }
 
-/** Relative width to which a threshold is narrowed down. */
+/** Relative width to which a threshold is narrowed down; where less than half a point is left over, it may be wider. */
 const PRECISION = 1e-9;
 
 /**
@@ -55,29 +55,54 @@ const PRECISION = 1e-9;
  * spacing on the screen that the limit allows, and so where each point shows most.
  */
 export function thresholdFor(demands: readonly Demand[], limit: number): number {
-  const excess = (threshold: number) =>
-    demands.reduce((sum, demand) => sum + pointsAt(demand, threshold), 0) - limit;
-  if (excess(0) <= 0) return 0;
-  let high = 2 * Math.max(...demands.map(({ pixels }) => pixels[0] ?? 0), Number.MIN_VALUE);
-  while (excess(high) > 0) high *= 2;
-  let low = high;
-  while (excess(low) <= 0) low /= 2;
-  // False position over the logarithm, with a bisection every third time in case one end stands still.
-  let above = excess(low);
-  let below = excess(high);
-  for (let step = 0; step < 100 && high / low - 1 > PRECISION && below < 0; step++) {
-    const part = step % 3 === 2 ? 0.5 : above / (above - below);
+  const pointsOf = (threshold: number) =>
+    demands.reduce((sum, demand) => sum + pointsAt(demand, threshold), 0);
+  // Points fall with the square of a threshold, nearly: logarithms make that a line.
+  const excess = (points: number) => Math.log(Math.max(points, LEAST) / Math.max(limit, LEAST));
+  if (pointsOf(0) <= limit) return 0;
+  let [low, high] = [1, 1].fill(Math.max(...demands.map((demand) => passing(demand, limit))));
+  let below = pointsOf(high);
+  let above = below;
+  for (; below > limit; below = pointsOf(high)) {
+    [low, above] = [high, below];
+    high *= 2;
+  }
+  for (; above <= limit; above = pointsOf(low)) {
+    [high, below] = [low, above];
+    low /= 2;
+  }
+  let [over, under] = [excess(above), excess(below)];
+  // False position, by the Illinois rule: an end that stays counts half, and a bisection in case both hardly move.
+  for (let step = 1; step <= 100 && high / low - 1 > PRECISION && limit - below > 0.5; step++) {
+    const part = step % 5 === 0 ? 0.5 : over / (over - under);
     const guess = low * (high / low) ** part;
-    const value = excess(guess);
-    if (value > 0) {
+    const points = pointsOf(guess);
+    if (points > limit) {
       low = guess;
-      above = value;
+      over = excess(points);
+      under /= 2;
     } else {
       high = guess;
-      below = value;
+      below = points;
+      under = excess(points);
+      over /= 2;
     }
   }
   return high;
+}
+
+/** In place of no points: a logarithm needs some. */
+const LEAST = 1e-300;
+
+/** Spacing in pixels of the node with which a demand, drawn whole from the most important node on, passes a limit. */
+function passing({ sizes, caps, pixels }: Demand, limit: number): number {
+  let points = 0;
+  let index = 0;
+  while (index < sizes.length - 1 && points <= limit) {
+    points += sizes[index] * caps[index];
+    index++;
+  }
+  return pixels[index] ?? 1;
 }
 
 /**
