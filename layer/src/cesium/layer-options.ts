@@ -3,7 +3,7 @@ import type { PointCloud, PointRecord } from "../cloud/index.js";
 import type { Forced, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
 import type { GpuCounts } from "./gpu-objects.js";
-import type { GpuMilliseconds } from "./layer-renderer.js";
+import type { GpuMilliseconds } from "./point-drawing.js";
 
 /** How a layer draws; all can be changed later. */
 export interface PointCloudLayerOptions {

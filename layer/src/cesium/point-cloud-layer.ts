@@ -1,4 +1,4 @@
-import { BoundingSphere, type Camera, Cartesian3, Event, SceneMode } from "cesium";
+import { BoundingSphere, Cartesian3, Event, SceneMode } from "cesium";
 import type { ClipSet } from "../clips/index.js";
 import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
 import {
@@ -20,6 +20,7 @@ import {
 import type { NodeBounds, OctreeNode, Selection, SharedBudget } from "../octree/index.js";
 import type { Context, FrameState } from "./cesium-private.js";
 import { ClipAnswers } from "./clip-answers.js";
+import { Completion } from "./completion.js";
 import { ContextWatch } from "./context-watch.js";
 import { CostMeter } from "./cost-meter.js";
 import { FrameAllowance } from "./frame-allowance.js";
@@ -30,8 +31,6 @@ import type { LayerStatistics, PickResult, PointCloudLayerOptions } from "./laye
 import { LayerRenderer, type PickOptions } from "./layer-renderer.js";
 import { sceneFacts } from "./scene-facts.js";
 import { type LayerSource, resolveSource } from "./source-from-resource.js";
-
-const NOTHING: StreamProgress = { wanted: 0, ready: 0, failed: 0, pending: 0 };
 
 /**
  * A georeferenced point cloud for `viewer.scene.primitives`.
@@ -69,6 +68,7 @@ export class PointCloudLayer {
   readonly #picked: object;
   readonly #placing: CloudPlacing;
   readonly #unsubscribe: () => void;
+  readonly #completion = new Completion();
   readonly #costs = new CostMeter();
   readonly #clips = new ClipAnswers();
   readonly #watch = new ContextWatch(() => this.#release());
@@ -80,13 +80,6 @@ export class PointCloudLayer {
   #ledger: readonly LedgerRow[] = [];
   /** Effects that the last frame called for. */
   #active: ReadonlySet<EffectName> = new Set();
-  #progress = NOTHING;
-  #complete = false;
-  #settled = false;
-  /** `show` as the last frame found it. */
-  #shown: boolean | undefined;
-  #camera: Camera | undefined;
-  #pose = "";
   #frameStart = 0;
   #warned = false;
   #destroyed = false;
@@ -189,9 +182,9 @@ export class PointCloudLayer {
     const renderer = this.#renderer;
     const nodes = renderer?.nodes ?? [];
     return {
-      nodesVisible: this.#progress.wanted,
+      nodesVisible: this.#completion.progress.wanted,
       nodesLoaded: nodes.length,
-      nodesFailed: this.#progress.failed,
+      nodesFailed: this.#completion.progress.failed,
       pointsDrawn: nodes.reduce((sum, { count }) => sum + count, 0),
       budgetReached: this.#selection?.limited ?? false,
       requestsPending: this.#destroyed ? 0 : this.cloud.stream.active,
@@ -206,10 +199,9 @@ export class PointCloudLayer {
    * the camera has not moved since. Nodes that failed do not keep it from settling, unlike `allNodesLoaded`.
    */
   get settled(): boolean {
-    const moved = this.#camera !== undefined && this.#pose !== poseOf(this.#camera);
     const lifted = this.#renderer !== undefined && this.#renderer.heightOffset !== this.#heightOffset;
     const restyled = this.#renderer?.style !== undefined && this.#renderer.style !== this.#style;
-    return this.#settled && this.#shown === this.show && !moved && !lifted && !restyled;
+    return this.#completion.settled(this.show) && !lifted && !restyled;
   }
 
   /**
@@ -276,16 +268,11 @@ export class PointCloudLayer {
   }
 
   #rest(): void {
-    this.#shown = this.show;
     if (this.#selection) this.cloud.stream.detach(this);
     this.#selection = undefined;
     this.#renderer?.rest();
     this.#clips.rest();
-    this.#progress = NOTHING;
-    this.#complete = false;
-    // Where nothing is to be drawn, nothing is to be waited for.
-    this.#settled = true;
-    this.#camera = undefined;
+    this.#completion.rest(this.show);
   }
 
   #render(frameState: FrameState): void {
@@ -324,18 +311,14 @@ export class PointCloudLayer {
     const probing = renderer.probe(asksForSilhouettes(style, forced));
     if (budget) renderer.keepWithin(budget.gpu, this);
     this.#measure(renderer);
-    const changed = this.#report(stream.progress(this));
-    const prepared = waiting === 0 && !answers.pending && !probing;
-    const done = this.#progress.pending === 0 && prepared && (budget?.balanced ?? true);
-    const complete = done && this.#progress.failed === 0 && stream.active === 0;
-    const finished = complete && !this.#complete;
-    this.#complete = complete;
-    this.#settled = done;
-    this.#shown = true;
-    this.#camera = frameState.camera;
-    this.#pose = poseOf(frameState.camera);
+    const progress = stream.progress(this);
+    const { changed, finished, done } = this.#completion.note({
+      progress,
+      drawn: waiting === 0 && !answers.pending && !probing && (budget?.balanced ?? true),
+      idle: stream.active === 0,
+      camera: frameState.camera,
+    });
     // Events go out after the frame, where a listener may change the scene.
-    const progress = this.#progress;
     afterRender.push(() => {
       if (changed) this.loadProgress.raiseEvent(progress);
       if (finished) this.allNodesLoaded.raiseEvent();
@@ -362,18 +345,6 @@ export class PointCloudLayer {
     }
   }
 
-  /** @returns whether the numbers changed */
-  #report(now: StreamProgress): boolean {
-    const then = this.#progress;
-    this.#progress = now;
-    return (
-      now.wanted !== then.wanted ||
-      now.ready !== then.ready ||
-      now.failed !== then.failed ||
-      now.pending !== then.pending
-    );
-  }
-
   #rendererFor(context: Context): LayerRenderer {
     if (this.#renderer && this.#renderer.objects.context !== context) {
       // The primitive was moved to another scene: nothing of the first context can be used in it.
@@ -396,8 +367,3 @@ export class PointCloudLayer {
 
 /** Milliseconds; what lies further apart are frames on demand, whose distance says nothing. */
 const LONGEST_FRAME = 1000;
-
-/** Where a camera is and looks, in a form that can be compared. */
-function poseOf({ positionWC, directionWC, upWC }: Camera): string {
-  return `${positionWC} ${directionWC} ${upWC}`;
-}

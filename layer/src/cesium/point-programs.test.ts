@@ -4,7 +4,8 @@ import { richFacts, styleOf } from "../effects/scene.fixture.js";
 import type { ShaderProgram } from "./cesium-private.js";
 import { FrameAllowance } from "./frame-allowance.js";
 import type { GpuObjects } from "./gpu-objects.js";
-import { PointPrograms, type ProgramNeed } from "./point-programs.js";
+import { PointPrograms } from "./point-programs.js";
+import type { ProgramNeed } from "./program-needs.js";
 
 const plan = planEffects(styleOf({ highQuality: true }), richFacts());
 const own = { plan, drawer: "own", logarithmic: true } as const;

@@ -10,6 +10,7 @@ import {
 import { type ShaderProgram, ShaderSource } from "./cesium-private.js";
 import type { FrameAllowance } from "./frame-allowance.js";
 import type { GpuObjects } from "./gpu-objects.js";
+import type { Drawer, PointProgramNeed, ProgramNeed } from "./program-needs.js";
 import { type AttributeSet, attributeSet } from "./vertex-attributes.js";
 
 /** A program for points, with what it reads. */
@@ -23,19 +24,6 @@ export interface QuadProgram {
   readonly program: ShaderProgram;
   readonly uniforms: readonly UniformDeclaration[];
 }
-
-/** Who draws with a program: Cesium, which derives others from it, or the layer itself. */
-export type Drawer = "scene" | "own";
-
-/** A program that a set of effects is drawn with. */
-export type ProgramNeed =
-  | {
-      readonly pass: PointPass;
-      readonly plan: EffectPlan;
-      readonly drawer: Drawer;
-      readonly logarithmic: boolean;
-    }
-  | { readonly pass: QuadPass; readonly plan: EffectPlan; readonly drawer: "quad" };
 
 /** Programs by the set of active effects: two scenes that call for the same set share one. */
 export class PointPrograms {
@@ -88,6 +76,16 @@ export class PointPrograms {
       this.#points.set(key, found);
     }
     return found;
+  }
+
+  /** What programs read of a node, each set of attributes once. */
+  reads(needs: readonly PointProgramNeed[]): AttributeSet[] {
+    const sets = new Map<string, AttributeSet>();
+    for (const { plan, pass, drawer, logarithmic } of needs) {
+      const { reads } = this.points(plan, pass, drawer, logarithmic);
+      sets.set(reads.signature, reads);
+    }
+    return [...sets.values()];
   }
 
   quad(plan: EffectPlan, pass: QuadPass): QuadProgram {

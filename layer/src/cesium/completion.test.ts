@@ -1,0 +1,49 @@
+import { type Camera, Cartesian3 } from "cesium";
+import { describe, expect, it } from "vitest";
+import { Completion, type FrameOutcome } from "./completion.js";
+
+const camera = () =>
+  ({
+    positionWC: new Cartesian3(1, 2, 3),
+    directionWC: new Cartesian3(1, 0, 0),
+    upWC: new Cartesian3(0, 0, 1),
+  }) as Camera;
+const whole = { wanted: 4, ready: 4, failed: 0, pending: 0 };
+const outcome = (parts: Partial<FrameOutcome> = {}): FrameOutcome => ({
+  ...{ progress: whole, drawn: true, idle: true, camera: camera() },
+  ...parts,
+});
+
+describe("Completion", () => {
+  it("tells once of a frame that shows all, and of numbers that change", () => {
+    const completion = new Completion();
+    const loading = outcome({ progress: { ...whole, ready: 1, pending: 3 }, idle: false });
+    expect(completion.note(loading)).toEqual({ changed: true, finished: false, done: false });
+    expect(completion.settled(true)).toBe(false);
+    expect(completion.note(outcome())).toEqual({ changed: true, finished: true, done: true });
+    expect(completion.note(outcome())).toEqual({ changed: false, finished: false, done: true });
+    expect(completion.settled(true)).toBe(true);
+    expect(completion.progress).toEqual(whole);
+  });
+
+  it("is done but never finished where a node failed, and neither while something is still to be drawn", () => {
+    const completion = new Completion();
+    const failed = outcome({ progress: { ...whole, ready: 3, failed: 1 } });
+    expect(completion.note(failed)).toEqual({ changed: true, finished: false, done: true });
+    expect(completion.note(outcome({ drawn: false }))).toMatchObject({ finished: false, done: false });
+    expect(completion.note(outcome({ idle: false }))).toMatchObject({ finished: false, done: true });
+  });
+
+  it("does not hold for a camera that has moved since, nor for another `show`", () => {
+    const completion = new Completion();
+    const here = camera();
+    completion.note(outcome({ camera: here }));
+    here.positionWC.x += 1e-3;
+    expect(completion.settled(true)).toBe(false);
+    here.positionWC.x = 1;
+    expect([completion.settled(true), completion.settled(false)]).toEqual([true, false]);
+    completion.rest(false);
+    expect([completion.settled(true), completion.settled(false)]).toEqual([false, true]);
+    expect(completion.progress.wanted).toBe(0);
+  });
+});

@@ -1,0 +1,78 @@
+import type { Camera } from "cesium";
+import type { StreamProgress } from "../cloud/index.js";
+
+const NOTHING: StreamProgress = { wanted: 0, ready: 0, failed: 0, pending: 0 };
+
+/** What a frame came to. */
+export interface FrameOutcome {
+  readonly progress: StreamProgress;
+  /** Whether all that is here is drawn as it is asked for. */
+  readonly drawn: boolean;
+  /** Whether nothing is on its way. */
+  readonly idle: boolean;
+  readonly camera: Camera;
+}
+
+/** What is to be told of a frame. */
+export interface Told {
+  /** Whether the numbers changed. */
+  readonly changed: boolean;
+  /** Whether it is the first to show all that its view wants, without any failure. */
+  readonly finished: boolean;
+  /** Whether a further frame would show no more. */
+  readonly done: boolean;
+}
+
+/** How far a layer has come with what its view wants. */
+export class Completion {
+  #progress = NOTHING;
+  #complete = false;
+  #settled = false;
+  /** `show` as the last frame found it. */
+  #shown: boolean | undefined;
+  #camera: Camera | undefined;
+  #pose = "";
+
+  get progress(): StreamProgress {
+    return this.#progress;
+  }
+
+  /** Takes note of a frame. */
+  note({ progress, drawn, idle, camera }: FrameOutcome): Told {
+    const changed = !sameProgress(progress, this.#progress);
+    const done = progress.pending === 0 && drawn;
+    const complete = done && progress.failed === 0 && idle;
+    const finished = complete && !this.#complete;
+    this.#progress = progress;
+    this.#complete = complete;
+    this.#settled = done;
+    this.#shown = true;
+    this.#camera = camera;
+    this.#pose = poseOf(camera);
+    return { changed, finished, done };
+  }
+
+  /** Nothing is drawn. Where nothing is to be drawn, nothing is to be waited for. */
+  rest(show: boolean): void {
+    this.#shown = show;
+    this.#progress = NOTHING;
+    this.#complete = false;
+    this.#settled = true;
+    this.#camera = undefined;
+  }
+
+  /** Whether the last frame showed all that can be had of what it was to show, and its camera stands where it stood. */
+  settled(show: boolean): boolean {
+    const moved = this.#camera !== undefined && this.#pose !== poseOf(this.#camera);
+    return this.#settled && this.#shown === show && !moved;
+  }
+}
+
+function sameProgress(a: StreamProgress, b: StreamProgress): boolean {
+  return a.wanted === b.wanted && a.ready === b.ready && a.failed === b.failed && a.pending === b.pending;
+}
+
+/** Where a camera is and looks, in a form that can be compared. */
+function poseOf({ positionWC, directionWC, upWC }: Camera): string {
+  return `${positionWC} ${directionWC} ${upWC}`;
+}
