@@ -8,8 +8,11 @@ const MIB: u64 = 1 << 20;
 /// The least that a run may be given; enough for any input.
 pub const FLOOR: u64 = 256 * MIB;
 
-/// What the process takes whatever it does: code, stacks, tables, and what the allocator does not give back.
+/// What the process takes whatever it does: code, stacks, tables.
 const BASE: u64 = 48 * MIB;
+
+/// One part in so many is what the allocator does not give back.
+const KEPT: u64 = 10;
 
 /// The share of the available memory that a run takes where it is not told.
 const SHARE: f64 = 0.75;
@@ -41,7 +44,7 @@ impl Budget {
     /// Divides the memory among at most `threads` workers of `each` bytes and a store. Workers together get half
     /// at most, but one works in any case.
     pub fn divide(self, threads: usize, each: u64) -> Division {
-        let free = self.0.saturating_sub(BASE);
+        let free = (self.0 - self.0 / KEPT).saturating_sub(BASE);
         let fitting = usize::try_from(free / 2 / each.max(1)).unwrap_or(usize::MAX);
         let workers = fitting.clamp(1, threads.max(1));
         let work = (workers as u64).saturating_mul(each);
@@ -49,15 +52,19 @@ impl Budget {
     }
 }
 
-/// Gives memory that is freed back to the system at once, for the rest of the process: a run whose points have no room
-/// frees and takes so much that glibc, left alone, keeps a fifth and more of the budget beside it (100 million points in
-/// 512 MiB: peak 613 MiB without this). Costs about a twentieth of the time, so it is for such runs alone.
+/// Gives memory that is freed back to the system, for the rest of the process: a run whose points have no room frees
+/// and takes so much that glibc, left alone, keeps a fifth and more of the budget beside it (100 million points in 512
+/// MiB: peak 613 MiB without this). Costs a few hundredths of the time, so it is for such runs alone.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 pub fn return_freed() {
-    // Blocks of points in waiting are this large once a cell has many of them.
-    const THRESHOLD: libc::c_int = 128 << 10;
+    // Larger than the blocks of points in waiting, which come and go all the time; smaller than what a node takes.
+    const LARGE: libc::c_int = 512 << 10;
+    const TRIM: libc::c_int = 4 << 20;
     // SAFETY: mallopt takes two numbers, and may be called at any time. It says 0 where it refuses: nothing changes.
-    unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, THRESHOLD) };
+    unsafe {
+        libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE);
+        libc::mallopt(libc::M_TRIM_THRESHOLD, TRIM);
+    }
 }
 
 /// Other allocators than glibc's are left as they are.
@@ -123,7 +130,7 @@ mod tests {
 
     #[test]
     fn workers_get_half_at_most() {
-        let budget = Budget::new(Some(BASE + 100));
+        let budget = Budget::new(Some((BASE + 100) * KEPT / (KEPT - 1)));
         assert_eq!(budget.divide(4, 10), Division { workers: 4, work: 40, store: 60 });
         assert_eq!(budget.divide(40, 10), Division { workers: 5, work: 50, store: 50 });
         assert_eq!(budget.divide(4, 1000), Division { workers: 1, work: 1000, store: 0 });
