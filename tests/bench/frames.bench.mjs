@@ -1,8 +1,8 @@
-import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, rmSync, statSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { loadavg, tmpdir } from "node:os";
 import { join } from "node:path";
 import { openScanPage, SCAN } from "./accuracy/rendering-browser.mjs";
+import { converted } from "./converted.mjs";
 import { CATEGORIES, phasesOf } from "./frames/trace.mjs";
 
 /** Source coordinates of the middle of what is looked at. */
@@ -45,18 +45,6 @@ export async function bench(root) {
   } finally {
     rmSync(folder, { recursive: true });
   }
-}
-
-/** What the tests convert, where that is newer than the converter. */
-function converted(root, scan) {
-  const groma = join(root, "converter/dist/main.js");
-  const file = join(root, "tests/artifacts/copc/autzen.copc.laz");
-  const inputs = [groma, join(root, "converter/target/release/groma-core"), scan];
-  const newest = Math.max(...inputs.map((input) => statSync(input).mtimeMs));
-  if (existsSync(file) && statSync(file).mtimeMs > newest) return file;
-  mkdirSync(join(root, "tests/artifacts/copc"), { recursive: true });
-  execFileSync(process.execPath, [groma, "convert", scan, file, "--overwrite"], { stdio: "pipe" });
-  return file;
 }
 
 /** CPU milliseconds of a frame that are the layer's own. */

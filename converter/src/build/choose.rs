@@ -1,11 +1,10 @@
 //! A node's choice among the points of its children.
 
 use super::site::{Desk, Site};
-use super::surroundings::{hash, seed};
 use crate::error::Result;
 use crate::octree::key::Key;
 use crate::record::colour;
-use crate::sampling;
+use crate::sampling::{self, seed};
 
 /// Points that a node chooses among: records, in order.
 pub struct Candidates<'a> {
@@ -28,12 +27,11 @@ pub fn choose(site: &Site, key: Key, candidates: Candidates, desk: &mut Desk) ->
     positions.extend(numbers.iter().map(|number| site.position(record(*number))));
     seeds.clear();
     if site.keeps_distance() {
-        seeds.extend(positions.iter().map(|position| seed(key.level, position)));
+        seeds.extend(positions.iter().map(|position| seed::of_place(key.level, position)));
         surroundings.look(site, key, &cell)?;
     } else {
-        // Points at one place have seeds of their own.
-        let salt = hash(key.morton() ^ u64::from(key.level) << 60);
-        seeds.extend(numbers.iter().map(|number| hash(salt ^ u64::from(*number))));
+        let node = key.morton() ^ u64::from(key.level) << 60;
+        seeds.extend(numbers.iter().map(|number| seed::of_number(node, *number)));
     }
     let around = surroundings.around();
     let mut chosen = sampling::choose(site.rules.sampling, &cell, positions, seeds, around, scratch);

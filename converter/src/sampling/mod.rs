@@ -13,6 +13,7 @@ mod random;
 mod rivals;
 #[cfg(test)]
 mod scene;
+pub mod seed;
 
 pub use average::average;
 pub use rivals::Rival;

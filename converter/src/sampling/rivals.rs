@@ -1,6 +1,7 @@
 //! The candidates of neighbours that have not chosen yet, or stand-ins for them where they are not known. Without
 //! them the candidates at a face have rivals on one side only, and the sample piles up there.
 
+use super::seed::hash;
 use super::{Around, Cell};
 
 /// Candidates nearer to a face than this have a stand-in, in spacings: what is farther keeps no candidate away.
@@ -38,7 +39,7 @@ impl Rim {
                 let image = |seed: u64, mut position: [f64; 3]| {
                     position[axis] = face + outward * depth(&position);
                     position[if axis == 0 { 1 } else { 0 }] += ASIDE * cell.spacing;
-                    (mixed(seed, axis as u64), position)
+                    (hash(seed ^ (axis as u64 + 1)), position)
                 };
                 // Those of the axes before have images too: neighbours across edges and corners.
                 for index in 0..self.rivals.len() {
@@ -57,14 +58,6 @@ impl Rim {
         }
         self.rivals.extend_from_slice(around.rivals);
     }
-}
-
-/// A seed without relation to the given one (SplitMix64: Steele, Lea, Flood 2014).
-fn mixed(seed: u64, axis: u64) -> u64 {
-    let mut v = seed.wrapping_add((axis + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    v = (v ^ v >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    v = (v ^ v >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    v ^ v >> 31
 }
 
 #[cfg(test)]
