@@ -11,7 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 #[derive(Debug)]
 pub struct Store {
     folder: PathBuf,
-    budget: AtomicU64,
+    budget: u64,
     resident: AtomicU64,
     spilled: AtomicU64,
     names: AtomicU64,
@@ -45,7 +45,7 @@ impl Store {
     pub fn new(folder: &Path, budget: u64) -> Self {
         Self {
             folder: folder.to_path_buf(),
-            budget: budget.into(),
+            budget,
             resident: 0.into(),
             spilled: 0.into(),
             names: 0.into(),
@@ -53,19 +53,14 @@ impl Store {
         }
     }
 
-    /// Changes how much may be in memory; what is there already stays.
-    pub fn set_budget(&self, bytes: u64) {
-        self.budget.store(bytes, Ordering::Relaxed);
-    }
-
     /// Bytes by which the memory is overdrawn.
     pub fn excess(&self) -> u64 {
-        self.resident.load(Ordering::Relaxed).saturating_sub(self.budget.load(Ordering::Relaxed))
+        self.resident.load(Ordering::Relaxed).saturating_sub(self.budget)
     }
 
     /// Half of what may be in memory.
     pub fn half(&self) -> u64 {
-        self.budget.load(Ordering::Relaxed) / 2
+        self.budget / 2
     }
 
     /// All bytes ever written to files.
@@ -185,10 +180,9 @@ impl Store {
 
     /// Charges bytes if there is room for them.
     fn admit(&self, bytes: u64) -> bool {
-        let budget = self.budget.load(Ordering::Relaxed);
         self.resident
             .fetch_update(Ordering::Relaxed, Ordering::Relaxed, |now| {
-                now.checked_add(bytes).filter(|sum| *sum <= budget)
+                now.checked_add(bytes).filter(|sum| *sum <= self.budget)
             })
             .is_ok()
     }

@@ -1,4 +1,4 @@
-import { CLIP_WIDTH, HAS_BOTTOM, HAS_TOP, PRISM_HEADER, STARTS_INSIDE } from "./clip-roles.js";
+import { HAS_BOTTOM, HAS_TOP, PRISM_HEADER, STARTS_INSIDE } from "./clip-roles.js";
 import { clipTexture, type NodeClips } from "./clip-volumes.js";
 
 const f = Math.fround;
@@ -64,6 +64,3 @@ function insidePrism(texel: Texels, from: number, edges: number, bits: number, [
   }
   return inside;
 }
-
-/** Texels in a row, for those who read the texture themselves. */
-export const ROW = CLIP_WIDTH;
