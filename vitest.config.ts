@@ -19,6 +19,7 @@ export default defineConfig({
   test: {
     testTimeout: 30_000,
     hookTimeout: 120_000,
+    setupFiles: ["tests/properties.ts"],
     projects: Object.entries(rooms).map(([name, include]) => ({
       extends: true,
       // A browser test fills both cores by itself.
