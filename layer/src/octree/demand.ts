@@ -1,7 +1,7 @@
 import type { HierarchyPage, NodeBounds, OctreeNode } from "./octree-node.js";
 import { PriorityQueue } from "./priority-queue.js";
-import { type Demand, pointsAt, shareOf } from "./share.js";
-import { behindHorizon, distanceTo, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
+import { type Demand, shareOf, thresholdFor } from "./share.js";
+import { distanceTo, horizonOf, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
 
 /** Gives a node's bounds; called once per node that a view reaches. */
 export type BoundsOf = (node: OctreeNode) => NodeBounds;
@@ -32,8 +32,11 @@ export interface Gathered {
 /** How much smaller than a node that is drawn one may be to be in the fringe. */
 export const FRINGE = 0.9;
 
-/** The list of gathered nodes grows by this factor before the points are counted again. */
+/** The list of gathered nodes grows by this factor before it is asked again what spacing the limit allows. */
 const GROWTH = 1.25;
+
+/** Relative width around a threshold in which nodes that are drawn whole or not at all are for the limit to choose. */
+const AT_THRESHOLD = 1e-6;
 
 /**
  * Goes through an octree from the root, always to the node next whose spacing is largest on the screen, until every
@@ -51,6 +54,9 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
   const fringe: OctreeNode[] = [];
   const demand: Demand = { sizes: [], caps: [], pixels: [], base: [], prefix };
   const metre = pixelsPerMetre(view);
+  const behindHorizon = horizonOf(view);
+  // What is gathered already passes the limit down to this spacing, and more only widens it: nothing below it shows.
+  let floor = 0;
   const reached = new ReachedNodes();
   const queue = new PriorityQueue<number>();
   const consider = (node: OctreeNode, above: number, base: boolean) => {
@@ -59,9 +65,11 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     const distance = view.projection.kind === "orthographic" ? 1 : distanceTo(view, bounds);
     const pixels = (bounds.spacing * metre) / distance;
     if (!base && 2 * pixels <= FRINGE * error) return;
-    if (outsideFrustum(view, bounds) || behindHorizon(view, bounds) || rejects?.(bounds)) return;
+    if (2 * pixels < floor) return;
+    if (outsideFrustum(view, bounds) || behindHorizon(bounds) || rejects?.(bounds)) return;
     const own = distance === 0 ? AROUND * bounds.spacing : pixels * weightOf(view, bounds);
     const weighted = own < above ? own : above;
+    if (2 * weighted < floor) return;
     queue.push(reached.add(node, pixels, weighted, base), weighted);
   };
   consider(root, Number.POSITIVE_INFINITY, true);
@@ -72,6 +80,8 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     const pixels = reached.pixels[index];
     const weighted = reached.weighted[index];
     const base = reached.base[index];
+    // Whatever is still to come is less important than this node.
+    if (2 * weighted < floor) break;
     const { state, pointCount, children, page } = node;
     const drawn = base || 2 * pixels > error;
     if (!drawn) {
@@ -93,8 +103,7 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
       demand.base.push(base);
       points += pointCount;
       if (points > limit && nodes.length >= check) {
-        // Whatever is still to come is less important than this node: nothing of it shows at twice its spacing.
-        if (pointsAt(demand, 2 * weighted) > limit) break;
+        floor = thresholdFor([demand], limit, floor) * (1 - AT_THRESHOLD);
         check = Math.ceil(GROWTH * nodes.length);
       }
     }

@@ -29,70 +29,87 @@ export function shareOf(pixels: number, threshold: number, base: boolean): numbe
   return Math.max(0, Math.min(1, base ? ratio : (4 * ratio - 1) / 3));
 }
 
-/** Share of node `index` at a threshold; 0 stands for no threshold. */
-function shareAt(demand: Demand, index: number, threshold: number): number {
-  const cap = demand.caps[index];
-  if (threshold === 0 || cap === 0) return cap;
-  const { pixels, base, prefix } = demand;
-  if (!prefix) return 2 * pixels[index] > threshold ? cap : 0;
-  return Math.min(cap, shareOf(pixels[index], threshold, base[index]));
+/** Points per square pixel that a threshold stands for; without a threshold as many as there are. */
+const densityAt = (threshold: number) => 1 / (threshold * threshold);
+
+/** Share of node `index` at a density: {@link shareOf} up to what the screen-space error calls for. */
+function shareAt({ caps, pixels, base, prefix }: Demand, index: number, density: number): number {
+  const cap = caps[index];
+  if (cap === 0) return 0;
+  const ratio = pixels[index] * pixels[index] * density;
+  if (!prefix) return 4 * ratio > 1 ? cap : 0;
+  const share = base[index] ? ratio : (4 * ratio - 1) / 3;
+  return share > 0 ? Math.min(share, cap) : 0;
 }
 
-/** Points that a demand comes to at a threshold; not rounded. */
+/** What demands come to at a density. */
+interface Sum {
+  /** Points; not rounded. */
+  points: number;
+  /** By how many points they grow per density: what the nodes add that are drawn in part. */
+  growth: number;
+}
+
+/** Points that a demand comes to at a threshold, 0 where there is none; not rounded. */
 export function pointsAt(demand: Demand, threshold: number): number {
-  const { sizes } = demand;
-  let points = 0;
-  for (let index = 0; index < sizes.length; index++)
-    points += sizes[index] * shareAt(demand, index, threshold);
-  return points;
+  return sumAt([demand], densityAt(threshold)).points;
 }
 
-/** Relative width to which a threshold is narrowed down; where less than half a point is left over, it may be wider. */
+function sumAt(demands: readonly Demand[], density: number): Sum {
+  let points = 0;
+  let rising = 0;
+  for (const demand of demands) {
+    const { sizes, caps, base } = demand;
+    for (let index = 0; index < sizes.length; index++) {
+      const share = shareAt(demand, index, density);
+      points += sizes[index] * share;
+      // A share rises with the density in a straight line from −1/3 on, or from 0 where nothing is above the node.
+      if (share > 0 && share < caps[index]) rising += sizes[index] * (base[index] ? share : share + 1 / 3);
+    }
+  }
+  return { points, growth: rising / density };
+}
+
+/** Relative width to which a density is narrowed down; where less than half a point is left over, it may be wider. */
 const PRECISION = 1e-9;
 
 /**
  * The least threshold at which the demands together keep a limit; 0 where they keep it without one. It is the one
  * spacing on the screen that the limit allows, and so where each point shows most.
+ *
+ * Points grow with the density, in straight pieces between the densities at which a node begins and is whole. Newton's
+ * method ends as soon as it is on the right piece; where it leaves what is known to hold the answer, or nodes are drawn
+ * whole, which makes steps of the pieces, the middle is tried.
+ *
+ * @param near a threshold to begin at
  */
-export function thresholdFor(demands: readonly Demand[], limit: number): number {
-  const pointsOf = (threshold: number) =>
-    demands.reduce((sum, demand) => sum + pointsAt(demand, threshold), 0);
-  // Points fall with the square of a threshold, nearly: logarithms make that a line.
-  const excess = (points: number) => Math.log(Math.max(points, LEAST) / Math.max(limit, LEAST));
-  if (pointsOf(0) <= limit) return 0;
-  let [low, high] = [1, 1].fill(Math.max(...demands.map((demand) => passing(demand, limit))));
-  let below = pointsOf(high);
-  let above = below;
-  for (; below > limit; below = pointsOf(high)) {
-    [low, above] = [high, below];
-    high *= 2;
+export function thresholdFor(demands: readonly Demand[], limit: number, near?: number): number {
+  if (sumAt(demands, Number.POSITIVE_INFINITY).points <= limit) return 0;
+  if (limit <= 0) return Number.POSITIVE_INFINITY;
+  // Half a point may be left over: a little less is aimed at, so that rounding does not end above the limit.
+  const aim = limit - Math.min(0.25, limit / 4);
+  let density = densityAt(near || Math.max(...demands.map((demand) => passing(demand, limit))));
+  let [low, high] = [0, Number.POSITIVE_INFINITY];
+  for (let step = 1; high > low * (1 + PRECISION); step++) {
+    const { points, growth } = sumAt(demands, density);
+    if (points > limit) high = density;
+    else low = density;
+    if (points <= limit && limit - points <= 0.5) break;
+    density += (aim - points) / growth;
+    if (!(density > low && density < high) || step % SLOW === 0) density = between(low, high);
   }
-  for (; above <= limit; above = pointsOf(low)) {
-    [high, below] = [low, above];
-    low /= 2;
-  }
-  let [over, under] = [excess(above), excess(below)];
-  // False position, by the Illinois rule: an end that stays counts half, and a bisection in case both hardly move.
-  for (let step = 1; step <= 100 && high / low - 1 > PRECISION && limit - below > 0.5; step++) {
-    const part = step % 5 === 0 ? 0.5 : over / (over - under);
-    const guess = low * (high / low) ** part;
-    const points = pointsOf(guess);
-    if (points > limit) {
-      low = guess;
-      over = excess(points);
-      under /= 2;
-    } else {
-      high = guess;
-      below = points;
-      under = excess(points);
-      over /= 2;
-    }
-  }
-  return high;
+  // Wider by a few bits, so that the density it stands for is never above the one that was found.
+  return (1 + 2 ** -50) / Math.sqrt(low);
 }
 
-/** In place of no points: a logarithm needs some. */
-const LEAST = 1e-300;
+/** Steps of Newton's method after which one is halved, in case they go to and fro. */
+const SLOW = 8;
+
+/** The middle of a range of densities, as a factor from either end; beyond the one end that is known, where one is. */
+function between(low: number, high: number): number {
+  if (low === 0) return high / 4;
+  return high === Number.POSITIVE_INFINITY ? low * 4 : Math.sqrt(low) * Math.sqrt(high);
+}
 
 /** Spacing in pixels of the node with which a demand, drawn whole from the most important node on, passes a limit. */
 function passing({ sizes, caps, pixels }: Demand, limit: number): number {
@@ -111,39 +128,38 @@ function passing({ sizes, caps, pixels }: Demand, limit: number): number {
  */
 export function countsAt(demand: Demand, threshold: number, limit: number): number[] {
   const { sizes, prefix, base } = demand;
+  const density = densityAt(threshold);
   let left = Math.max(0, Math.floor(limit));
-  const counts = sizes.map((size, index) => {
-    let count = wantedOf(demand, index, threshold);
+  const counts: number[] = [];
+  for (let index = 0; index < sizes.length; index++) {
+    let count = wantedOf(demand, index, density);
     // A data set that is there at all is seen by one point at least.
-    if (threshold === 0 && base[index]) count = Math.max(count, Math.min(size, 1));
+    if (threshold === 0 && base[index]) count = Math.max(count, Math.min(sizes[index], 1));
     if (count > left) {
       count = prefix ? left : 0;
       left = 0;
     } else left -= count;
-    return count;
-  });
-  if (threshold > 0 && prefix) spend(demand, threshold, counts, left);
+    counts.push(count);
+  }
+  if (threshold > 0 && prefix) spend(demand, density, counts, left);
   return counts;
 }
 
-/** Whole points of a node at a threshold. Among whole nodes, those that are just at it are for the limit to choose. */
-function wantedOf(demand: Demand, index: number, threshold: number): number {
-  const { sizes, pixels, prefix } = demand;
-  if (prefix) {
-    const points = sizes[index] * shareAt(demand, index, threshold);
-    return threshold === 0 ? Math.round(points) : Math.floor(points);
-  }
-  return 2 * pixels[index] > threshold * (1 - 1e-6) ? sizes[index] : 0;
+/** Whole points of a node at a density. Among whole nodes, those that are just at it are for the limit to choose. */
+function wantedOf(demand: Demand, index: number, density: number): number {
+  const { sizes, prefix } = demand;
+  if (!prefix) return shareAt(demand, index, density * (1 + 2e-6)) > 0 ? sizes[index] : 0;
+  const points = sizes[index] * shareAt(demand, index, density);
+  return density === Number.POSITIVE_INFINITY ? Math.round(points) : Math.floor(points);
 }
 
 /** Adds the points left to nodes that are drawn in part, one each, the most important first, until none is left. */
-function spend(demand: Demand, threshold: number, counts: number[], points: number): void {
-  const open = counts.map((_, index) => index).filter((index) => shareAt(demand, index, threshold) > 0);
+function spend(demand: Demand, density: number, counts: number[], points: number): void {
   let left = points;
   for (let given = true; left > 0 && given; ) {
     given = false;
-    for (const index of open) {
-      if (left === 0 || counts[index] >= demand.sizes[index]) continue;
+    for (let index = 0; left > 0 && index < counts.length; index++) {
+      if (counts[index] >= demand.sizes[index] || shareAt(demand, index, density) === 0) continue;
       counts[index]++;
       left--;
       given = true;

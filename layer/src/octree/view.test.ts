@@ -2,7 +2,7 @@ import { geodeticToEcef } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import type { NodeBounds } from "./octree-node.js";
-import { behindHorizon, distanceTo, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
+import { distanceTo, horizonOf, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
 
 const RADIAN = Math.PI / 180;
 
@@ -28,27 +28,27 @@ function viewFrom(position: ArrayLike<number>, planes: number[] = [], horizon = 
   };
 }
 
-describe("behindHorizon", () => {
+describe("horizonOf", () => {
   const low = viewFrom(ecef(8, 47, 1000));
 
   it("hides the other side of the earth", () => {
-    expect(behindHorizon(low, bounds(-172, -47, 0, 1000))).toBe(true);
-    expect(behindHorizon(low, bounds(20, 47, 0, 1000))).toBe(true);
+    expect(horizonOf(low)(bounds(-172, -47, 0, 1000))).toBe(true);
+    expect(horizonOf(low)(bounds(20, 47, 0, 1000))).toBe(true);
   });
 
   it("shows what is near, what towers over the horizon and what is too large to hide", () => {
-    expect(behindHorizon(low, bounds(8.5, 47, 0, 100))).toBe(false);
-    expect(behindHorizon(low, bounds(20, 47, 0, 100_000))).toBe(false);
-    expect(behindHorizon(low, bounds(20, 47, 200_000, 1000))).toBe(false);
+    expect(horizonOf(low)(bounds(8.5, 47, 0, 100))).toBe(false);
+    expect(horizonOf(low)(bounds(20, 47, 0, 100_000))).toBe(false);
+    expect(horizonOf(low)(bounds(20, 47, 200_000, 1000))).toBe(false);
   });
 
   it("shows the floor of the deepest sea from the surface", () => {
-    expect(behindHorizon(viewFrom(ecef(142, 11, 100)), bounds(142.2, 11.4, -11_000, 100))).toBe(false);
+    expect(horizonOf(viewFrom(ecef(142, 11, 100)))(bounds(142.2, 11.4, -11_000, 100))).toBe(false);
   });
 
   it("hides nothing from deep below the ellipsoid, nor where the globe hides nothing", () => {
-    expect(behindHorizon(viewFrom(ecef(8, 47, -13_000)), bounds(-172, -47, 0, 1000))).toBe(false);
-    expect(behindHorizon(viewFrom(low.position, [], false), bounds(-172, -47, 0, 1000))).toBe(false);
+    expect(horizonOf(viewFrom(ecef(8, 47, -13_000)))(bounds(-172, -47, 0, 1000))).toBe(false);
+    expect(horizonOf(viewFrom(low.position, [], false))(bounds(-172, -47, 0, 1000))).toBe(false);
   });
 
   it("hides no point in sight: the line to it stays above the ground", () => {
@@ -61,7 +61,7 @@ describe("behindHorizon", () => {
       fc.property(place, height, place, (from, up, to) => {
         const camera = ecef(from.longitude, from.latitude, up);
         const target = bounds(to.longitude, to.latitude, 0, 1);
-        if (!behindHorizon(viewFrom(camera), target)) return;
+        if (!horizonOf(viewFrom(camera))(target)) return;
         // Somewhere on the line of sight, scaled to the unit sphere, the ground must be above it.
         const a = [camera[0] / 6378137, camera[1] / 6378137, camera[2] / 6356752.3];
         const b = [target.x / 6378137, target.y / 6378137, target.z / 6356752.3];

@@ -54,31 +54,33 @@ export function outsideFrustum(view: View, bounds: NodeBounds): boolean {
 }
 
 /**
- * True where the ellipsoid hides a node's sphere wholly. In coordinates divided by the semi-axes the
- * ellipsoid is the unit sphere; hidden is what lies behind the plane of the horizon and inside the cone of
+ * Says of a node's sphere whether the ellipsoid hides it wholly from a view. In coordinates divided by the semi-axes
+ * the ellipsoid is the unit sphere; hidden is what lies behind the plane of the horizon and inside the cone of
  * tangents from the camera (P. Cozzi, K. Ring, "Horizon Culling", 2013). The sphere is taken as one with the
  * radius divided by the smaller semi-axis, which contains its image: the test never hides too much.
  */
-export function behindHorizon(view: View, bounds: NodeBounds): boolean {
-  if (!view.horizon) return false;
+export function horizonOf(view: View): (bounds: NodeBounds) => boolean {
   const a = SEMI_MAJOR - OCCLUDER_DEPTH;
   const b = SEMI_MINOR - OCCLUDER_DEPTH;
   const vx = view.position[0] / a;
   const vy = view.position[1] / a;
   const vz = view.position[2] / b;
   const height = Math.hypot(vx, vy, vz);
-  if (height <= 1) return false;
-  const radius = bounds.radius / b;
-  const wx = bounds.x / a - vx;
-  const wy = bounds.y / a - vy;
-  const wz = bounds.z / b - vz;
-  // Along the axis from the camera to the centre of the earth, and away from it.
-  const along = -(wx * vx + wy * vy + wz * vz) / height;
-  const toHorizonPlane = height - 1 / height;
-  if (along - toHorizonPlane < radius) return false;
-  const away = Math.sqrt(Math.max(0, wx * wx + wy * wy + wz * wz - along * along));
+  if (!view.horizon || height <= 1) return () => false;
   const sine = 1 / height;
-  return along * sine - away * Math.sqrt(1 - sine * sine) >= radius;
+  const cosine = Math.sqrt(1 - sine * sine);
+  const toHorizonPlane = height - sine;
+  return ({ x, y, z, radius: metres }) => {
+    const radius = metres / b;
+    const wx = x / a - vx;
+    const wy = y / a - vy;
+    const wz = z / b - vz;
+    // Along the axis from the camera to the centre of the earth, and away from it.
+    const along = -(wx * vx + wy * vy + wz * vz) * sine;
+    if (along - toHorizonPlane < radius) return false;
+    const away = Math.sqrt(Math.max(0, wx * wx + wy * wy + wz * wz - along * along));
+    return along * sine - away * cosine >= radius;
+  };
 }
 
 /**
