@@ -14,6 +14,8 @@ export interface AffineMap {
   readonly error: number;
   /** Metres per source unit in plane. */
   readonly scale: number;
+  /** Metres per source unit in whatever direction, at most. */
+  readonly stretch: number;
 }
 
 /**
@@ -23,7 +25,7 @@ export interface AffineMap {
  * @param unit metres per source unit where the box has no extent to find it by
  */
 export function affineMap(
-  box: readonly number[],
+  box: ArrayLike<number>,
   samples: Float64Array,
   unit: number,
 ): AffineMap | undefined {
@@ -61,9 +63,10 @@ export function affineMap(
     });
     off = Math.max(off, Math.hypot(...distances));
   }
-  const lengths = [0, 3].map((from) => Math.hypot(columns[from], columns[from + 1], columns[from + 2]));
+  const lengths = [0, 3, 6].map((from) => Math.hypot(columns[from], columns[from + 1], columns[from + 2]));
+  const scale = Math.max(lengths[0], lengths[1]) || unit;
   // What lies between the samples may be off as much again.
-  return { middle, place, columns, error: 2 * off, scale: Math.max(...lengths) || unit };
+  return { middle, place, columns, error: 2 * off, scale, stretch: Math.hypot(...lengths) };
 }
 
 /**
@@ -72,14 +75,16 @@ export function affineMap(
  */
 export function affineBounds(
   map: AffineMap,
-  box: readonly number[],
+  box: ArrayLike<number>,
   spacing: number,
 ): NodeBounds | undefined {
-  const { middle, place, columns, error, scale } = map;
-  const [ax, ay, az, bx, by, bz, cx, cy, cz] = columns;
+  const { middle, place, columns, error, scale, stretch } = map;
   const a = (box[3] - box[0]) / 2;
   const b = (box[4] - box[1]) / 2;
   const c = (box[5] - box[2]) / 2;
+  // No diagonal is longer than this: most maps that are too coarse are told by it alone.
+  if (error > LARGEST_ERROR * stretch * Math.sqrt(a * a + b * b + c * c)) return undefined;
+  const [ax, ay, az, bx, by, bz, cx, cy, cz] = columns;
   // A map through a flat box says nothing of what lies above it.
   const flat = (half: number, x: number, y: number, z: number) => half > 0 && x === 0 && y === 0 && z === 0;
   if (flat(a, ax, ay, az) || flat(b, bx, by, bz) || flat(c, cx, cy, cz)) return undefined;

@@ -1,5 +1,5 @@
 import { type Crs, ecefToGeodetic, type PointTransform, pointTransform, type Truth } from "@groma/georef";
-import { ancestorAt, keyName, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
+import { ancestorAt, isWithin, keyName, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
 import type { CopcInfo, LasHeader } from "../sources/index.js";
 import { type AffineMap, affineBounds, affineMap } from "./affine-bounds.js";
 
@@ -15,13 +15,23 @@ const LEVELS_PER_MAP = 2;
 /** Maps that are kept at most, half a kilobyte each. */
 const MAPS = 16_384;
 
+/** Map of a node's part of the data, where there is one. */
+interface NodeMap {
+  readonly key: VoxelKey;
+  readonly map: AffineMap | undefined;
+}
+
 /** Cubes of octree nodes: in source coordinates as COPC lays them, and as spheres on the globe. */
 export class NodeGeometry {
   readonly #info: CopcInfo;
   readonly #header: LasHeader;
   readonly #transform: PointTransform;
   readonly #unit: number;
-  readonly #maps = new Map<string, AffineMap | undefined>();
+  readonly #maps = new Map<string, NodeMap>();
+  /** The map that was last asked for at each depth: nodes come with their siblings. */
+  readonly #last: (NodeMap | undefined)[] = [];
+  /** The box of the node at hand. */
+  readonly #box = new Float64Array(6);
 
   constructor(info: CopcInfo, header: LasHeader, truth: Truth, crs: Pick<Crs, "horizontalUnit">) {
     this.#info = info;
@@ -45,7 +55,7 @@ export class NodeGeometry {
 
   /** Least and greatest height above WGS84 of the file's bounding box, metres; zeros where it has no place. */
   get heights(): readonly [number, number] {
-    const samples = this.#sample(this.#dataBox(ROOT_KEY));
+    const samples = this.#sample(this.#dataBox(ROOT_KEY, new Float64Array(6)));
     if (!samples.every(Number.isFinite)) return [0, 0];
     const heights: number[] = [];
     const geodetic = new Float64Array(3);
@@ -65,29 +75,36 @@ export class NodeGeometry {
    * from the affine map of a node above, which says how far it is off.
    */
   bounds(key: VoxelKey): NodeBounds | undefined {
-    const box = this.#dataBox(key);
+    const box = this.#dataBox(key, this.#box);
     const spacing = this.#spacing(key.depth);
     // The highest that is good enough serves the most nodes.
     for (let depth = 0; depth < key.depth; depth += LEVELS_PER_MAP) {
-      const map = this.#mapOf(ancestorAt(key, depth));
+      const map = this.#mapAbove(key, depth);
       const bounds = map && affineBounds(map, box, spacing);
       if (bounds) return bounds;
     }
     return this.#sampledBounds(box, spacing);
   }
 
-  #mapOf(above: VoxelKey): AffineMap | undefined {
+  /** Map of the node at a depth that a node lies in. */
+  #mapAbove(key: VoxelKey, depth: number): AffineMap | undefined {
+    const last = this.#last[depth];
+    if (last && isWithin(key, last.key)) return last.map;
+    const above = ancestorAt(key, depth);
     const name = keyName(above);
-    if (!this.#maps.has(name)) {
+    let found = this.#maps.get(name);
+    if (!found) {
+      const box = this.#dataBox(above, new Float64Array(6));
+      found = { key: above, map: affineMap(box, this.#sample(box), this.#unit) };
       // Begun anew rather than kept in order of use, which would cost as much as a node's bounds do.
       if (this.#maps.size === MAPS) this.#maps.clear();
-      const box = this.#dataBox(above);
-      this.#maps.set(name, affineMap(box, this.#sample(box), this.#unit));
+      this.#maps.set(name, found);
     }
-    return this.#maps.get(name);
+    this.#last[depth] = found;
+    return found.map;
   }
 
-  #sampledBounds(box: readonly number[], spacing: number): NodeBounds | undefined {
+  #sampledBounds(box: Float64Array, spacing: number): NodeBounds | undefined {
     const samples = this.#sample(box);
     if (!samples.every(Number.isFinite)) return undefined;
     const point = (i: number, j: number, high: number) => {
@@ -115,18 +132,28 @@ export class NodeGeometry {
     return (spacing || (2 * halfSize) / CELLS_PER_EDGE) / 2 ** depth;
   }
 
-  /** Part of a node's cube inside the file's bounding box; the cube where they do not meet. */
-  #dataBox(key: VoxelKey): readonly number[] {
+  /** Part of a node's cube inside the file's bounding box; the cube where they do not meet: min x, y, z, max x, y, z. */
+  #dataBox(key: VoxelKey, out: Float64Array): Float64Array {
     const { min, max } = this.#header;
-    const [x, y, z, edge] = this.cube(key);
-    const low = [x, y, z].map((from, axis) => Math.max(from, min[axis]));
-    const high = [x, y, z].map((from, axis) => Math.min(from + edge, max[axis]));
-    if (low.some((from, axis) => from > high[axis])) return [x, y, z, x + edge, y + edge, z + edge];
-    return [...low, ...high];
+    const { center, halfSize } = this.#info;
+    const edge = (2 * halfSize) / 2 ** key.depth;
+    out[0] = center[0] - halfSize + key.x * edge;
+    out[1] = center[1] - halfSize + key.y * edge;
+    out[2] = center[2] - halfSize + key.z * edge;
+    let meet = true;
+    for (let axis = 0; axis < 3; axis++) {
+      out[axis + 3] = out[axis] + edge;
+      meet &&= out[axis] <= max[axis] && out[axis + 3] >= min[axis];
+    }
+    for (let axis = 0; meet && axis < 3; axis++) {
+      out[axis] = Math.max(out[axis], min[axis]);
+      out[axis + 3] = Math.min(out[axis + 3], max[axis]);
+    }
+    return out;
   }
 
   /** ECEF of a grid of 3 × 3 over a box in plane, each at its lower and its upper side: 54 numbers. */
-  #sample(box: readonly number[]): Float64Array {
+  #sample(box: Float64Array): Float64Array {
     const samples = new Float64Array(54);
     for (let j = 0; j < 3; j++) {
       for (let i = 0; i < 3; i++) {

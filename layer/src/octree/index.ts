@@ -7,4 +7,4 @@ export { type HierarchyPage, type NodeBounds, OctreeNode } from "./octree-node.j
 export { SharedBudget, type SharedBudgetOptions } from "./shared-budget.js";
 export { type Selection, selectNodes, type TraversalOptions } from "./traversal.js";
 export { distanceTo, outsideFrustum, type View } from "./view.js";
-export { ancestorAt, keyName, parseKey, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";
+export { ancestorAt, isWithin, keyName, parseKey, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";

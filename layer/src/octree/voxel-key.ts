@@ -25,13 +25,8 @@ export function parseKey(name: string): VoxelKey | undefined {
 
 /** Key of the ancestor at a depth not below the key's own; the key itself at its own depth. */
 export function ancestorAt(key: VoxelKey, depth: number): VoxelKey {
-  const divisor = 2 ** (key.depth - depth);
-  return {
-    depth,
-    x: Math.floor(key.x / divisor),
-    y: Math.floor(key.y / divisor),
-    z: Math.floor(key.z / divisor),
-  };
+  const shift = key.depth - depth;
+  return { depth, x: key.x >>> shift, y: key.y >>> shift, z: key.z >>> shift };
 }
 
 /** True where both name the same node. */
@@ -41,9 +36,13 @@ export function sameKey(a: VoxelKey, b: VoxelKey): boolean {
 
 /** True where `key` is `ancestor` or lies below it. */
 export function isWithin(key: VoxelKey, ancestor: VoxelKey): boolean {
-  const divisor = 2 ** (key.depth - ancestor.depth);
-  const lies = (at: number, from: number) => Math.floor(at / divisor) === from;
-  return divisor >= 1 && lies(key.x, ancestor.x) && lies(key.y, ancestor.y) && lies(key.z, ancestor.z);
+  const shift = key.depth - ancestor.depth;
+  return (
+    shift >= 0 &&
+    key.x >>> shift === ancestor.x &&
+    key.y >>> shift === ancestor.y &&
+    key.z >>> shift === ancestor.z
+  );
 }
 
 /**
