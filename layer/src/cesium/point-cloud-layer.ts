@@ -81,6 +81,8 @@ export class PointCloudLayer {
   /** Effects that the last frame called for. */
   #active: ReadonlySet<EffectName> = new Set();
   #frameStart = 0;
+  /** Parts of a frame that have run before. */
+  readonly #begun = new Set<string>();
   #warned = false;
   #destroyed = false;
 
@@ -288,6 +290,7 @@ export class PointCloudLayer {
     const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
     const selection = stream.update(this, view, options);
     this.#selection = selection;
+    if (this.#endsWith("selection", frameState)) return;
     const verticesOf = (node: OctreeNode) => stream.vertices(node);
     const facts = sceneFacts(frameState, selection, verticesOf, {
       attributes: this.cloud.attributes,
@@ -300,11 +303,13 @@ export class PointCloudLayer {
         selection.nodes.flatMap((node) => verticesOf(node) ?? []),
       ),
     });
+    if (this.#endsWith("facts", frameState)) return;
     // Weighted sums need colours finer than bytes.
     const forced = context.colorBufferHalfFloat ? this.forced : { ...this.forced, splats: false };
     const plan = planEffects(this.#style, facts, forced, this.#active);
     this.#active = plan.active;
     this.#ledger = plan.ledger;
+    if (this.#endsWith("plan", frameState)) return;
     const { cloud, style } = this;
     const request = { selection, cloud, plan, style, facts, clips: answers, allowance };
     const waiting = renderer.render(frameState, request);
@@ -324,6 +329,17 @@ export class PointCloudLayer {
       if (finished) this.allNodesLoaded.raiseEvent();
       return !done;
     });
+  }
+
+  /**
+   * True the first time that a part of a frame has run, which takes many times as long as any later one: with it the
+   * frame ends. Nothing stands yet that would go missing.
+   */
+  #endsWith(part: "selection" | "facts" | "plan", { afterRender }: FrameState): boolean {
+    if (this.#begun.has(part)) return false;
+    this.#begun.add(part);
+    afterRender.push(() => true);
+    return true;
   }
 
   /** Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other. */

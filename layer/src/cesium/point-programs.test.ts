@@ -51,6 +51,21 @@ describe("PointPrograms", () => {
     expect(made).toEqual([]);
   });
 
+  it("links in a later frame what took a frame's time to write", () => {
+    const { programs, made, linked } = recorded();
+    let now = 0;
+    const allowance = () => new FrameAllowance(() => now++, 1);
+    const frames = [0, 1, 2].map(() => {
+      const done = programs.prepare(needs.slice(0, 1), false, allowance());
+      return [done, made.length, linked.length];
+    });
+    expect(frames).toEqual([
+      [false, 1, 0],
+      [true, 1, 1],
+      [true, 1, 1],
+    ]);
+  });
+
   it("links what Cesium draws anew where it derives another program", () => {
     const { programs, linked } = recorded();
     const scene: ProgramNeed[] = [{ plan, pass: "color", drawer: "scene", logarithmic: false }];

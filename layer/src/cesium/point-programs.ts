@@ -40,21 +40,23 @@ export class PointPrograms {
   }
 
   /**
-   * Links programs before they are drawn with, one in a frame at most: the browser waits for the compiler.
+   * Makes and links programs before they are drawn with, one in a frame at most: the browser waits for the compiler.
    * @param derived whether Cesium adds logarithmic depth to those that it draws with
    * @returns whether all are linked
    */
   prepare(needs: readonly ProgramNeed[], derived: boolean, allowance: FrameAllowance): boolean {
-    const keyOf = (need: ProgramNeed) =>
-      `${need.plan.key}|${need.pass}|${need.drawer}|${"logarithmic" in need && need.logarithmic}|${derived}`;
+    const keyOf = (need: ProgramNeed) => `${nameOf(need)}|${need.drawer !== "own" && derived}`;
     const open = needs.filter((need) => !this.#linked.has(keyOf(need)));
     if (open.length === 0) return true;
     if (!allowance.grants()) return false;
     const [next] = open;
+    const isNew = !this.#points.has(nameOf(next)) && !this.#quads.has(nameOf(next));
     const { program } =
       next.drawer === "quad"
         ? this.quad(next.plan, next.pass)
         : this.points(next.plan, next.pass, next.drawer, next.logarithmic);
+    // Its text took the time that there was.
+    if (isNew && !allowance.left) return false;
     this.#objects.link(program, this.#owner, derived && next.drawer !== "own");
     this.#linked.add(keyOf(next));
     return open.length === 1;
@@ -65,7 +67,7 @@ export class PointPrograms {
    * @param logarithmic whether it writes logarithmic depth; Cesium adds that itself where it draws
    */
   points(plan: EffectPlan, pass: PointPass, drawer: Drawer, logarithmic = false): PointProgram {
-    const key = `${plan.key}|${pass}|${drawer}|${logarithmic}`;
+    const key = nameOf({ plan, pass, drawer, logarithmic });
     let found = this.#points.get(key);
     if (!found) {
       const shader = composePointShader(plan, "cesium", pass);
@@ -89,7 +91,7 @@ export class PointPrograms {
   }
 
   quad(plan: EffectPlan, pass: QuadPass): QuadProgram {
-    const key = `${plan.key}|${pass}`;
+    const key = nameOf({ plan, pass, drawer: "quad" });
     let found = this.#quads.get(key);
     if (!found) {
       const { fragment, uniforms } = composePass(pass, plan, "cesium");
@@ -111,6 +113,12 @@ export class PointPrograms {
     this.#quads.clear();
     this.#linked.clear();
   }
+}
+
+/** What tells a program from all others. */
+function nameOf(need: ProgramNeed): string {
+  const name = `${need.plan.key}|${need.pass}|${need.drawer}`;
+  return need.drawer === "quad" ? name : `${name}|${need.logarithmic}`;
 }
 
 /** One triangle over the whole picture, from corners at −1 and 3. */

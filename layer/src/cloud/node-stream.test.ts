@@ -60,10 +60,12 @@ function setUp(options: SetUp = {}) {
     if (!call) throw new Error(`${name} was not asked for`);
     if (error) call.reject(error);
     else call.resolve();
-    await new Promise((done) => setTimeout(done));
+    await nextTask();
   };
   return { stream, store, calls, answer };
 }
+
+const nextTask = () => new Promise((done) => setTimeout(done));
 
 /** Sees everything, or only what lies within 20 m of a place on the x axis. */
 function viewAt(x?: number): View {
@@ -92,15 +94,26 @@ describe("NodeStream", () => {
     expect([calls.size, stream.active]).toEqual([2, 1]);
   });
 
-  it("never asks for more at once than it may", () => {
+  it("never asks for more at once than it may", async () => {
     const { stream, calls } = setUp({ requests: 2 });
     stream.update(viewer, viewAt(), traversal);
     expect(calls.size).toBe(2);
+    await nextTask();
+    expect(calls.size).toBe(2);
+  });
+
+  it("asks for two in a frame, and for the others in tasks of their own", async () => {
+    const { stream, calls } = setUp();
+    stream.update(viewer, viewAt(), traversal);
+    expect(calls.size).toBe(2);
+    await nextTask();
+    expect(calls.size).toBe(3);
   });
 
   it("stops what a view that moved on no longer wants, and can load it later", async () => {
     const { stream, store, calls, answer } = setUp();
     stream.update(viewer, viewAt(), traversal);
+    await nextTask();
     stream.update(viewer, viewAt(0), traversal);
     expect(calls.get("1-1-0-0")?.signal.aborted).toBe(true);
     await answer("0-0-0-0");
@@ -194,6 +207,7 @@ describe("NodeStream", () => {
     const { stream, calls, answer } = setUp();
     const other = {};
     stream.update(viewer, viewAt(), traversal);
+    await nextTask();
     const first = calls.get("1-1-0-0");
     stream.update(other, viewAt(), traversal);
     stream.detach(viewer);
@@ -209,7 +223,7 @@ describe("NodeStream", () => {
     await answer("0-0-0-0");
     stream.destroy();
     expect([...calls.values()].slice(1).every(({ signal }) => signal.aborted)).toBe(true);
-    await new Promise((done) => setTimeout(done));
+    await nextTask();
     expect([stream.bytes, stream.active]).toEqual([0, 0]);
   });
 });

@@ -77,6 +77,8 @@ export class NodeStream {
   #wanted: OctreeNode[] = [];
   /** Index of the first of them that may still wait for its turn. */
   #next = 0;
+  /** True while a task waits that will start more. */
+  #pumping = false;
   /** Pages of the hierarchy that views go through; each carries the number of this round. */
   #open: HierarchyPage[] = [];
   #round = 1;
@@ -244,13 +246,29 @@ export class NodeStream {
     this.#queued.add(node);
   }
 
-  /** Starts what is next in rank, as long as there is room. */
+  /** Starts what is next in rank, as long as there is room: a few at once, the others in tasks of their own. */
   #pump(): void {
+    let started = 0;
     for (; this.#next < this.#wanted.length && this.#active.size < this.#requests; this.#next++) {
       const node = this.#wanted[this.#next];
+      if (node.state !== "page" && node.state !== "queued") continue;
+      if (started === STARTS) {
+        this.#pumpLater();
+        return;
+      }
+      started++;
       if (node.state === "page") void this.#openPage(node);
-      else if (node.state === "queued") void this.#load(node);
+      else void this.#load(node);
     }
+  }
+
+  #pumpLater(): void {
+    if (this.#pumping) return;
+    this.#pumping = true;
+    setTimeout(() => {
+      this.#pumping = false;
+      this.#pump();
+    });
   }
 
   async #openPage(node: OctreeNode): Promise<void> {
@@ -324,3 +342,6 @@ export class NodeStream {
     for (const node of this.#failed) if (node.page?.dropped) this.#failed.delete(node);
   }
 }
+
+/** Requests that are started at once: to start one takes a browser up to a millisecond of the main thread. */
+const STARTS = 2;
