@@ -1,6 +1,7 @@
+import { Clip } from "@groma/layer";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { pythonMissing } from "../python.js";
-import type { Pose } from "./stage/setting.js";
+import { MIDDLE, type Pose } from "./stage/setting.js";
 import { openStage, type StagePage } from "./stage.js";
 
 /** What a view came to. */
@@ -101,6 +102,37 @@ describe.skipIf(pythonMissing)(
       expect(stepped!.errors).toEqual([]);
       const [without] = await show("steps", pose, ["auto"], 30);
       expect(without!.magnitude).toBeGreaterThan(0.01);
+    });
+
+    it("are measured again where a clip is moved within the same nodes", { timeout: 60_000 }, async () => {
+      const [east, north, up] = MIDDLE;
+      // The first cuts air, the second all that stands above the level square.
+      const boxes = [40, 3.05].map((above) =>
+        Clip.box({ center: { source: [east, north, up + above] }, size: [30, 30, 6], mode: "outside" }),
+      );
+      const magnitudes = await stage.page.evaluate(async ([air, block]) => {
+        const { layer: api, Stage } = window.page;
+        const stage = new Stage();
+        try {
+          const style = { color: "rgb", pointSize: 3, eyeDomeLighting: "auto" } as const;
+          const layer = await stage.show("steps", { style });
+          stage.look({ range: 26, pitch: -50, heading: 30 });
+          const clips = new api.ClipSet([air!]);
+          layer.clips = clips;
+          const found = [];
+          for (const clip of [air!, block!]) {
+            clips.replace(air!, clip);
+            await stage.settle();
+            found.push(layer.ledger.find(({ effect }) => effect === "eyeDomeLighting")!.magnitude);
+          }
+          return found;
+        } finally {
+          stage.destroy();
+        }
+      }, boxes);
+      expect(magnitudes[0]).toBeGreaterThan(0.01);
+      // What is left of it: the rim of the hole where the block stood.
+      expect(magnitudes[1]).toBeLessThan(0.003);
     });
 
     it("are measured once for a view that rests, and not at all where nobody asks", {

@@ -72,6 +72,11 @@ export class ClipAnswers {
     return (this.#next ?? this.#now)?.volumes;
   }
 
+  /** The volumes that hold now. */
+  get held(): ClipVolumes | undefined {
+    return this.#now?.volumes;
+  }
+
   /** Whether a node is cut wholly; asked by a traversal. Beyond what a frame allows, an outdated answer has to do. */
   rejects(bounds: NodeBounds, allowance: FrameAllowance): boolean {
     const volumes = this.#now?.volumes;

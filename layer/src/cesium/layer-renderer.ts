@@ -24,7 +24,7 @@ import { type GpuMilliseconds, PointDrawing, spheresOf } from "./point-drawing.j
 import { fitFrustum, isOrthographic } from "./point-frustum.js";
 import { PointPicker } from "./point-picker.js";
 import { PointPrograms } from "./point-programs.js";
-import { pointProgramsOf, programsOf } from "./program-needs.js";
+import { numberProgramsOf, pointProgramsOf, programsOf } from "./program-needs.js";
 import { SilhouetteProbe } from "./silhouette-probe.js";
 import type { AttributeSet } from "./vertex-attributes.js";
 
@@ -157,11 +157,14 @@ export class LayerRenderer {
    * Measures the silhouettes of the frame that was just drawn, or no more.
    * @returns whether an answer is awaited
    */
-  probe(asked: boolean): boolean {
-    if (!asked || !this.#frameState || this.#nodes.length === 0) {
+  probe(asked: boolean, { allowance, facts, clips }: RenderRequest): boolean {
+    const { plan } = this;
+    if (!asked || !plan || !this.#frameState || this.#nodes.length === 0) {
       this.#probe.rest();
       return false;
     }
+    const needs = numberProgramsOf(plan, isLogarithmic(this.#frameState));
+    if (!this.#programs.prepare(needs, false, allowance)) return true;
     const frustum = fitFrustum(this.#frameState.camera, spheresOf(this.#nodes));
     return this.#probe.follow({
       frameState: this.#frameState,
@@ -169,6 +172,7 @@ export class LayerRenderer {
       heightOffset: this.heightOffset,
       widest: this.#widest,
       setting: this.#drawing.setting("id", frustum),
+      by: [plan.key, this.style, facts.filter, clips.held],
     });
   }
 

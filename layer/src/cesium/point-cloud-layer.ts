@@ -313,7 +313,7 @@ export class PointCloudLayer {
     const { cloud, style } = this;
     const request = { selection, cloud, plan, style, facts, clips: answers, allowance };
     const waiting = renderer.render(frameState, request);
-    const probing = renderer.probe(asksForSilhouettes(style, forced));
+    const probing = renderer.probe(asksForSilhouettes(style, forced), request);
     if (budget) renderer.keepWithin(budget.gpu, this);
     this.#measure(renderer);
     const progress = stream.progress(this);

@@ -44,7 +44,13 @@ export function pointProgramsOf(plan: EffectPlan, logarithmic: boolean): PointPr
   );
 }
 
-/** All programs of a set of effects. */
+/** The programs that draw the numbers of a look's points, for picks and measurements. */
+export function numberProgramsOf(plan: EffectPlan, logarithmic: boolean): PointProgramNeed[] {
+  const plans = new Set([plan, withoutClips(plan)]);
+  return [...plans].map((plan) => ({ plan, pass: "id", drawer: "own", logarithmic }));
+}
+
+/** All programs of a set of effects that make its picture. */
 export function programsOf(plan: EffectPlan, logarithmic: boolean): ProgramNeed[] {
   const points = pointProgramsOf(plan, logarithmic);
   return drawsOffscreen(plan) ? [...points, { plan, pass: quadPassOf(plan), drawer: "quad" }] : points;

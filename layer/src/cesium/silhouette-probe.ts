@@ -25,6 +25,8 @@ export interface ProbedFrame {
   /** Width of the widest points, CSS pixels. */
   readonly widest: number;
   readonly setting: Omit<PassSetting, "target">;
+  /** What else decides which points show, and how: compared one by one. */
+  readonly by: readonly unknown[];
 }
 
 /**
@@ -39,9 +41,9 @@ export class SilhouetteProbe {
     | { readonly colour: Texture; readonly depth: Texture; readonly framebuffer: Framebuffer }
     | undefined;
   #share: number | undefined;
-  /** The view of the last frame, and that of the last measurement. */
-  #seen = "";
-  #measured = "";
+  /** What the last frame showed, and what was measured last. */
+  #seen: ProbedView = NOTHING;
+  #measured: ProbedView = NOTHING;
   #began = Number.NEGATIVE_INFINITY;
   #underWay: object | undefined;
 
@@ -61,9 +63,9 @@ export class SilhouetteProbe {
    */
   follow(frame: ProbedFrame): boolean {
     const view = viewOf(frame);
-    const resting = view === this.#seen;
+    const resting = isSame(view, this.#seen);
     this.#seen = view;
-    if (view === this.#measured || this.#underWay) return this.#underWay !== undefined;
+    if (isSame(view, this.#measured) || this.#underWay) return this.#underWay !== undefined;
     const now = performance.now();
     if (!resting && now - this.#began < INTERVAL) return true;
     this.#began = now;
@@ -76,8 +78,8 @@ export class SilhouetteProbe {
   rest(): void {
     this.#underWay = undefined;
     this.#share = undefined;
-    this.#seen = "";
-    this.#measured = "";
+    this.#seen = NOTHING;
+    this.#measured = NOTHING;
     for (const object of [this.#target?.framebuffer, this.#target?.colour, this.#target?.depth]) {
       this.#objects.free(object);
     }
@@ -144,13 +146,21 @@ function middles(width: number, height: number): { readonly x: number; readonly 
   }));
 }
 
-/** What a measurement depends on, in a form that can be compared. */
-function viewOf({ frameState: { camera, context }, nodes, heightOffset }: ProbedFrame): string {
+/** What a measurement depends on. */
+type ProbedView = readonly unknown[];
+
+const NOTHING: ProbedView = [];
+
+function viewOf({ frameState: { camera, context }, nodes, heightOffset, by }: ProbedFrame): ProbedView {
   const { viewMatrix, frustum } = camera as Camera & { frustum: PointFrustum["frustum"] };
   const points = nodes.reduce((sum, { count }) => sum + count, 0);
   const { drawingBufferWidth, drawingBufferHeight } = context;
-  const size = `${drawingBufferWidth} ${drawingBufferHeight}`;
-  return `${viewMatrix} ${frustum.projectionMatrix} ${size} ${nodes.length} ${points} ${heightOffset}`;
+  const numbers = [drawingBufferWidth, drawingBufferHeight, nodes.length, points, heightOffset];
+  return [`${viewMatrix}`, `${frustum.projectionMatrix}`, ...numbers, ...by];
+}
+
+function isSame(a: ProbedView, b: ProbedView): boolean {
+  return a.length === b.length && a.every((value, index) => value === b[index]);
 }
 
 /** Gives what Eye-Dome Lighting compares of a point (see `composePass`): log2 of its eye depth, or what stands for it. */
