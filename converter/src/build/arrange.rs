@@ -1,10 +1,16 @@
 //! The order of the points in a node. LAZ stores differences, so it counts which points follow each other: those of a
 //! scanner may be best in the order in which it saw them, others along a curve through space. `autzen.laz` takes
 //! 70.5 MB in the input's order and 58.7 MB along the curve, a sixth less, and the curve is what each of its jobs finds.
+//!
+//! Finding out takes as long as compressing twice as many points and, which is more, setting up two compressors. So one
+//! job does so for itself and its siblings that come after it.
 
 use super::site::Site;
 use crate::copc::chunk;
 use crate::error::Result;
+use crate::octree::key::Key;
+use std::collections::HashMap;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Points that are compressed both ways to find out.
 const PROBE: usize = 2_048;
@@ -18,9 +24,30 @@ pub enum Order {
     Morton,
 }
 
-/// The order of the nodes of one job, found out with the first of them.
+/// The orders that jobs have found out, by the parents of their nodes.
+///
+/// Siblings are in different phases, so that one finds here what those before it have found, whatever the threads do.
+#[derive(Debug, Default)]
+pub struct Orders(Mutex<HashMap<Key, Order>>);
+
+impl Orders {
+    fn of(&self, parent: Key) -> Option<Order> {
+        self.orders().get(&parent).copied()
+    }
+
+    fn add(&self, parent: Key, order: Order) {
+        self.orders().insert(parent, order);
+    }
+
+    fn orders(&self) -> MutexGuard<'_, HashMap<Key, Order>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The order of the nodes of one job: that of its siblings, or found out with the first of them.
 #[derive(Debug, Default)]
 pub struct Arranger {
+    parent: Key,
     order: Option<Order>,
     keys: Vec<(u64, u32)>,
 }
@@ -53,14 +80,22 @@ impl Arranger {
         let morton = gather(records, self.keys.iter().map(|(_, number)| *number), length);
         let order = match self.order {
             Some(order) => order,
-            None => *self.order.insert(better(&input, &morton, site)?),
+            None => {
+                let order = better(&input, &morton, site)?;
+                // What few points tell is not worth sharing.
+                if numbers.len() >= PROBE {
+                    site.orders.add(self.parent, order);
+                }
+                *self.order.insert(order)
+            }
         };
         Ok(if order == Order::Morton { morton } else { input })
     }
 
-    /// Forgets what was found out: another job begins.
-    pub fn reset(&mut self) {
-        self.order = None;
+    /// Begins the job of a node.
+    pub fn begin(&mut self, site: &Site, key: Key) {
+        self.parent = key.parent();
+        self.order = site.orders.of(self.parent);
     }
 }
 

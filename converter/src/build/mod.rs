@@ -81,7 +81,7 @@ pub fn build(
             let done = match task {
                 Task::Finish(finish) => site.compress(finish),
                 Task::Job(job, bytes) => {
-                    desk.arranger.reset();
+                    desk.arranger.begin(&site, job.key());
                     let done = match job {
                         Job::Split { key, cell } => split::split(&site, key, cell, &mut desk),
                         Job::Pile { key, cell } => pile::stream(&site, key, cell),

@@ -20,6 +20,14 @@ pub enum Job {
 }
 
 impl Job {
+    /// The node that it builds, with all below it that is not there yet.
+    pub fn key(&self) -> Key {
+        match self {
+            Self::Split { key, .. } | Self::Pile { key, .. } | Self::Merge { key, .. } => *key,
+            Self::Root => Key::ROOT,
+        }
+    }
+
     /// Points that it holds in memory at a time, at most.
     pub fn points(&self, limits: &Limits) -> u64 {
         match self {

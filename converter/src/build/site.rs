@@ -1,6 +1,6 @@
 //! What all jobs of a build share.
 
-use super::arrange::{Arranger, Selection};
+use super::arrange::{Arranger, Orders, Selection};
 use super::bands::Bands;
 use super::board::Board;
 use super::outline::Outline;
@@ -99,6 +99,7 @@ pub struct Site<'a> {
     /// What nodes hold until their parents choose, near the faces of these.
     pub rims: Bands,
     pub outline: Outline,
+    pub orders: Orders,
     meter: &'a Meter<'a>,
     board: &'a Board,
     pending: Mutex<HashMap<Key, Pending>>,
@@ -129,6 +130,7 @@ impl<'a> Site<'a> {
             borders: Bands::default(),
             rims: Bands::default(),
             outline,
+            orders: Orders::default(),
             meter,
             board,
             pending,

@@ -4,7 +4,7 @@
 pub const BITS: u32 = 21;
 
 /// The name of a node: its level (root 0) and its place among the 2^level cubes along each axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Key {
     pub level: u32,
     pub x: u32,
