@@ -143,7 +143,9 @@ export class LayerRenderer {
     const waiting = next
       ? this.#uploads.upload(this.objects, selection.nodes, vertices, this.#reads(next), allowance)
       : 0;
-    if (looks.coming && linked && unformed === 0 && (waiting === 0 || !looks.shown)) this.#change();
+    const ready = looks.coming && linked && unformed === 0 && (waiting === 0 || !looks.shown);
+    // The first frame of a look makes what it draws into.
+    if (ready && allowance.grants()) this.#change();
     if (unformed === 0 && looks.shown?.plan.key === plan.key) clips.advance();
     const { shown } = looks;
     if (shown === look) shown.update(plan, style, facts);
