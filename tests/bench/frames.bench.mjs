@@ -11,8 +11,11 @@ const AT = [637_290, 851_210, 430];
 /** CPU milliseconds beyond which the main thread counts as held. */
 const LIMIT = 8;
 
-/** Parts of a frame that are not of the layer's own making: Cesium's, and what WebGL takes. */
-const FOREIGN = ["scene", "GL data", "GL programs"];
+/**
+ * Parts of a frame that are not of the layer's own making: Cesium's, what WebGL takes, and garbage collections, which a
+ * browser begins where it likes.
+ */
+const FOREIGN = ["scene", "GL data", "GL programs", "garbage"];
 
 /**
  * How long the main thread is held by the layer while a scan is loaded, flown over, restyled and cut: in each frame by
@@ -64,6 +67,7 @@ function row({ name, frames, messages }) {
     "95 %": figure(share(0.95)),
     longest: figure(times.at(-1)),
     [`over ${LIMIT} ms`]: times.filter((time) => time > LIMIT).length,
+    "garbage, longest": figure(Math.max(...frames.map(({ cpu }) => cpu.garbage ?? 0))),
     "GL data, wall": longest("GL data"),
     "GL programs, wall": longest("GL programs"),
     messages: messages.length,

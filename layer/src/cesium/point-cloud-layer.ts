@@ -280,7 +280,6 @@ export class PointCloudLayer {
   #render(frameState: FrameState): void {
     const { context, afterRender } = frameState;
     const { stream } = this.cloud;
-    const renderer = this.#rendererFor(context);
     const { maximumScreenSpaceError, pointBudget, budget, clips } = this;
     const view = viewOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
     const allowance = new FrameAllowance();
@@ -291,6 +290,7 @@ export class PointCloudLayer {
     const selection = stream.update(this, view, options);
     this.#selection = selection;
     if (this.#endsWith("selection", frameState)) return;
+    const renderer = this.#rendererFor(context);
     const verticesOf = (node: OctreeNode) => stream.vertices(node);
     const facts = sceneFacts(frameState, selection, verticesOf, {
       attributes: this.cloud.attributes,

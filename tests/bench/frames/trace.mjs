@@ -1,18 +1,19 @@
-/** Categories of the browser's trace that hold the marks. */
-export const CATEGORIES = ["blink.user_timing"];
+/** Categories of the browser's trace that hold the marks and the garbage collections. */
+export const CATEGORIES = ["blink.user_timing", "devtools.timeline"];
 
 /**
  * The phases that a page marked, each with its frames and messages: CPU milliseconds of the page's thread by part (what
- * a part holds that is a part of its own counts there), and wall milliseconds in `wall`.
+ * a part holds that is a part of its own counts there, garbage collections among them), and wall milliseconds in `wall`.
  *
  * @param {Buffer} trace JSON
  */
 export function phasesOf(trace) {
-  const marks = JSON.parse(trace.toString())
-    .traceEvents.filter(
-      ({ cat, name }) => cat.includes("blink.user_timing") && /^([<>]|frame$|phase )/.test(name),
-    )
-    .sort((a, b) => a.ts - b.ts);
+  const events = JSON.parse(trace.toString()).traceEvents;
+  const marks = events.filter(
+    ({ cat, name }) => cat.includes("blink.user_timing") && /^([<>]|frame$|phase )/.test(name),
+  );
+  marks.push(...collections(events, marks[0]));
+  marks.sort((a, b) => a.ts - b.ts);
   const phases = [];
   const open = [];
   let frame;
@@ -40,4 +41,14 @@ export function phasesOf(trace) {
     }
   }
   return phases;
+}
+
+/** Garbage collections of a thread, as marks of a part. */
+function collections(events, { pid, tid }) {
+  return events
+    .filter((event) => event.pid === pid && event.tid === tid && /^(Major|Minor)GC$/.test(event.name))
+    .flatMap(({ ts, tts, dur, tdur }) => [
+      { name: "> garbage", ts, tts },
+      { name: "<", ts: ts + dur, tts: tts + tdur },
+    ]);
 }
