@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_block_keeps_its_bytes_on_whichever_side_it_comes_to_lie() {
-        let layout = |size| Layout::from_size_align(size, 8).unwrap();
+        let layout = |size| Layout::from_size_align(size, align_of::<u128>()).unwrap();
         // SAFETY: every block has the layout that it was given last, and no byte is read beyond it.
         unsafe {
             let mut block = Allocator.alloc_zeroed(layout(16));

@@ -11,7 +11,7 @@ const ROUNDS = Number(process.env.GROMA_BENCH_ROUNDS ?? 3);
 const SIZES = (process.env.GROMA_BENCH_POINTS ?? "10000000,100000000").split(",").map(Number);
 const MEMORIES = ["256MB", "512MB"];
 
-/** The work on one scan: every command once a round, so that all of them meet the same state of the machine. */
+/** The work on one scan. */
 async function race(root, python, folder, scan) {
   const output = join(folder, "out.copc.laz");
   const scratch = join(folder, "scratch");
@@ -27,41 +27,44 @@ async function race(root, python, folder, scan) {
       ? [{ name: `${PEER.crate} ${PEER.version}`, command: [peer, scan, output, "--temp-dir", scratch] }]
       : []),
   ];
+  return inRounds(commands, ({ command }) => measure(python, scratch, command, output));
+}
+
+/** Every command once a round, so that all of them meet the same state of the machine. */
+async function inRounds(commands, run) {
   const rounds = [];
   for (let round = 0; round < ROUNDS; round++) {
-    const taken = {};
-    for (const { name, command } of commands) {
-      taken[name] = await measure(python, scratch, command, output);
-      console.log(`round ${round + 1}: ${name} ${taken[name].seconds.toFixed(1)} s`);
+    const taken = [];
+    for (const command of commands) {
+      taken.push(await run(command));
+      const { seconds, peak } = taken.at(-1);
+      console.log(
+        `round ${round + 1}: ${command.name} ${seconds.toFixed(1)} s, ${Math.round(peak / 2 ** 20)} MiB`,
+      );
     }
     rounds.push(taken);
   }
-  return commands.map(({ name }) => ({
-    name,
-    ...summary(rounds.map((taken) => taken[name])),
-    rounds: rounds.map((taken) => taken[name]),
-  }));
+  return commands.map(({ command, ...named }, index) => {
+    const runs = rounds.map((taken) => taken[index]);
+    return { ...named, ...summary(runs), rounds: runs };
+  });
 }
 
 /** Conversions of generated scans with little memory, the sizes next to each other. */
 async function grow(root, python, folder) {
   const [output, scratch] = [join(folder, "out.copc.laz"), join(folder, "scratch")];
-  const rows = [];
   const scans = SIZES.map((points) => ({ points, file: join(folder, `${points}.las`) }));
   for (const { points, file } of scans) {
     execFileSync(python, [join(root, "tests/bench/converters/terrain.py"), String(points), file]);
   }
-  for (const memory of MEMORIES) {
-    for (const { points, file } of scans) {
-      const command = [coreOf(root), "convert", file, output, "--memory", memory, "--temp-dir", scratch];
-      const taken = await measure(python, scratch, command, output);
-      console.log(
-        `${points} points, ${memory}: ${taken.seconds.toFixed(1)} s, ${Math.round(taken.peak / 2 ** 20)} MiB`,
-      );
-      rows.push({ points, memory, pointBytes: points * 30, ...taken });
-    }
-  }
-  return rows;
+  const commands = MEMORIES.flatMap((memory) =>
+    scans.map(({ points, file }) => ({
+      name: `${points / 1e6} M points in ${memory}`,
+      ...{ points, memory, pointBytes: points * 30 },
+      command: [coreOf(root), "convert", file, output, "--memory", memory, "--temp-dir", scratch],
+    })),
+  );
+  return inRounds(commands, ({ command }) => measure(python, scratch, command, output));
 }
 
 /** Converters against each other and against the lower bound; writes docs/bench/converters.*. */

@@ -45,8 +45,8 @@ function sizeTable(sizes) {
       `${row.points / 1e6} M`,
       row.memory,
       row.seconds.toFixed(1),
-      ratio(row.seconds / small.seconds),
-      ratio(row.cpu / small.cpu),
+      ratio(paired(row, small, "seconds")),
+      ratio(paired(row, small, "cpu")),
       String(Math.round(row.peak / MIB)),
       ratio(row.scratch / row.pointBytes),
       (row.bytes / 1e6).toFixed(1),
@@ -83,14 +83,14 @@ ${peers.length > 0 ? peerTable(peers) : "autzen.laz was not there."}
 
 ## Size and memory
 
-A generated airborne scan (LAS, 30 bytes a point, \`tests/bench/converters/terrain.py\`), default sampling, one run each.
-Scratch is what lay in the temporary folder at most, over the bytes of the points.
+A generated airborne scan (LAS, 30 bytes a point, \`tests/bench/converters/terrain.py\`), default sampling, in rounds as
+above. Scratch is what lay in the temporary folder at most, over the bytes of the points.
 
 ${sizeTable(sizes)}
 `;
   writeFileSync(join(folder, "converters.md"), text);
-  const brief = ({ name, points, memory, seconds, cpu, peak, bytes }) => ({
-    name: name ?? `${points} points in ${memory}`,
+  const brief = ({ name, seconds, cpu, peak, bytes }) => ({
+    name,
     ...{ seconds: Number(seconds.toFixed(1)), cpu: Number(cpu.toFixed(1)) },
     ...{ "peak MiB": Math.round(peak / MIB), "output MB": Number((bytes / 1e6).toFixed(1)) },
   });

@@ -3,7 +3,8 @@ export const CATEGORIES = ["blink.user_timing", "devtools.timeline"];
 
 /**
  * The phases that a page marked, each with its frames and messages: CPU milliseconds of the page's thread by part (what
- * a part holds that is a part of its own counts there, garbage collections among them), and wall milliseconds in `wall`.
+ * a part holds that is a part of its own counts there, garbage collections among them), and wall milliseconds in `wall`;
+ * messages without garbage collections.
  *
  * @param {Buffer} trace JSON
  */
@@ -23,7 +24,7 @@ export function phasesOf(trace) {
       phases.at(-1).frames.push(frame);
     } else if (name.startsWith("phase "))
       phases.push({ name: name.slice("phase ".length), frames: [], messages: [] });
-    else if (name !== "<") open.push({ part: name.slice(2), ts, tts, cpu: 0, wall: 0 });
+    else if (name !== "<") open.push({ part: name.slice(2), ts, tts, cpu: 0, wall: 0, garbage: 0 });
     else {
       const { part, ...began } = open.pop();
       const cpu = (tts - began.tts) / 1000;
@@ -33,7 +34,8 @@ export function phasesOf(trace) {
         outer.cpu += cpu;
         outer.wall += wall;
       }
-      if (part === "message") phases.at(-1)?.messages.push(cpu);
+      if (part === "garbage") for (const around of open) around.garbage += cpu;
+      if (part === "message") phases.at(-1)?.messages.push(cpu - began.garbage);
       else if (frame) {
         frame.cpu[part] = (frame.cpu[part] ?? 0) + cpu - began.cpu;
         frame.wall[part] = (frame.wall[part] ?? 0) + wall - began.wall;
