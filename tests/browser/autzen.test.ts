@@ -44,6 +44,12 @@ describe.skipIf(missing)(`Autzen on the globe${missing ? ` (skipped: ${missing})
     await page.goto(`${server.address}&budget=1000000`);
     await settle(page);
     const shown = await screenshot(page, "autzen-oblique");
+    // The panel tells what is drawn, and not what was when the last node arrived.
+    const drawn = await page.evaluate(() => window.groma.layer.statistics.pointsDrawn);
+    const told = `${drawn.toLocaleString("en")} points drawn`;
+    expect(drawn).toBeGreaterThan(10_000);
+    await page.waitForFunction((told) => document.querySelector("#count")!.textContent!.includes(told), told);
+    expect(await page.textContent("#stage")).toBe("This view is complete.");
     await page.evaluate(() => {
       window.groma.layer.show = false;
     });

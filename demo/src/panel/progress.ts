@@ -2,6 +2,9 @@ import type { PointCloudLayer, StreamProgress } from "@groma/layer/cesium";
 import { byId } from "./elements.js";
 import { counted, countWords } from "./words.js";
 
+/** Milliseconds between two looks at what is drawn: what has come is drawn some frames later. */
+const INTERVAL = 250;
+
 /** How far the loading of the current view is. */
 export class Progress {
   readonly #place = byId("progress", HTMLDivElement);
@@ -25,8 +28,17 @@ export class Progress {
     this.rest();
     this.#place.hidden = false;
     const { nodesVisible: wanted, nodesLoaded: ready, nodesFailed: failed } = layer.statistics;
-    this.#tell(layer, { wanted, ready, failed, pending: layer.settled ? 0 : 1 });
-    this.#unfollow = layer.loadProgress.addEventListener((progress) => this.#tell(layer, progress));
+    let latest: StreamProgress = { wanted, ready, failed, pending: layer.settled ? 0 : 1 };
+    this.#tell(layer, latest);
+    const unsubscribe = layer.loadProgress.addEventListener((progress) => {
+      latest = progress;
+      this.#tell(layer, latest);
+    });
+    const timer = setInterval(() => this.#tell(layer, latest), INTERVAL);
+    this.#unfollow = () => {
+      unsubscribe();
+      clearInterval(timer);
+    };
   }
 
   /** Nothing is being opened and no cloud is there. */
@@ -38,15 +50,17 @@ export class Progress {
 
   #tell(layer: PointCloudLayer, { wanted, ready, failed, pending }: StreamProgress): void {
     const { pointsDrawn, budgetReached } = layer.statistics;
-    this.#bar.hidden = pending === 0;
+    const waits = pending > 0 || (wanted > failed && pointsDrawn === 0 && !layer.settled);
+    this.#bar.hidden = !waits;
     this.#bar.max = Math.max(wanted, 1);
     this.#bar.value = ready;
-    if (pending > 0) this.#say("Loading this view…");
+    if (waits) this.#say("Loading this view…");
     else if (failed > 0) this.#say(`This view is drawn without ${counted(failed, "node")} that failed.`);
     else this.#say(wanted > 0 ? "This view is complete." : "No points in this view.");
     const nodes = `${countWords(ready)} of ${counted(wanted, "node")}`;
     const limit = budgetReached ? ", all that the budget allows" : "";
-    this.#count.textContent = `${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`;
+    const count = `${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`;
+    if (this.#count.textContent !== count) this.#count.textContent = count;
   }
 
   /** Speaks only when there is something new, since screen readers read each change. */
