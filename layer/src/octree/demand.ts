@@ -55,8 +55,10 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
   const demand: Demand = { sizes: [], caps: [], pixels: [], base: [], prefix };
   const metre = pixelsPerMetre(view);
   const behindHorizon = horizonOf(view);
-  // What is gathered already passes the limit down to this spacing, and more only widens it: nothing below it shows.
+  // What is gathered already passes the limit down to this spacing, and more only widens it. Nothing below it shows but
+  // of nodes that have none above them.
   let floor = 0;
+  let bases = 0;
   const reached = new ReachedNodes();
   const queue = new PriorityQueue<number>();
   const consider = (node: OctreeNode, above: number, base: boolean) => {
@@ -65,11 +67,12 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     const distance = view.projection.kind === "orthographic" ? 1 : distanceTo(view, bounds);
     const pixels = (bounds.spacing * metre) / distance;
     if (!base && 2 * pixels <= FRINGE * error) return;
-    if (2 * pixels < floor) return;
+    if (!base && 2 * pixels < floor) return;
     if (outsideFrustum(view, bounds) || behindHorizon(bounds) || rejects?.(bounds)) return;
     const own = distance === 0 ? AROUND * bounds.spacing : pixels * weightOf(view, bounds);
     const weighted = own < above ? own : above;
-    if (2 * weighted < floor) return;
+    if (!base && 2 * weighted < floor) return;
+    if (base) bases++;
     queue.push(reached.add(node, pixels, weighted, base), weighted);
   };
   consider(root, Number.POSITIVE_INFINITY, true);
@@ -80,8 +83,12 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     const pixels = reached.pixels[index];
     const weighted = reached.weighted[index];
     const base = reached.base[index];
-    // Whatever is still to come is less important than this node.
-    if (2 * weighted < floor) break;
+    if (base) bases--;
+    else if (2 * weighted < floor) {
+      // Whatever is still to come is less important than this node.
+      if (bases === 0) break;
+      continue;
+    }
     const { state, pointCount, children, page } = node;
     const drawn = base || 2 * pixels > error;
     if (!drawn) {

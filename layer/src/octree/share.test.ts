@@ -61,6 +61,16 @@ describe("thresholdFor", () => {
     );
   });
 
+  it("comes to an end whatever the numbers", () => {
+    const pixels = [Number.POSITIVE_INFINITY, 1e300, 1e-300, Number.NaN];
+    for (const prefix of [true, false]) {
+      const [caps, base] = [pixels.map(() => 1), pixels.map((_, index) => index === 0)];
+      const demand = { sizes: pixels.map(() => 1000), pixels, caps, base, prefix };
+      const counts = countsAt(demand, thresholdFor([demand], 500), 500);
+      expect(sum(counts.filter(Number.isFinite))).toBeLessThanOrEqual(500);
+    }
+  });
+
   it("is one for several demands together", () => {
     fc.assert(
       fc.property(demands, demands, (a, b) => {

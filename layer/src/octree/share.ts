@@ -90,7 +90,7 @@ export function thresholdFor(demands: readonly Demand[], limit: number, near?: n
   const aim = limit - Math.min(0.25, limit / 4);
   let density = densityAt(near || Math.max(...demands.map((demand) => passing(demand, limit))));
   let [low, high] = [0, Number.POSITIVE_INFINITY];
-  for (let step = 1; high > low * (1 + PRECISION); step++) {
+  for (let step = 1; step <= STEPS && high > low * (1 + PRECISION); step++) {
     const { points, growth } = sumAt(demands, density);
     if (points > limit) high = density;
     else low = density;
@@ -101,6 +101,9 @@ export function thresholdFor(demands: readonly Demand[], limit: number, near?: n
   // Wider by a few bits, so that the density it stands for is never above the one that was found.
   return (1 + 2 ** -50) / Math.sqrt(low);
 }
+
+/** More than are ever needed between numbers that a picture can have; of others nothing is drawn. */
+const STEPS = 500;
 
 /** Steps of Newton's method after which one is halved, in case they go to and fro. */
 const SLOW = 8;

@@ -204,6 +204,25 @@ describe("selectNodes", () => {
     expect(selectNodes(root, viewFrom(-1e9), options, boundsOf).counts).toEqual([1]);
   });
 
+  it("shows a far part that nothing is above, however much is near", () => {
+    const root = tree(5, 1000);
+    root.pointCount = 0;
+    const far = root.children!.filter((child) => child!.key.x === 1).map((child) => child!.name);
+    const { nodes, counts, limited } = selectNodes(
+      root,
+      viewFrom(-20),
+      { ...options, pointBudget: 8000 },
+      boundsOf,
+    );
+    const drawn = new Map(nodes.map((node, index) => [node.name, counts[index]]));
+    expect(limited).toBe(true);
+    // Not whole, for what is near comes first.
+    for (const name of far) {
+      expect(drawn.get(name)).toBeGreaterThan(0);
+      expect(drawn.get(name)).toBeLessThan(250);
+    }
+  });
+
   it("names as fringe what is too small by little, and nothing else", () => {
     const root = tree(1);
     const [, child] = selectNodes(root, viewFrom(-2000), options, boundsOf).spacings;
