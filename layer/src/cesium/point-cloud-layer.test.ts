@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { PointCloud } from "../cloud/index.js";
+import { tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource } from "../sources/index.js";
-import { tinyCopc } from "../sources/tiny-copc.fixture.js";
 import type { NodeExecutor } from "../workers/index.js";
 import { PointCloudLayer } from "./point-cloud-layer.js";
 

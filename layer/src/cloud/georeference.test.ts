@@ -12,8 +12,8 @@ import {
 } from "@groma/georef";
 import { beforeAll, describe, expect, it } from "vitest";
 import { SourceError } from "../errors/index.js";
+import { type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource, openCopc } from "../sources/index.js";
-import { type TinyCopc, tinyCopc } from "../sources/tiny-copc.fixture.js";
 import { transformationBytes } from "../workers/transformation.fixture.js";
 import { type GeoreferenceOptions, georeferenceOf } from "./georeference.js";
 import type { HeightData } from "./height-data.js";

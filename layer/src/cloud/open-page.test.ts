@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { NodeStore } from "../octree/index.js";
+import { pageBytes } from "../sources/copc/tiny-copc.fixture.js";
 import type { CopcFile } from "../sources/index.js";
-import { pageBytes } from "../sources/tiny-copc.fixture.js";
 import { openPage } from "./open-page.js";
 
 /** A flat octree of six levels in one page. */

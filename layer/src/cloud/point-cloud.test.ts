@@ -1,7 +1,7 @@
 import { encodeRecord, exactTransform, type GeoreferenceRecord, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { pageBytes, type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource, type ByteSource } from "../sources/index.js";
-import { pageBytes, type TinyCopc, tinyCopc } from "../sources/tiny-copc.fixture.js";
 import type {
   ChunkJob,
   DataSetSpec,

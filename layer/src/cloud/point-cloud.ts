@@ -22,8 +22,8 @@ import {
   type CloudStatistics,
   type CopcFile,
   type HttpOptions,
+  openBytes,
   openCopc,
-  openSource,
   type SourceLike,
 } from "../sources/index.js";
 import {
@@ -174,7 +174,7 @@ export class PointCloud {
    * @throws SourceError, FormatError, CrsError, PlacementError, RecordError
    */
   static async fromUrl(from: SourceLike, options: PointCloudOptions = {}): Promise<PointCloud> {
-    const source = await openSource(from, options);
+    const source = await openBytes(from, options);
     const copc = await openCopc(source, { signal: options.signal });
     const cloud = new PointCloud(copc, await georeferenceOf(copc, options), options);
     try {

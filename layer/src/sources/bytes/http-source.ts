@@ -1,4 +1,4 @@
-import { SourceError } from "../errors/index.js";
+import { SourceError } from "../../errors/index.js";
 import type { ByteSource, ReadOptions } from "./byte-source.js";
 import {
   BrokenBody,

@@ -1,4 +1,4 @@
-import { badHeader, notCopc, readText, readU64 } from "./las-header.js";
+import { badHeader, notCopc, readText, readU64 } from "../las/las-header.js";
 
 /** Where COPC 1.0 puts the content of its info VLR: 375 bytes of header and 54 of VLR header. */
 const COPC_INFO_BEGIN = 429;

@@ -1,4 +1,4 @@
-import { FormatError } from "../errors/index.js";
+import { FormatError } from "../../errors/index.js";
 
 /** Range and mean of one attribute over the whole data set, in the attribute's own units. */
 export interface AttributeStatistics {

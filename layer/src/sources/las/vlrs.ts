@@ -1,5 +1,5 @@
-import { FormatError } from "../errors/index.js";
-import type { ByteSource, ReadOptions } from "./byte-source.js";
+import { FormatError } from "../../errors/index.js";
+import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
 import { type LasHeader, readText, readU64, truncated } from "./las-header.js";
 
 /** Length of a VLR's header in bytes (LAS 1.4 R15, section 2.5). */

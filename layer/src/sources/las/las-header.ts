@@ -1,4 +1,4 @@
-import { FormatError } from "../errors/index.js";
+import { FormatError } from "../../errors/index.js";
 
 /** Length of the LAS 1.4 public header block in bytes (LAS 1.4 R15, section 2.4). */
 const LAS_HEADER_LENGTH = 375;

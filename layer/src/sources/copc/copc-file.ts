@@ -1,18 +1,24 @@
 import type { GeoTiffKeys } from "@groma/georef";
-import { SourceError } from "../errors/index.js";
-import type { ByteSource, ReadOptions } from "./byte-source.js";
+import { SourceError } from "../../errors/index.js";
+import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
+import { looksLikeHtml } from "../bytes/http-answer.js";
+import { type ExtraBytes, parseExtraBytes } from "../las/extra-bytes.js";
+import {
+  BASE_RECORD_LENGTH,
+  badHeader,
+  type LasHeader,
+  parseLasHeader,
+  truncated,
+} from "../las/las-header.js";
+import { findVlr, readVlr, type VlrEntry, walkEvlrs, walkVlrs } from "../las/vlrs.js";
 import { COPC_INFO_END, type CopcInfo, type PageAddress, parseCopcInfo } from "./copc-info.js";
-import { type ExtraBytes, parseExtraBytes } from "./extra-bytes.js";
 import {
   checkPageAddress,
   type HierarchyEntry,
   type HierarchyLimits,
   parseHierarchyPage,
 } from "./hierarchy.js";
-import { looksLikeHtml } from "./http-answer.js";
-import { BASE_RECORD_LENGTH, badHeader, type LasHeader, parseLasHeader, truncated } from "./las-header.js";
 import { type CloudStatistics, decodeStatistics } from "./statistics-record.js";
-import { findVlr, readVlr, type VlrEntry, walkEvlrs, walkVlrs } from "./vlrs.js";
 
 /** Everything a COPC file says about itself before any point is read. */
 export interface CopcFile {

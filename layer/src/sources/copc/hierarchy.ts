@@ -1,4 +1,4 @@
-import { FormatError } from "../errors/index.js";
+import { FormatError } from "../../errors/index.js";
 import type { PageAddress } from "./copc-info.js";
 
 /** Bytes of one entry of a hierarchy page (copc.io, "hierarchy VLR"). */

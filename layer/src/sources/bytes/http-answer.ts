@@ -1,4 +1,4 @@
-import { SourceError } from "../errors/index.js";
+import { SourceError } from "../../errors/index.js";
 
 /** What a `Content-Range` header says: `bytes first-last/size` (RFC 9110, section 14.4). */
 export interface ContentRange {

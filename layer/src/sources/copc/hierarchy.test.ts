@@ -1,6 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { FormatError } from "../errors/index.js";
+import { FormatError } from "../../errors/index.js";
 import { type HierarchyLimits, parseHierarchyPage } from "./hierarchy.js";
 import { pageBytes } from "./tiny-copc.fixture.js";
 

@@ -9,7 +9,7 @@ export type SourceLike = string | URL | Blob | ByteSource;
  * Opens the bytes behind an address, a Blob or a source. For an address this makes the opening request.
  * @throws SourceError
  */
-export async function openSource(
+export async function openBytes(
   from: SourceLike,
   options: HttpOptions & ReadOptions = {},
 ): Promise<ByteSource> {

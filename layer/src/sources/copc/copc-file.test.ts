@@ -1,7 +1,7 @@
 import { GromaError } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { BlobSource } from "./blob-source.js";
+import { BlobSource } from "../bytes/blob-source.js";
 import { openCopc, readHierarchyPage } from "./copc-file.js";
 import { type TinyCopc, tinyCopc } from "./tiny-copc.fixture.js";
 
