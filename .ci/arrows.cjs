@@ -41,7 +41,8 @@ module.exports = {
     layer("cloud", ["octree", "workers", "sources", "errors"]),
     layer("clips", ["octree", "errors"]),
     layer("effects", ["clips", "octree", "errors"]),
-    layer("cesium", ["effects", "clips", "cloud", "octree", "workers", "sources", "errors"]),
+    layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "errors"]),
+    layer("cesium", ["drawing", "effects", "clips", "cloud", "octree", "workers", "sources", "errors"]),
     {
       name: "only-cesium-rooms-know-cesium",
       severity: "error",

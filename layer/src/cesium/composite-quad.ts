@@ -1,6 +1,12 @@
 import { type BoundingSphere, ComponentDatatype, Matrix4, PrimitiveType } from "cesium";
-import { type Buffer, DrawCommand, Pass, type UniformMap, type VertexArray } from "./cesium-private.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import {
+  type Buffer,
+  DrawCommand,
+  Pass,
+  type UniformMap,
+  type VertexArray,
+} from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 import type { QuadProgram } from "./point-programs.js";
 import type { SceneStates } from "./scene-states.js";
 

@@ -1,7 +1,7 @@
 import { Cartesian3, Cartesian4, type CullingVolume, PerspectiveFrustum } from "cesium";
 import { describe, expect, it } from "vitest";
 import { outsideFrustum } from "../octree/index.js";
-import type { FrameState } from "./cesium-private.js";
+import type { FrameState } from "./engine/cesium-private.js";
 import { viewOfFrame } from "./frame-view.js";
 
 /** A camera at x = 100 that looks along −x and sees what lies between x = 0 and 100. */

@@ -1,6 +1,6 @@
 import { OrthographicFrustum, PerspectiveFrustum } from "cesium";
 import type { View } from "../octree/index.js";
-import type { FrameState } from "./cesium-private.js";
+import type { FrameState } from "./engine/cesium-private.js";
 
 /** Cesium's default vertical field of view, radians; for frusta that name none. */
 const DEFAULT_FIELD_OF_VIEW = Math.PI / 3;

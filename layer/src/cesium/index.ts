@@ -37,8 +37,7 @@ export {
   type StyleParts,
 } from "../effects/index.js";
 export { SharedBudget, type SharedBudgetOptions } from "../octree/index.js";
-export type { GpuCounts, GpuKind } from "./gpu-objects.js";
-export type { LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
+export type { GpuCounts, GpuKind } from "./engine/gpu-objects.js";
+export type { LayerSource, LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
 export type { PickOptions } from "./layer-renderer.js";
 export { PointCloudLayer } from "./point-cloud-layer.js";
-export type { LayerSource } from "./source-from-resource.js";

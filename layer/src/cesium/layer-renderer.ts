@@ -1,4 +1,8 @@
 import type { PointCloud } from "../cloud/index.js";
+import type { ClipAnswers } from "../drawing/clip-answers.js";
+import type { FrameAllowance } from "../drawing/frame-allowance.js";
+import { bufferPixel, windowPixels } from "../drawing/pick-window.js";
+import { numberProgramsOf, pointProgramsOf, programsOf } from "../drawing/program-needs.js";
 import {
   drawsOffscreen,
   type EffectPlan,
@@ -8,23 +12,19 @@ import {
   withoutClips,
 } from "../effects/index.js";
 import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
-import type { Command, Context, FrameState, PickId } from "./cesium-private.js";
-import type { ClipAnswers } from "./clip-answers.js";
 import { ClipRecords } from "./clip-records.js";
 import type { DrawnNode } from "./drawn-node.js";
-import type { FrameAllowance } from "./frame-allowance.js";
-import { GpuObjects } from "./gpu-objects.js";
+import type { Command, Context, FrameState, PickId } from "./engine/cesium-private.js";
+import { GpuObjects } from "./engine/gpu-objects.js";
 import type { Look } from "./look.js";
 import { Looks } from "./looks.js";
 import { NodeUploads } from "./node-uploads.js";
 import { OffscreenPass } from "./offscreen-pass.js";
 import { candidatesAt } from "./pick-candidates.js";
-import { bufferPixel, windowPixels } from "./pick-window.js";
 import { type GpuMilliseconds, PointDrawing, spheresOf } from "./point-drawing.js";
 import { fitFrustum, isOrthographic } from "./point-frustum.js";
 import { PointPicker } from "./point-picker.js";
 import { PointPrograms } from "./point-programs.js";
-import { numberProgramsOf, pointProgramsOf, programsOf } from "./program-needs.js";
 import { SilhouetteProbe } from "./silhouette-probe.js";
 import type { AttributeSet } from "./vertex-attributes.js";
 

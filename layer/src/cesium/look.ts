@@ -8,9 +8,9 @@ import {
   styleTextures,
 } from "../effects/index.js";
 import type { OctreeNode } from "../octree/index.js";
-import type { Texture, UniformMap } from "./cesium-private.js";
 import type { DrawnNode } from "./drawn-node.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import type { Texture, UniformMap } from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 import { UniformValues } from "./uniform-values.js";
 
 /** A style as it is drawn: its set of effects, the values of their uniforms and the textures that they read. */

@@ -1,6 +1,6 @@
 import type { EffectPlan } from "../effects/index.js";
-import type { UniformMap } from "./cesium-private.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import type { UniformMap } from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 import { Look } from "./look.js";
 
 /** The look that is drawn, and one to come: a new style shows once all that it needs is there, and not node by node. */

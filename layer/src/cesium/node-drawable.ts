@@ -6,8 +6,8 @@ import {
   type RenderState,
   type UniformMap,
   type VertexArray,
-} from "./cesium-private.js";
-import type { GpuObjects } from "./gpu-objects.js";
+} from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 import type { PointProgram } from "./point-programs.js";
 import { type AttributeSet, bufferAttribute, constantAttribute, POSITION } from "./vertex-attributes.js";
 

@@ -1,9 +1,9 @@
 import { eastNorthUp, geodeticToEcef } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { FrameAllowance } from "../drawing/frame-allowance.js";
 import { OctreeNode } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
-import { FrameAllowance } from "./frame-allowance.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 import { NodeUploads } from "./node-uploads.js";
 import { attributeSet } from "./vertex-attributes.js";
 

@@ -1,7 +1,7 @@
+import type { FrameAllowance } from "../drawing/frame-allowance.js";
 import type { OctreeNode } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
-import type { FrameAllowance } from "./frame-allowance.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 import { NodeDrawable } from "./node-drawable.js";
 import type { AttributeSet } from "./vertex-attributes.js";
 

@@ -1,13 +1,13 @@
 import { BlendEquation, BlendFunction, Color, DepthFunction } from "cesium";
 import type { PointPass } from "../effects/index.js";
+import type { DrawnNode } from "./drawn-node.js";
 import {
   ClearCommand,
   type Context,
   type PassState,
   RenderState,
   type RenderStateOptions,
-} from "./cesium-private.js";
-import type { DrawnNode } from "./drawn-node.js";
+} from "./engine/cesium-private.js";
 import type { PointFrustum } from "./point-frustum.js";
 import type { PointProgram } from "./point-programs.js";
 

@@ -1,6 +1,6 @@
 import { BoundingRectangle } from "cesium";
-import { type Framebuffer, PassState, type Texture } from "./cesium-private.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import { type Framebuffer, PassState, type Texture } from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 
 /** What a picture of the points alone consists of. */
 export interface Picture {

@@ -1,5 +1,5 @@
 import { Cartesian3 } from "cesium";
-import type { PickId, UniformMap } from "./cesium-private.js";
+import type { PickId, UniformMap } from "./engine/cesium-private.js";
 import type { Picture } from "./offscreen-target.js";
 import type { PointFrustum } from "./point-frustum.js";
 

@@ -1,6 +1,11 @@
-import { BoundingSphere, Cartesian3, Event, SceneMode } from "cesium";
+import { BoundingSphere, type Camera, Cartesian3, Event, SceneMode } from "cesium";
 import type { ClipSet } from "../clips/index.js";
 import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
+import { ClipAnswers } from "../drawing/clip-answers.js";
+import { Completion } from "../drawing/completion.js";
+import { CostMeter } from "../drawing/cost-meter.js";
+import { FrameAllowance } from "../drawing/frame-allowance.js";
+import { checkHeightOffset, liftOf } from "../drawing/height-offset.js";
 import {
   asksForSilhouettes,
   type CloudPlacing,
@@ -18,19 +23,19 @@ import {
   type StyleParts,
 } from "../effects/index.js";
 import type { NodeBounds, OctreeNode, Selection, SharedBudget } from "../octree/index.js";
-import type { Context, FrameState } from "./cesium-private.js";
-import { ClipAnswers } from "./clip-answers.js";
-import { Completion } from "./completion.js";
-import { ContextWatch } from "./context-watch.js";
-import { CostMeter } from "./cost-meter.js";
-import { FrameAllowance } from "./frame-allowance.js";
+import type { Context, FrameState } from "./engine/cesium-private.js";
+import { ContextWatch } from "./engine/context-watch.js";
+import { NO_OBJECTS } from "./engine/gpu-objects.js";
 import { viewOfFrame } from "./frame-view.js";
-import { NO_OBJECTS } from "./gpu-objects.js";
-import { checkHeightOffset, liftOf } from "./height-offset.js";
-import type { LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
+import {
+  type LayerSource,
+  type LayerStatistics,
+  type PickResult,
+  type PointCloudLayerOptions,
+  resolveSource,
+} from "./layer-options.js";
 import { LayerRenderer, type PickOptions } from "./layer-renderer.js";
 import { sceneFacts } from "./scene-facts.js";
-import { type LayerSource, resolveSource } from "./source-from-resource.js";
 
 /**
  * A georeferenced point cloud for `viewer.scene.primitives`.
@@ -321,7 +326,7 @@ export class PointCloudLayer {
       progress,
       drawn: waiting === 0 && !answers.pending && !probing && (budget?.balanced ?? true),
       idle: stream.active === 0,
-      camera: frameState.camera,
+      pose: poseOf(frameState.camera),
     });
     // Events go out after the frame, where a listener may change the scene.
     afterRender.push(() => {
@@ -379,6 +384,11 @@ export class PointCloudLayer {
     this.#warned = true;
     console.warn(`${this.cloud.name}: point clouds are drawn in 3D only, not in 2D and Columbus view`);
   }
+}
+
+/** Where a camera is and looks at the time of asking. */
+function poseOf(camera: Camera): () => string {
+  return () => `${camera.positionWC} ${camera.directionWC} ${camera.upWC}`;
 }
 
 /** Milliseconds; what lies further apart are frames on demand, whose distance says nothing. */

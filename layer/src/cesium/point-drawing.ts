@@ -1,19 +1,18 @@
 import { BoundingSphere } from "cesium";
+import { passesOf, quadPassOf } from "../drawing/program-needs.js";
 import { drawsOffscreen, type EffectPlan, type PointPass } from "../effects/index.js";
-import { type Command, type FrameState, Pass, type PickId } from "./cesium-private.js";
 import { CompositeQuad } from "./composite-quad.js";
 import type { DrawnNode } from "./drawn-node.js";
-import type { GpuObjects } from "./gpu-objects.js";
-import { GpuTimer } from "./gpu-timer.js";
+import { type Command, type FrameState, Pass, type PickId } from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
+import { GpuTimer, hookCommand } from "./engine/gpu-timer.js";
 import type { Look } from "./look.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
 import { OffscreenTarget } from "./offscreen-target.js";
 import { PictureUniforms } from "./picture-uniforms.js";
 import { fitFrustum, type PointFrustum } from "./point-frustum.js";
 import type { PointPrograms } from "./point-programs.js";
-import { passesOf, quadPassOf } from "./program-needs.js";
 import { SceneStates } from "./scene-states.js";
-import { hookCommand } from "./timing-hook.js";
 
 /** Stretches of a frame that are measured: drawing the points, and putting their picture into the scene. */
 type Stretch = "points" | "picture";

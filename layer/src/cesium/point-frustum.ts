@@ -7,7 +7,7 @@ import {
   type PerspectiveFrustum,
   type PerspectiveOffCenterFrustum,
 } from "cesium";
-import type { FrustumLike } from "./cesium-private.js";
+import type { FrustumLike } from "./engine/cesium-private.js";
 
 /** A camera's frustum with the near and far planes that the points need. */
 export interface PointFrustum {

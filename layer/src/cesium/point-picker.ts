@@ -1,10 +1,10 @@
 import { BoundingRectangle } from "cesium";
-import { type Framebuffer, PassState, type Texture } from "./cesium-private.js";
+import { nearestId, type Size } from "../drawing/pick-window.js";
 import { type DrawnNode, pointOf } from "./drawn-node.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import { type Framebuffer, PassState, type Texture } from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
+import { readPixels } from "./engine/pixel-readback.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
-import { nearestId, type Size } from "./pick-window.js";
-import { readPixels } from "./pixel-readback.js";
 
 /** What is asked for: the point nearest to a pixel of the drawing buffer. */
 export interface PickRequest {

@@ -1,11 +1,11 @@
 import { describe, expect, it } from "vitest";
+import { FrameAllowance } from "../drawing/frame-allowance.js";
+import type { ProgramNeed } from "../drawing/program-needs.js";
 import { planEffects } from "../effects/index.js";
 import { richFacts, styleOf } from "../effects/scene.fixture.js";
-import type { ShaderProgram } from "./cesium-private.js";
-import { FrameAllowance } from "./frame-allowance.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import type { ShaderProgram } from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 import { PointPrograms } from "./point-programs.js";
-import type { ProgramNeed } from "./program-needs.js";
 
 const plan = planEffects(styleOf({ highQuality: true }), richFacts());
 const own = { plan, drawer: "own", logarithmic: true } as const;

@@ -1,3 +1,5 @@
+import type { FrameAllowance } from "../drawing/frame-allowance.js";
+import type { Drawer, PointProgramNeed, ProgramNeed } from "../drawing/program-needs.js";
 import {
   composePass,
   composePointShader,
@@ -7,10 +9,8 @@ import {
   type QuadPass,
   type UniformDeclaration,
 } from "../effects/index.js";
-import { type ShaderProgram, ShaderSource } from "./cesium-private.js";
-import type { FrameAllowance } from "./frame-allowance.js";
-import type { GpuObjects } from "./gpu-objects.js";
-import type { Drawer, PointProgramNeed, ProgramNeed } from "./program-needs.js";
+import { type ShaderProgram, ShaderSource } from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
 import { type AttributeSet, attributeSet } from "./vertex-attributes.js";
 
 /** A program for points, with what it reads. */

@@ -1,7 +1,7 @@
 import { Cartesian3, PerspectiveFrustum } from "cesium";
 import { describe, expect, it } from "vitest";
 import { OctreeNode, type Selection, type VoxelKey } from "../octree/index.js";
-import type { FrameState } from "./cesium-private.js";
+import type { FrameState } from "./engine/cesium-private.js";
 import { sceneFacts, type VerticesOf } from "./scene-facts.js";
 
 /** A view along x from the origin, 90° wide, 100 × 100 pixels: 50 pixels per metre a metre away. */

@@ -11,7 +11,7 @@ import {
 } from "../effects/index.js";
 import type { NodeBounds, OctreeNode, Selection } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
-import type { FrameState } from "./cesium-private.js";
+import type { FrameState } from "./engine/cesium-private.js";
 
 /** Bits of the depth buffers that Cesium and the layer draw with. */
 const DEPTH_BITS = 24;

@@ -1,5 +1,5 @@
 import { BlendingState, DepthFunction } from "cesium";
-import { RenderState } from "./cesium-private.js";
+import { RenderState } from "./engine/cesium-private.js";
 
 /** How what goes into the scene treats colour and depth. */
 export class SceneStates {

@@ -1,13 +1,13 @@
 import { BoundingRectangle, type Camera, Matrix4 } from "cesium";
-import { type Framebuffer, type FrameState, PassState, type Texture } from "./cesium-private.js";
+import { silhouettesOf } from "../drawing/silhouettes.js";
 import { type DrawnNode, pointOf } from "./drawn-node.js";
-import type { GpuObjects } from "./gpu-objects.js";
+import { type Framebuffer, type FrameState, PassState, type Texture } from "./engine/cesium-private.js";
+import type { GpuObjects } from "./engine/gpu-objects.js";
+import { readPixels } from "./engine/pixel-readback.js";
 import { matrixOf } from "./node-drawable.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
 import { candidatesAt } from "./pick-candidates.js";
-import { readPixels } from "./pixel-readback.js";
 import type { PointFrustum } from "./point-frustum.js";
-import { silhouettesOf } from "./silhouettes.js";
 
 /** Windows on the picture, in rows and columns, and their size in pixels: together 13,824. */
 const WINDOWS = 3;

@@ -1,5 +1,5 @@
 import { Cartesian2, Cartesian3, Cartesian4, Matrix4 } from "cesium";
-import type { UniformMap } from "./cesium-private.js";
+import type { UniformMap } from "./engine/cesium-private.js";
 
 /** Values of uniforms as the effects give them; matrices are column-major. */
 export type PlainValues = Readonly<Record<string, number | readonly number[]>>;

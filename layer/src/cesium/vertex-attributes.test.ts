@@ -1,7 +1,7 @@
 import { ComponentDatatype } from "cesium";
 import { describe, expect, it } from "vitest";
 import type { Column } from "../workers/index.js";
-import type { Buffer } from "./cesium-private.js";
+import type { Buffer } from "./engine/cesium-private.js";
 import { bufferAttribute, constantAttribute, signatureOf } from "./vertex-attributes.js";
 
 const column = (parts: Partial<Column>): Column => ({

@@ -1,7 +1,7 @@
 import { ComponentDatatype } from "cesium";
 import type { AttributeDeclaration } from "../effects/index.js";
 import type { Column, ColumnData } from "../workers/index.js";
-import type { Buffer, VertexAttribute } from "./cesium-private.js";
+import type { Buffer, VertexAttribute } from "./engine/cesium-private.js";
 
 /** The column that places are in; all others are those of `NodeVertices.columns`. */
 export const POSITION = "position";

@@ -1,4 +1,4 @@
-import type { Context } from "./cesium-private.js";
+import { ClearCommand, type Command, type Context, Pass } from "./cesium-private.js";
 import type { GpuObjects } from "./gpu-objects.js";
 
 /** `EXT_disjoint_timer_query_webgl2`. */
@@ -116,4 +116,13 @@ export class GpuTimer {
 
 function isTimer(extension: unknown): extension is TimerExtension {
   return typeof extension === "object" && extension !== null && "TIME_ELAPSED_EXT" in extension;
+}
+
+/**
+ * A command that clears nothing and calls a function where Cesium comes to it: in every frustum, between the commands
+ * of its pass before and after it in the list.
+ */
+export function hookCommand(owner: object, call: () => void): Command {
+  const command = new ClearCommand({ owner, pass: Pass.OPAQUE });
+  return Object.assign(command, { execute: call });
 }

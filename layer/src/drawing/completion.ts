@@ -1,4 +1,3 @@
-import type { Camera } from "cesium";
 import type { StreamProgress } from "../cloud/index.js";
 
 const NOTHING: StreamProgress = { wanted: 0, ready: 0, failed: 0, pending: 0 };
@@ -10,7 +9,8 @@ export interface FrameOutcome {
   readonly drawn: boolean;
   /** Whether nothing is on its way. */
   readonly idle: boolean;
-  readonly camera: Camera;
+  /** Where the camera is and looks now, in a form that can be compared; asked again by {@link Completion.settled}. */
+  readonly pose: () => string;
 }
 
 /** What is to be told of a frame. */
@@ -30,7 +30,7 @@ export class Completion {
   #settled = false;
   /** `show` as the last frame found it. */
   #shown: boolean | undefined;
-  #camera: Camera | undefined;
+  #poseNow: (() => string) | undefined;
   #pose = "";
 
   get progress(): StreamProgress {
@@ -38,7 +38,7 @@ export class Completion {
   }
 
   /** Takes note of a frame. */
-  note({ progress, drawn, idle, camera }: FrameOutcome): Told {
+  note({ progress, drawn, idle, pose }: FrameOutcome): Told {
     const changed = !sameProgress(progress, this.#progress);
     const done = progress.pending === 0 && drawn;
     const complete = done && progress.failed === 0 && idle;
@@ -47,8 +47,8 @@ export class Completion {
     this.#complete = complete;
     this.#settled = done;
     this.#shown = true;
-    this.#camera = camera;
-    this.#pose = poseOf(camera);
+    this.#poseNow = pose;
+    this.#pose = pose();
     return { changed, finished, done };
   }
 
@@ -58,21 +58,16 @@ export class Completion {
     this.#progress = NOTHING;
     this.#complete = false;
     this.#settled = true;
-    this.#camera = undefined;
+    this.#poseNow = undefined;
   }
 
   /** Whether the last frame showed all that can be had of what it was to show, and its camera stands where it stood. */
   settled(show: boolean): boolean {
-    const moved = this.#camera !== undefined && this.#pose !== poseOf(this.#camera);
+    const moved = this.#poseNow !== undefined && this.#pose !== this.#poseNow();
     return this.#settled && this.#shown === show && !moved;
   }
 }
 
 function sameProgress(a: StreamProgress, b: StreamProgress): boolean {
   return a.wanted === b.wanted && a.ready === b.ready && a.failed === b.failed && a.pending === b.pending;
-}
-
-/** Where a camera is and looks, in a form that can be compared. */
-function poseOf({ positionWC, directionWC, upWC }: Camera): string {
-  return `${positionWC} ${directionWC} ${upWC}`;
 }

@@ -1,7 +1,7 @@
 import { WebGLConstants } from "cesium";
+import type { Size } from "../../drawing/pick-window.js";
 import { type Framebuffer, Sync } from "./cesium-private.js";
 import type { GpuObjects } from "./gpu-objects.js";
-import type { Size } from "./pick-window.js";
 
 /** Milliseconds between two looks at whether an answer is there. */
 const PATIENCE = 2;
