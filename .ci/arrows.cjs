@@ -13,6 +13,14 @@ const onlyTo = (name, from, allowed) => ({
   },
 });
 
+/** A room of georef: what it stands on, of which each floor holds what the ones above may use. */
+const georef = (name, allowed) =>
+  onlyTo(
+    `georef-${name}`,
+    `georef/src/${name}`,
+    allowed.map((other) => `georef/src/${other}`),
+  );
+
 const layer = (name, allowed) =>
   onlyTo(`layer-${name}`, `layer/src/${name}`, [...allowed.map((other) => `layer/src/${other}`), "georef"]);
 
@@ -21,6 +29,22 @@ module.exports = {
   forbidden: [
     { name: "no-circle", severity: "error", from: {}, to: { circular: true } },
     onlyTo("georef-stands-alone", "georef", []),
+    georef("errors", []),
+    georef("cartesian", ["errors"]),
+    georef("approximation", []),
+    georef("ellipsoid", []),
+    georef("geodesic", ["ellipsoid"]),
+    georef("crs", ["errors"]),
+    georef("grid", ["errors"]),
+    georef("transformation", ["grid", "approximation", "ellipsoid", "errors"]),
+    georef("vertical", ["transformation", "grid", "crs", "errors"]),
+    georef("engines", ["transformation", "crs", "ellipsoid", "errors"]),
+    georef("similarity", ["engines", "crs", "ellipsoid", "cartesian", "errors"]),
+    georef("georeference", [
+      ...["engines", "vertical", "transformation", "grid", "approximation"],
+      ...["crs", "ellipsoid", "cartesian", "errors"],
+    ]),
+    georef("record", ["engines", "vertical", "crs", "ellipsoid", "errors"]),
     onlyTo("layer-knows-georef-only", "layer", ["georef"]),
     onlyTo("demo-knows-libraries", "demo", ["layer", "georef"]),
     onlyTo("cli-knows-view-independent-rooms", "converter/cli", [

@@ -1,4 +1,5 @@
 export { type Covariance, covariance } from "./cartesian/covariance.js";
+export type { Domain } from "./cartesian/domain.js";
 export { type Eigen, symmetricEigen } from "./cartesian/eigen.js";
 export { splitFloat32 } from "./cartesian/float32.js";
 export { type FittedPlane, fitPlane } from "./cartesian/plane.js";
@@ -20,7 +21,6 @@ export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
 export { eastNorthUp, type Frame } from "./ellipsoid/frame.js";
 export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
-export { type DerivedOptions, deriveTransformation } from "./engines/derived.js";
 export { ENGINE, type ExactTransform, exactTransform } from "./engines/exact.js";
 export {
   placePoint,
@@ -31,7 +31,15 @@ export {
   type TruthSources,
   truthOf,
 } from "./engines/truth.js";
-export { CrsError, type Fault, type FaultWire, GromaError, PlacementError, RecordError } from "./errors.js";
+export {
+  ControlError,
+  CrsError,
+  type Fault,
+  type FaultWire,
+  GromaError,
+  PlacementError,
+  RecordError,
+} from "./errors/errors.js";
 export { type Geodesic, type GeodesicEnd, geodesicBetween, geodesicFrom } from "./geodesic/geodesic.js";
 export {
   type ChordPolygon,
@@ -39,16 +47,16 @@ export {
   type GeodesicPolygon,
   geodesicPolygon,
 } from "./geodesic/polygon.js";
+export { boundsOfPlaces, spread } from "./georeference/area.js";
+export { type DerivedOptions, deriveTransformation } from "./georeference/derive.js";
 export { fitPlacement } from "./georeference/fit.js";
 export { place } from "./georeference/place.js";
 export { placeIntegers } from "./georeference/place-integers.js";
-export type { Domain, Placement, Scheme } from "./georeference/placement.js";
-export { boundsOfPlaces, spread } from "./grid/area.js";
-export { type Bounds, cutWindow, type Grid } from "./grid/window.js";
+export type { Placement, Scheme } from "./georeference/placement.js";
+export { type Bounds, cutWindow, type Grid, type GridWindow } from "./grid/window.js";
 export {
   type AccuracyPart,
   accuracyParts,
-  EGM96,
   EGM96_ACCURACY,
   EGM96_NOTE,
   type Placing,
@@ -60,7 +68,6 @@ export type { GeoreferenceRecord } from "./record/georeference-record.js";
 export type { OperationReport } from "./record/operation-report.js";
 export { decodeRecord, encodeRecord } from "./record/record.js";
 export { type Anchor, anchorSimilarity } from "./similarity/anchor.js";
-export { ControlError } from "./similarity/errors.js";
 export { type ControlPoint, type FittedSimilarity, fitSimilarity } from "./similarity/fit.js";
 export { localCrs } from "./similarity/local-crs.js";
 export { decodeTransformation } from "./transformation/decode.js";
@@ -74,7 +81,6 @@ export type {
   DatumShiftStep,
   EllipsoidAxes,
   GeocentricStep,
-  GridWindow,
   HeightStep,
   HorizontalShiftStep,
   Patch,
@@ -84,7 +90,7 @@ export type {
   Transformation,
   VerticalShiftStep,
 } from "./transformation/step.js";
-export { decodeEgm96, egm96Grid, egm96Step, egm96Undulation, encodeEgm96 } from "./vertical/egm96.js";
+export { decodeEgm96, EGM96, egm96Grid, egm96Step, egm96Undulation, encodeEgm96 } from "./vertical/egm96.js";
 export { guessHeight, type HeightGuess } from "./vertical/guess.js";
 export {
   type EpsgRow,

@@ -1,4 +1,4 @@
-import { PlacementError } from "../errors.js";
+import { PlacementError } from "../errors/errors.js";
 
 const SMALLEST = -(2 ** 31);
 const LARGEST = 2 ** 31 - 1;

@@ -1,4 +1,4 @@
-import { CrsError } from "../errors.js";
+import { CrsError } from "../errors/errors.js";
 
 /** What to do when a CRS text cannot be used: the same for all of them. */
 const GIVE_ANOTHER =

@@ -1,4 +1,4 @@
-import type { CrsError } from "../errors.js";
+import type { CrsError } from "../errors/errors.js";
 import type { Crs, CrsSources, EpsgLookup } from "./crs.js";
 import { epsgCodes, readEpsg, readEpsgVertical } from "./epsg.js";
 import { readGeoTiff } from "./geotiff.js";

@@ -3,7 +3,7 @@ import type { Crs } from "../crs/crs.js";
 import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import { type Ellipsoid, ellipsoid, WGS84 } from "../ellipsoid/ellipsoid.js";
 import { geodeticToEcef } from "../ellipsoid/geodetic-to-ecef.js";
-import { CrsError } from "../errors.js";
+import { CrsError } from "../errors/errors.js";
 
 /**
  * The map source CRS → ECEF, exactly linear in z for a fixed (x, y), Helmert shifts included:

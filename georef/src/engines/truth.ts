@@ -1,5 +1,5 @@
 import type { Crs } from "../crs/crs.js";
-import { PlacementError } from "../errors.js";
+import { PlacementError } from "../errors/errors.js";
 import { decodeTransformation } from "../transformation/decode.js";
 import { type CompiledTransformation, compileTransformation } from "../transformation/evaluate.js";
 import type { PointTransform } from "../transformation/link.js";

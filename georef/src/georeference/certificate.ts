@@ -1,5 +1,5 @@
 import { geometricTail, NODES } from "../approximation/chebyshev.js";
-import type { Expansion } from "./chebyshev.js";
+import type { Expansion } from "./expansion.js";
 import { type FittedScheme, keeps } from "./scheme.js";
 
 /**

@@ -1,13 +1,14 @@
 import { NODES } from "../approximation/chebyshev.js";
+import type { Domain } from "../cartesian/domain.js";
 import type { ExactTransform } from "../engines/exact.js";
-import { PlacementError } from "../errors.js";
+import { PlacementError } from "../errors/errors.js";
 import type { CompiledTransformation } from "../transformation/evaluate.js";
 import { fitBound, storageBound, tailBound } from "./certificate.js";
-import { type Expansion, expand, plusQuadratic } from "./chebyshev.js";
 import { QUADRATIC_TERMS, turnedCreases, turnedTerms } from "./creases.js";
+import { type Expansion, expand, plusQuadratic } from "./expansion.js";
 import { turned } from "./grid-remainder.js";
 import { type NodeTransform, nodeTransform, ROUNDING } from "./node-transform.js";
-import type { Domain, Placement } from "./placement.js";
+import type { Placement } from "./placement.js";
 import { reliefOf } from "./relief.js";
 import {
   COSTS,

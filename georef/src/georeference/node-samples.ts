@@ -1,6 +1,6 @@
 import { CHEBYSHEV_NODES, NODES } from "../approximation/chebyshev.js";
 import type { Link } from "../transformation/link.js";
-import type { Box } from "./chebyshev.js";
+import type { Box } from "./expansion.js";
 
 /** Heights of the samples: in the middle, at the bottom, at the top. */
 export const MIDDLE = 0;

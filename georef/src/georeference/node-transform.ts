@@ -1,4 +1,5 @@
 import { AMPLIFICATION } from "../approximation/chebyshev.js";
+import type { Domain } from "../cartesian/domain.js";
 import type { ExactTransform } from "../engines/exact.js";
 import { linkOf } from "../transformation/compile.js";
 import type { CompiledTransformation } from "../transformation/evaluate.js";
@@ -6,11 +7,10 @@ import type { Link, PointTransform } from "../transformation/link.js";
 import { holds } from "../transformation/projection.js";
 import { patchworkOf } from "../transformation/rectangle.js";
 import type { Transformation } from "../transformation/step.js";
-import { boxOf } from "./chebyshev.js";
 import { type Unfolded, unfoldAll } from "./creases.js";
+import { boxOf } from "./expansion.js";
 import type { GridRemainder } from "./grid-remainder.js";
 import { NodeSamples } from "./node-samples.js";
-import type { Domain } from "./placement.js";
 import { type FinishedPart, type GridPart, splitGrid } from "./split-grid.js";
 
 /** A transformation over one node: what can be fitted, what may be added per point, and what neither holds. */

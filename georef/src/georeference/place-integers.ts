@@ -1,5 +1,5 @@
-import { boxOf } from "./chebyshev.js";
 import type { Creases } from "./creases.js";
+import { boxOf } from "./expansion.js";
 import type { GridRemainder } from "./grid-remainder.js";
 import type { Placement } from "./placement.js";
 import type { Relief } from "./relief.js";

@@ -1,5 +1,5 @@
-import { boxOf } from "./chebyshev.js";
 import { addCreases } from "./creases.js";
+import { boxOf } from "./expansion.js";
 import { addRemainder } from "./grid-remainder.js";
 import type { Placement } from "./placement.js";
 import { addRelief } from "./relief.js";

@@ -1,18 +1,9 @@
+import type { Domain } from "../cartesian/domain.js";
 import type { Frame } from "../ellipsoid/frame.js";
 import type { PointTransform } from "../transformation/link.js";
 import type { Creases } from "./creases.js";
 import type { GridRemainder } from "./grid-remainder.js";
 import type { Relief } from "./relief.js";
-
-/** A box in source coordinates and units. */
-export interface Domain {
-  readonly minX: number;
-  readonly minY: number;
-  readonly minZ: number;
-  readonly maxX: number;
-  readonly maxY: number;
-  readonly maxZ: number;
-}
 
 /**
  * How the six functions P and n are approximated over the node, cheapest first: total degrees of P and n

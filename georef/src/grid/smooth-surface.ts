@@ -1,5 +1,5 @@
-import type { GridWindow } from "../transformation/step.js";
 import { columnAt, isNoData, rowAt, type Surface } from "./surface.js";
+import type { GridWindow } from "./window.js";
 
 /** Positions in a window in cells. */
 export interface CellRange {

@@ -1,4 +1,4 @@
-import type { GridWindow } from "../transformation/step.js";
+import type { GridWindow } from "./window.js";
 
 /**
  * The values of a grid as a function of the place. Writes for each channel c the value and its derivatives by

@@ -1,5 +1,36 @@
-import { PlacementError } from "../errors.js";
-import type { GridWindow } from "../transformation/step.js";
+import { PlacementError } from "../errors/errors.js";
+
+/**
+ * A rectangular part of a grid with its margin. Node (column, row) stands at
+ * (west + column · stepLongitude, south + row · stepLatitude), rows from the south, columns from the west.
+ */
+export interface GridWindow {
+  /** File name of the grid it was cut from, for people. */
+  readonly grid: string;
+  /** Radians. */
+  readonly west: number;
+  readonly south: number;
+  readonly stepLongitude: number;
+  readonly stepLatitude: number;
+  readonly columns: number;
+  readonly rows: number;
+  readonly channels: number;
+  /**
+   * float32 as the grid file has them, channel by channel and row by row:
+   * `values[(channel · rows + row) · columns + column]`, in units of `unit`.
+   */
+  readonly values: Float32Array;
+  /**
+   * What one unit of `values` is in radians (horizontal) or metres (vertical); kept apart so that values stay exact.
+   * The product is rounded to float32, as PROJ does.
+   */
+  readonly unit: number;
+  /**
+   * Nodes of this value hold no data, as those that are not finite; PROJ leaves them out of the interpolation
+   * (vertical) or refuses the point (horizontal).
+   */
+  readonly noData?: number;
+}
 
 /**
  * A whole grid as a file has it, told so that no reader needs to hold more than it wants. Nodes stand as in

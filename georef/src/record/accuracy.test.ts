@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { accuracyParts, EGM96, EGM96_ACCURACY, similarityParts, statedAccuracy } from "./accuracy.js";
+import { EGM96 } from "../vertical/egm96.js";
+import { accuracyParts, EGM96_ACCURACY, similarityParts, statedAccuracy } from "./accuracy.js";
 
 const METRE = { name: "metre", kind: "linear", size: 1 } as const;
 const crs = (height: Parameters<typeof accuracyParts>[0]["height"]) => ({

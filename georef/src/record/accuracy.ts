@@ -1,5 +1,6 @@
 import type { Crs } from "../crs/crs.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
+import { EGM96 } from "../vertical/egm96.js";
 import type { OperationReport } from "./operation-report.js";
 
 /** One named part of what a stated position is worth. */
@@ -31,9 +32,6 @@ export interface Placing {
   /** For heights of unknown reference: what they may be, and how far off the points then are. */
   readonly guess?: string | undefined;
 }
-
-/** Name of the global geoid model where it is applied in place of a country's own. */
-export const EGM96 = "EGM96";
 
 /**
  * What heights by EGM96 are worth in a country's height system, metres. The zero levels of countries follow tide gauges

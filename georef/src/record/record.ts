@@ -1,4 +1,4 @@
-import { RecordError } from "../errors.js";
+import { RecordError } from "../errors/errors.js";
 import { FieldError, readRecord } from "./fields.js";
 import type { GeoreferenceRecord } from "./georeference-record.js";
 

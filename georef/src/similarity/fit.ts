@@ -2,7 +2,7 @@ import { covariance } from "../cartesian/covariance.js";
 import { symmetricEigen } from "../cartesian/eigen.js";
 import { geodeticToEcef } from "../ellipsoid/geodetic-to-ecef.js";
 import type { Similarity } from "../engines/truth.js";
-import { ControlError } from "./errors.js";
+import { ControlError } from "../errors/errors.js";
 import { bestRotation } from "./rotation.js";
 
 /** A point whose place is known. */

@@ -2,7 +2,7 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import { placePoint, type Similarity, similarityTransform } from "../engines/truth.js";
-import { RecordError } from "../errors.js";
+import { RecordError } from "../errors/errors.js";
 import { decodeRecord, encodeRecord } from "../record/record.js";
 import { type Anchor, anchorSimilarity } from "./anchor.js";
 import { type ControlPoint, fitSimilarity } from "./fit.js";

@@ -1,4 +1,4 @@
-import { RecordError } from "../errors.js";
+import { RecordError } from "../errors/errors.js";
 
 /** Writes little-endian values one after the other. */
 export class ByteWriter {

@@ -1,8 +1,9 @@
+import type { GridWindow } from "../grid/window.js";
 import { ByteReader } from "./bytes.js";
 import { DIRECTIONS, KINDS, MAGIC, VERSION } from "./format.js";
 import { readGridValues } from "./grid-values.js";
 import { DEGREE_MAX } from "./projection.js";
-import type { EllipsoidAxes, GridWindow, Patch, Patchwork, Step, Transformation } from "./step.js";
+import type { EllipsoidAxes, Patch, Patchwork, Step, Transformation } from "./step.js";
 
 /** Channels that a step of a kind needs of its grid. */
 const CHANNELS = { horizontalShift: 2, verticalShift: 1 } as const;

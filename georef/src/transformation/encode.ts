@@ -1,7 +1,8 @@
+import type { GridWindow } from "../grid/window.js";
 import { ByteWriter } from "./bytes.js";
 import { DIRECTIONS, KINDS, MAGIC, VERSION } from "./format.js";
 import { writeGridValues } from "./grid-values.js";
-import type { EllipsoidAxes, GridWindow, Patchwork, Step, Transformation } from "./step.js";
+import type { EllipsoidAxes, Patchwork, Step, Transformation } from "./step.js";
 
 /** A transformation as bytes, layout in docs/transformation.md. {@link decodeTransformation} gives it back exactly. */
 export function encodeTransformation({ steps }: Transformation): Uint8Array {

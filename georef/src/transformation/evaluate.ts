@@ -1,4 +1,4 @@
-import { PlacementError } from "../errors.js";
+import { PlacementError } from "../errors/errors.js";
 import { linkOf } from "./compile.js";
 import { invert, startingPoints } from "./inverse.js";
 import type { PointTransform } from "./link.js";

@@ -1,4 +1,4 @@
-import type { GridWindow } from "./step.js";
+import type { GridWindow } from "../grid/window.js";
 
 /**
  * One step, compiled. The state is 3 numbers, what they mean is told at `Step`; NaN where there is no such place.

@@ -1,5 +1,5 @@
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
-import { PlacementError } from "../errors.js";
+import { PlacementError } from "../errors/errors.js";
 import { fitPatch, type Refusal, SAMPLES_PER_PATCH, samplePlaces } from "./patch.js";
 import type { Rectangle } from "./rectangle.js";
 import type { EllipsoidAxes, Patch, Patchwork } from "./step.js";

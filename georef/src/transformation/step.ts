@@ -1,3 +1,5 @@
+import type { GridWindow } from "../grid/window.js";
+
 /**
  * The way from source coordinates to ECEF as PROJ goes it, one step after the other. What PROJ computes with grids
  * is applied here with windows of the same grids, bilinearly as PROJ does; what it computes with formulas of the
@@ -66,38 +68,6 @@ export interface EllipsoidAxes {
   readonly a: number;
   /** Flattening. */
   readonly f: number;
-}
-
-/**
- * A rectangular part of a grid with its margin. Node (column, row) stands at
- * (west + column · stepLongitude, south + row · stepLatitude), rows from the south, columns from the west.
- */
-export interface GridWindow {
-  /** File name of the grid it was cut from, for people. */
-  readonly grid: string;
-  /** Radians. */
-  readonly west: number;
-  readonly south: number;
-  readonly stepLongitude: number;
-  readonly stepLatitude: number;
-  readonly columns: number;
-  readonly rows: number;
-  readonly channels: number;
-  /**
-   * float32 as the grid file has them, channel by channel and row by row:
-   * `values[(channel · rows + row) · columns + column]`, in units of `unit`.
-   */
-  readonly values: Float32Array;
-  /**
-   * What one unit of `values` is in radians (horizontal) or metres (vertical); kept apart so that values stay exact.
-   * The product is rounded to float32, as PROJ does.
-   */
-  readonly unit: number;
-  /**
-   * Nodes of this value hold no data, as those that are not finite; PROJ leaves them out of the interpolation
-   * (vertical) or refuses the point (horizontal).
-   */
-  readonly noData?: number;
 }
 
 /** A quadtree-like set of rectangles, each with its own polynomial; every point of the domain lies in exactly one. */

@@ -1,11 +1,12 @@
-import { RecordError } from "../errors.js";
-import { boundsOfPlaces } from "../grid/area.js";
+import { RecordError } from "../errors/errors.js";
 import { type Bounds, cutWindow, type Grid } from "../grid/window.js";
-import { EGM96 } from "../record/accuracy.js";
 import { ByteReader, ByteWriter } from "../transformation/bytes.js";
 import { readGridValues, writeGridValues } from "../transformation/grid-values.js";
 import type { VerticalShiftStep } from "../transformation/step.js";
 import { undulationOf } from "./undulation.js";
+
+/** Name of the global geoid model where it is applied in place of a country's own. */
+export const EGM96 = "EGM96";
 
 /** Between the nodes of EGM96, radians: a quarter of a degree. */
 const STEP = Math.PI / 720;
@@ -109,6 +110,7 @@ export function egm96Step(egm96: Grid, bounds: Bounds): VerticalShiftStep {
 
 /** Height of EGM96 above the ellipsoid, metres. @param longitude radians, any turn @param latitude radians */
 export function egm96Undulation(egm96: Grid, longitude: number, latitude: number): number {
-  const bounds = boundsOfPlaces(Float64Array.of(longitude, latitude, 0));
-  return bounds ? undulationOf(cutWindow(egm96, bounds))(longitude, latitude) : Number.NaN;
+  if (!Number.isFinite(longitude + latitude)) return Number.NaN;
+  const place = { west: longitude, south: latitude, east: longitude, north: latitude };
+  return undulationOf(cutWindow(egm96, place))(longitude, latitude);
 }

@@ -1,5 +1,5 @@
 import { bilinear } from "../grid/surface.js";
-import type { GridWindow } from "../transformation/step.js";
+import type { GridWindow } from "../grid/window.js";
 
 /**
  * Height of the geoid above the ellipsoid, metres: ellipsoidal height = height above the geoid + undulation. NaN where the

@@ -1,14 +1,14 @@
+import type { Domain } from "../cartesian/domain.js";
 import type { Crs } from "../crs/crs.js";
 import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
-import { CrsError } from "../errors.js";
-import type { Domain } from "../georeference/placement.js";
-import { boundsOfPlaces, spread } from "../grid/area.js";
+import { exactTransform } from "../engines/exact.js";
+import { CrsError } from "../errors/errors.js";
 import type { Bounds, Grid } from "../grid/window.js";
 import { fitPatchwork, PATCHWORK_TOLERANCE } from "../transformation/patchwork.js";
 import type { DatumShiftStep, Step, Transformation } from "../transformation/step.js";
 import { egm96Step } from "../vertical/egm96.js";
-import { exactTransform } from "./exact.js";
+import { boundsOfPlaces, spread } from "./area.js";
 
 /** How a transformation is derived. */
 export interface DerivedOptions {

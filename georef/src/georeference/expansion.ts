@@ -1,8 +1,8 @@
 import { CHEBYSHEV_NODES, chebyshevCoefficients, NODES } from "../approximation/chebyshev.js";
+import type { Domain } from "../cartesian/domain.js";
 import { eastNorthUp, type Frame } from "../ellipsoid/frame.js";
 import type { ExactTransform } from "../engines/exact.js";
-import { PlacementError } from "../errors.js";
-import type { Domain } from "./placement.js";
+import { PlacementError } from "../errors/errors.js";
 
 /** Centre and half extents of a domain, source units; extents are never zero. */
 export interface Box {

@@ -1,5 +1,5 @@
-import type { Domain } from "../georeference/placement.js";
-import type { Bounds } from "./window.js";
+import type { Domain } from "../cartesian/domain.js";
+import type { Bounds } from "../grid/window.js";
 
 /** Points along each side; between two of them a side bends by less than the margin for anything that is a scan. */
 const SIDE = 17;
