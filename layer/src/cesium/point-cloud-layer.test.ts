@@ -1,4 +1,6 @@
-import { describe, expect, it } from "vitest";
+import { Cartesian3, PerspectiveFrustum, SceneMode } from "cesium";
+import { describe, expect, it, vi } from "vitest";
+import { Clip, ClipSet } from "../clips/index.js";
 import { PointCloud } from "../cloud/index.js";
 import { tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource } from "../sources/index.js";
@@ -44,5 +46,92 @@ describe("PointCloudLayer.heightOffset", () => {
       layer.heightOffset = Number.NaN;
     }).toThrow(expect.objectContaining({ code: "STYLE_HEIGHT_OFFSET" }));
     expect(layer.heightOffset).toBe(3);
+  });
+});
+
+/** A frame that looks along x and shows nothing, with what is called after it. */
+function frame() {
+  const afterRender: (() => boolean | undefined)[] = [];
+  const frameState = {
+    mode: SceneMode.SCENE3D,
+    passes: { render: true, pick: false, depth: false },
+    context: { _gl: { isContextLost: () => false }, drawingBufferWidth: 100, drawingBufferHeight: 100 },
+    camera: {
+      positionWC: new Cartesian3(7e6, 0, 0),
+      directionWC: Cartesian3.UNIT_X,
+      upWC: Cartesian3.UNIT_Z,
+      frustum: new PerspectiveFrustum({ fov: 1, aspectRatio: 1, near: 1, far: 10 }),
+    },
+    cullingVolume: { planes: [] },
+    occluder: undefined,
+    afterRender,
+  };
+  return { frameState: frameState as never, after: () => afterRender.map((call) => call()) };
+}
+
+describe("PointCloudLayer.update", () => {
+  it("never throws: what failed is told once after the frame, and the layer goes on when it can", async () => {
+    const layer = PointCloudLayer.fromCloud(await open());
+    const told: Error[] = [];
+    layer.error.addEventListener((error) => told.push(error));
+    const update = () => {
+      const { frameState, after } = frame();
+      layer.update(frameState);
+      const before = told.length;
+      after();
+      return before;
+    };
+    layer.budget = { points: 1 } as never;
+    expect(update()).toBe(0);
+    expect(told).toEqual([expect.objectContaining({ name: "DrawError", code: "DRAW_FRAME" })]);
+    update();
+    expect(told).toHaveLength(1);
+    layer.budget = undefined;
+    update();
+    expect(told).toHaveLength(1);
+    layer.destroy();
+  });
+
+  it("draws nothing where its volumes have no place in the data set, and says why", async () => {
+    const layer = PointCloudLayer.fromCloud(await open());
+    const told: Error[] = [];
+    layer.error.addEventListener((error) => told.push(error));
+    const impossible = Clip.box({ center: { source: [1e300, 1e300, 1e300] }, size: [1, 1, 1] });
+    layer.clips.add(impossible);
+    const { frameState, after } = frame();
+    layer.update(frameState);
+    expect(() => after()).not.toThrow();
+    expect([layer.settled, layer.statistics.pointsDrawn, told.length]).toEqual([true, 0, 1]);
+    layer.destroy();
+  });
+
+  it("does not let a listener end the render loop", async () => {
+    const layer = PointCloudLayer.fromCloud(await open());
+    const reported: unknown[] = [];
+    vi.stubGlobal("reportError", (error: unknown) => reported.push(error));
+    layer.error.addEventListener(() => {
+      throw new Error("of the application");
+    });
+    layer.budget = {} as never;
+    const { frameState, after } = frame();
+    layer.update(frameState);
+    expect(() => after()).not.toThrow();
+    expect(reported).toEqual([new Error("of the application")]);
+    vi.unstubAllGlobals();
+    layer.budget = undefined;
+    layer.destroy();
+  });
+});
+
+describe("PointCloudLayer.clips", () => {
+  it("is an empty set from the start, and one again where undefined is assigned", async () => {
+    const layer = PointCloudLayer.fromCloud(await open());
+    const { clips } = layer;
+    expect(clips.size).toBe(0);
+    const set = new ClipSet();
+    layer.clips = set;
+    expect(layer.clips).toBe(set);
+    layer.clips = undefined;
+    expect([layer.clips.size, layer.clips === set]).toEqual([0, false]);
   });
 });

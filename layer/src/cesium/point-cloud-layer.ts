@@ -1,10 +1,11 @@
 import { BoundingSphere, type Camera, Cartesian3, Event, SceneMode } from "cesium";
-import type { ClipSet } from "../clips/index.js";
+import { ClipSet } from "../clips/index.js";
 import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
 import { ClipAnswers } from "../drawing/clip-answers.js";
 import { Completion } from "../drawing/completion.js";
 import { CostMeter } from "../drawing/cost-meter.js";
 import { FrameAllowance } from "../drawing/frame-allowance.js";
+import { FrameFailures } from "../drawing/frame-failures.js";
 import { checkHeightOffset, liftOf } from "../drawing/height-offset.js";
 import {
   asksForSilhouettes,
@@ -52,8 +53,6 @@ export class PointCloudLayer {
   pointBudget: number;
   /** Points and bytes that this layer shares with others. */
   budget: SharedBudget | undefined;
-  /** Volumes that cut or highlight. */
-  clips: ClipSet | undefined;
   /** Effects that are on or off whatever the scene calls for. */
   forced: Forced;
   /** The data set. */
@@ -69,6 +68,12 @@ export class PointCloudLayer {
   /** Raised when the numbers of wanted, ready, failed and pending nodes change. */
   readonly loadProgress = new Event<(progress: StreamProgress) => void>();
 
+  /**
+   * Raised with what kept a frame, or volumes, from being drawn: once, and again only when a frame was whole in between.
+   * The layer goes on with the former volumes, or shows nothing until it can.
+   */
+  readonly error = new Event<(error: Error) => void>();
+
   readonly #ownsCloud: boolean;
   readonly #picked: object;
   readonly #placing: CloudPlacing;
@@ -77,6 +82,8 @@ export class PointCloudLayer {
   readonly #costs = new CostMeter();
   readonly #clips = new ClipAnswers();
   readonly #watch = new ContextWatch(() => this.#release());
+  readonly #failures = new FrameFailures();
+  #clipSet: ClipSet;
   #style: PointCloudStyle;
   #filter: PointFilter | undefined;
   #heightOffset = 0;
@@ -100,7 +107,7 @@ export class PointCloudLayer {
     this.maximumScreenSpaceError = options.maximumScreenSpaceError ?? 2;
     this.budget = options.budget;
     this.pointBudget = options.pointBudget ?? (options.budget ? Number.POSITIVE_INFINITY : 1_000_000);
-    this.clips = options.clips;
+    this.#clipSet = options.clips ?? new ClipSet();
     this.filter = options.filter;
     this.forced = options.forced ?? {};
     this.#style = defaultStyle(cloud.hasColour);
@@ -156,6 +163,15 @@ export class PointCloudLayer {
   set filter(filter: PointFilter | undefined) {
     const { attributes, name } = this.cloud;
     this.#filter = filter && checkFilter(filter, { attributes, file: name });
+  }
+
+  /** Volumes that cut or highlight; assigning undefined gives the layer an empty set of its own. */
+  get clips(): ClipSet {
+    return this.#clipSet;
+  }
+
+  set clips(clips: ClipSet | undefined) {
+    this.#clipSet = clips ?? new ClipSet();
   }
 
   /**
@@ -235,9 +251,18 @@ export class PointCloudLayer {
     this.cloud.stream.retryFailed();
   }
 
-  /** Called by Cesium for each frame and pass. */
+  /** Called by Cesium for each frame and pass. Never throws, which would end Cesium's render loop. */
   update(frameState: FrameState): void {
     if (this.#destroyed) return;
+    try {
+      this.#draw(frameState);
+    } catch (thrown) {
+      this.#tell(thrown, frameState);
+      this.#rest();
+    }
+  }
+
+  #draw(frameState: FrameState): void {
     const { passes, context, mode } = frameState;
     this.#renderer?.lift(this.#heightOffset);
     const flat = mode === SceneMode.SCENE2D || mode === SceneMode.COLUMBUS_VIEW;
@@ -290,6 +315,11 @@ export class PointCloudLayer {
     const allowance = new FrameAllowance();
     const answers = this.#clips;
     answers.follow(clips, this.cloud, allowance);
+    this.#tell(answers.takeFailure(), frameState);
+    if (answers.blocked) {
+      this.#rest();
+      return;
+    }
     const rejects = (bounds: NodeBounds) => answers.rejects(bounds, allowance);
     const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
     const selection = stream.update(this, view, options);
@@ -328,11 +358,22 @@ export class PointCloudLayer {
       idle: stream.active === 0,
       pose: poseOf(frameState.camera),
     });
+    if (done) this.#failures.clear();
     // Events go out after the frame, where a listener may change the scene.
     afterRender.push(() => {
-      if (changed) this.loadProgress.raiseEvent(progress);
-      if (finished) this.allNodesLoaded.raiseEvent();
+      if (changed) raise(this.loadProgress, progress);
+      if (finished) raise(this.allNodesLoaded);
       return !done;
+    });
+  }
+
+  /** Raises what failed as an event after the frame, unless it is known. */
+  #tell(thrown: unknown, { afterRender }: FrameState): void {
+    const error = this.#failures.note(thrown, this.cloud.name);
+    if (!error) return;
+    afterRender.push(() => {
+      raise(this.error, error);
+      return false;
     });
   }
 
@@ -383,6 +424,18 @@ export class PointCloudLayer {
     if (this.#warned) return;
     this.#warned = true;
     console.warn(`${this.cloud.name}: point clouds are drawn in 3D only, not in 2D and Columbus view`);
+  }
+}
+
+/** Raises an event within Cesium's render loop, which an error of a listener must not end. */
+function raise<Arguments extends unknown[]>(
+  event: Event<(...values: Arguments) => void>,
+  ...values: Arguments
+): void {
+  try {
+    event.raiseEvent(...values);
+  } catch (thrown) {
+    reportError(thrown);
   }
 }
 

@@ -165,6 +165,13 @@ function winding(outline: readonly Corner[], longitude: number, latitude: number
   return Math.abs(sum) > Math.PI;
 }
 
+const SQUARE = [
+  [0, 0],
+  [0.1, 0],
+  [0.1, 0.1],
+  [0, 0.1],
+] as const;
+
 describe("polygons in source coordinates", () => {
   // Gauss-Krüger on another ellipsoid with a Helmert shift: source z is no normal of WGS 84.
   const crs =
@@ -427,15 +434,39 @@ describe("ClipSet", () => {
     );
   });
 
-  it("refuses a polygon around half the earth", () => {
-    const set = new ClipSet([
+  it.each<readonly [string, unknown]>([
+    ["volume", undefined],
+    ["volume", { mode: "inside", kind: "sphere" }],
+    ["place", Clip.box({ center: null as never, size: [1, 1, 1] })],
+    ["box", Clip.box({ center: { source: [1, 2, 3] }, size: undefined as never })],
+    ["box", Clip.box({ center: { source: [1, 2, 3] }, size: [1, 1] as never })],
+    ["angle", Clip.box({ center: { source: [1, 2, 3] }, size: [1, 1, 1], heading: Number.NaN })],
+    ["corner", { ...Clip.polygon([[0, 0]]), ring: [[0, 0], [0, 0.1], undefined] }],
+    ["bottom", Clip.polygon(SQUARE, { bottom: Number.NaN })],
+    [
+      "polygon around half the earth",
       Clip.polygon([
         [0, -1],
         [2, 1],
         [4, -1],
         [5, 0.2],
       ]),
-    ]);
-    expect(() => set.over(EARTH)).toThrow(expect.objectContaining({ code: "STYLE_CLIP" }));
+    ],
+  ])("refuses what is no %s at once, and stays as it was", (_, clip) => {
+    const set = new ClipSet([Clip.polygon(SQUARE)]);
+    expect(() => set.add(clip as Clip)).toThrow(expect.objectContaining({ code: "STYLE_CLIP" }));
+    expect([set.size, set.revision]).toEqual([1, 1]);
+  });
+
+  it("holds polygons that reach almost 85° from their middle", () => {
+    const reach = (84.5 * Math.PI) / 180;
+    const corners = [0, 1, 2, 3, 4].map((index) => [(index * 2 * Math.PI) / 5, Math.PI / 2 - reach] as const);
+    const volumes = new ClipSet([Clip.polygon(corners)]).over(EARTH);
+    const stays = (latitude: number) => {
+      const ecef = new Float64Array(3);
+      geodeticToEcef(0.3, latitude, 0, ecef);
+      return volumes.keeps(ecef, [0, 0, 0]);
+    };
+    expect([1.5, 0.9, 0, -1].map(stays)).toEqual([true, true, false, false]);
   });
 });

@@ -5,33 +5,35 @@ import { ROLES } from "./clip-roles.js";
 import { type HalfSpace, halfSpaces } from "./half-spaces.js";
 import { prism } from "./prism.js";
 import { geodeticShape, sourceShape } from "./prism-shapes.js";
-import { placed } from "./rings.js";
+import { capOf, FARTHEST, placed } from "./rings.js";
 import { type Corner, extendedPlace } from "./source-space.js";
 import type { Steps } from "./steps.js";
 import { unit, type Vector } from "./vectors.js";
 import { remembering, type SourceSpace, type Volume } from "./volume.js";
+
+const KINDS: readonly unknown[] = ["box", "plane", "polygon"] satisfies Clip["kind"][];
 
 /**
  * Checks what can be checked of a volume without a data set.
  * @throws StyleError STYLE_CLIP
  */
 export function checkClip(clip: Clip): void {
+  if (!KINDS.includes(clip?.kind)) fail("this is no volume", "Use Clip.box, Clip.plane or Clip.polygon");
   if (!Object.hasOwn(ROLES, clip.mode)) {
     fail(`there is no mode "${clip.mode}"`, "Use inside, outside or highlight");
   }
   if (clip.kind === "polygon") checkPolygon(clip);
   else if (clip.kind === "box") {
-    const finite = [clip.heading, clip.pitch, clip.roll, ...clip.size].every(Number.isFinite);
-    if (!finite || !clip.size.every((edge) => edge > 0)) {
-      fail(
-        `a box cannot be ${clip.size.join(" × ")} m large`,
-        "Give three lengths greater than 0, and finite angles",
-      );
+    const { size } = clip;
+    if (!areNumbers(size, 3) || !size.every((edge) => edge > 0)) {
+      fail(`a box cannot be ${[size].flat().join(" × ")} m large`, "Give three lengths greater than 0");
+    }
+    if (!areNumbers([clip.heading, clip.pitch, clip.roll], 3)) {
+      fail("a box is turned by what is no angle", "Give finite angles");
     }
     checkPlace(clip.center);
   } else {
-    if (![clip.heading, clip.pitch].every(Number.isFinite))
-      fail("a plane needs a direction", "Give finite angles");
+    if (!areNumbers([clip.heading, clip.pitch], 2)) fail("a plane needs a direction", "Give finite angles");
     checkPlace(clip.through);
   }
 }
@@ -47,11 +49,7 @@ export function* compileClip(clip: Clip, space: SourceSpace): Steps<Volume> {
 
 function* polygonVolume({ coordinates, ring, bottom, top }: PolygonClip, space: SourceSpace): Steps<Volume> {
   if (coordinates === "source") return prism(yield* sourceShape(ring, { bottom, top }, space));
-  const shape = yield* geodeticShape(ring, { bottom, top });
-  if (!shape) {
-    return fail("a polygon reaches farther than 85° from its middle", "Cut it into several polygons");
-  }
-  return prism(shape);
+  return prism(yield* geodeticShape(ring, { bottom, top }));
 }
 
 /** The box's own axes: turned by heading, pitch and roll, in this order. */
@@ -91,21 +89,29 @@ function inEcef(rotation: Float64Array, [e, n, u]: Vector): Vector {
 }
 
 function placeOf(place: ClipPlace, space: SourceSpace): Vector {
-  if ("source" in place) return placed(extendedPlace(space), ...place.source);
+  if ("source" in place) {
+    const there = placed(extendedPlace(space), ...place.source);
+    if (there.every(Number.isFinite)) return there;
+    return fail(
+      `(${place.source.join(", ")}) lies too far from the data set`,
+      "Give source coordinates near its points",
+    );
+  }
   const ecef = new Float64Array(3);
   geodeticToEcef(place.longitude, place.latitude, place.height, ecef);
   return [ecef[0], ecef[1], ecef[2]];
 }
 
 function checkPlace(place: ClipPlace): void {
-  const numbers = "source" in place ? place.source : [place.longitude, place.latitude, place.height];
-  const onEarth = "source" in place || Math.abs(place.latitude) <= Math.PI / 2;
-  if (!numbers.every(Number.isFinite) || !onEarth) {
-    fail(
-      `(${numbers.join(", ")}) is no place`,
-      "Give longitude and latitude in radians and height in metres, or source",
-    );
-  }
+  const given: Partial<Record<"longitude" | "latitude" | "height" | "source", unknown>> = place ?? {};
+  const { longitude, latitude, height, source } = given;
+  const numbers = source === undefined ? [longitude, latitude, height] : source;
+  const onEarth = source !== undefined || Math.abs(Number(latitude)) <= Math.PI / 2;
+  if (areNumbers(numbers, 3) && onEarth) return;
+  fail(
+    `(${[numbers].flat().join(", ")}) is no place`,
+    "Give longitude and latitude in radians and height in metres, or source",
+  );
 }
 
 function checkPolygon({ coordinates, ring, bottom, top }: PolygonClip): void {
@@ -113,17 +119,26 @@ function checkPolygon({ coordinates, ring, bottom, top }: PolygonClip): void {
     fail(`there are no coordinates "${String(coordinates)}"`, "Use geodetic or source");
   }
   if (ring.length < 3) fail(`a polygon cannot have ${ring.length} corners`, "Give three corners or more");
-  const fits = ([x, y]: Corner) =>
-    Number.isFinite(x) && Number.isFinite(y) && (coordinates === "source" || Math.abs(y) <= Math.PI / 2);
+  const fits = (corner: Corner) =>
+    areNumbers(corner, 2) && (coordinates === "source" || Math.abs(corner[1]) <= Math.PI / 2);
   if (!ring.every(fits)) {
     fail(
       "a corner of a polygon is no place",
       "Give longitude and latitude in radians, or x and y of the data set",
     );
   }
-  if (bottom !== undefined && top !== undefined && !(bottom < top)) {
-    fail(`a polygon cannot stand from ${bottom} to ${top}`, "Give a top above the bottom");
+  if (coordinates === "geodetic" && !(capOf(ring).cosine > Math.cos(FARTHEST))) {
+    fail("a polygon reaches farther than 85° from its middle", "Cut it into several polygons");
   }
+  const ends = [bottom, top].filter((end) => end !== undefined);
+  if (!areNumbers(ends, ends.length) || (ends.length === 2 && !(ends[0] < ends[1]))) {
+    fail(`a polygon cannot stand from ${bottom} to ${top}`, "Give finite heights, the top above the bottom");
+  }
+}
+
+function areNumbers(values: unknown, count: number): boolean {
+  const listed = Array.isArray(values) ? values : values instanceof Float64Array ? [...values] : [];
+  return listed.length === count && listed.every(Number.isFinite);
 }
 
 function fail(cause: string, fix: string): never {

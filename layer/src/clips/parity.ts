@@ -48,24 +48,16 @@ const RADIUS = 6.4e6;
  * side a place lies on is the sign of a triple product of differences, right to 1e-9 m on the ground, at poles and
  * antimeridian as anywhere. A place is joined to one that is surely outside, 90° from the ring's middle, and the pieces on
  * the way are counted. Inside is the side away from the antipode of the middle.
- * @returns undefined where the ring reaches farther than 85° from its middle
+ * @param middle of its corners, unit vector; no vertex lies 90° from it or farther
  */
-export function* insideTest(ring: Ring, groups: readonly PieceGroup[]): Steps<InsideRing | undefined> {
+export function* insideTest(ring: Ring, groups: readonly PieceGroup[], middle: Vector): Steps<InsideRing> {
   const { count, feet } = ring;
   const at = (i: number) => feet.subarray(3 * (i % count), 3 * (i % count) + 3);
-  const sum = [0, 0, 0];
-  for (let i = 0; i < count; i++) {
-    const direction = unit(at(i));
-    for (let axis = 0; axis < 3; axis++) sum[axis] += direction[axis];
-    if (i % STRIDE === STRIDE - 1) yield;
-  }
-  const middle = unit(sum);
   let least = 1;
   for (let i = 0; i < count; i++) {
     least = Math.min(least, dot(middle, unit(at(i))));
     if (i % STRIDE === STRIDE - 1) yield;
   }
-  if (!(least > Math.cos((85 * Math.PI) / 180))) return undefined;
   const outside = perpendicular(middle).map((part) => RADIUS * part) as unknown as Vector;
   return (foot) => {
     // Beyond the farthest vertex; arcs of a kilometre bulge out by next to nothing.

@@ -1,7 +1,7 @@
 import { groupsOf, insideTest } from "./parity.js";
 import { heightIn, type NodePlan } from "./plan-of-node.js";
 import type { End, PrismShape } from "./prism.js";
-import { footOf, geodesicRing, placed, sourceRing } from "./rings.js";
+import { capOf, footOf, geodesicRing, placed, sourceRing } from "./rings.js";
 import { type Corner, extendedPlace, insideRing, ringOver, sourceOf } from "./source-space.js";
 import type { Steps } from "./steps.js";
 import { pointIn } from "./vectors.js";
@@ -15,16 +15,12 @@ export interface PrismEnds {
 
 /**
  * A prism over a ring of geodesics; heights over the ellipsoid, metres.
- * @returns undefined where the ring reaches farther than 85° from its middle
+ * @param corners that reach no farther than {@link FARTHEST} from their middle
  */
-export function* geodeticShape(
-  corners: readonly Corner[],
-  { bottom, top }: PrismEnds,
-): Steps<PrismShape | undefined> {
+export function* geodeticShape(corners: readonly Corner[], { bottom, top }: PrismEnds): Steps<PrismShape> {
   const ring = yield* geodesicRing(corners);
   const groups = yield* groupsOf(ring);
-  const inside = yield* insideTest(ring, groups);
-  if (!inside) return undefined;
+  const inside = yield* insideTest(ring, groups, capOf(corners).middle);
   const end = (height: number | undefined, plan: NodePlan): End | undefined =>
     height === undefined ? undefined : { height: height - plan.height, slope: [0, 0] };
   return {

@@ -1,6 +1,6 @@
 import { ecefToGeodetic, geodesicBetween, geodesicFrom, geodeticToEcef } from "@groma/georef";
 import { STRIDE, type Steps } from "./steps.js";
-import { cross, difference, dot, type Vector } from "./vectors.js";
+import { cross, difference, dot, unit, type Vector } from "./vectors.js";
 import type { Place } from "./volume.js";
 
 /**
@@ -87,6 +87,29 @@ export function* sourceRing(corners: readonly (readonly [number, number])[], pla
     if (index % STRIDE === STRIDE - 1) yield;
   }
   return { count: feet.length / 3, feet: Float64Array.from(feet), ups: Float64Array.from(ups) };
+}
+
+/** Farthest that a ring of geodesics may reach from its middle, radians: on half the earth no side would be its inside. */
+export const FARTHEST = (85 * Math.PI) / 180;
+
+/**
+ * Middle of the corners of a ring of geodesics, as a unit vector, and the cosine of the angle to the farthest of them:
+ * NaN where they have no middle. Within less than half the earth no geodesic reaches farther than both its ends.
+ * @param corners longitude and latitude of each corner, radians
+ */
+export function capOf(corners: readonly (readonly [number, number])[]): {
+  readonly middle: Vector;
+  readonly cosine: number;
+} {
+  const sum = [0, 0, 0];
+  for (const corner of corners) {
+    const direction = unit(onEllipsoid(...corner));
+    for (let axis = 0; axis < 3; axis++) sum[axis] += direction[axis];
+  }
+  const middle = unit(sum);
+  let cosine = 1;
+  for (const corner of corners) cosine = Math.min(cosine, dot(middle, unit(onEllipsoid(...corner))));
+  return { middle, cosine };
 }
 
 function onEllipsoid(longitude: number, latitude: number): Vector {

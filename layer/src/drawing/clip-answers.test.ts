@@ -171,20 +171,55 @@ describe("ClipAnswers", () => {
     expect(draw(answers, set, frame(0))).toEqual(nodes.map(() => undefined));
   });
 
-  it("throws in each frame what volumes without a place throw", () => {
-    const set = new ClipSet([
-      Clip.polygon([
-        [0, -1],
-        [2, 1],
-        [4, -1],
-        [5, 0.2],
-      ]),
-    ]);
+  it("passes over volumes that cannot be prepared, tells it once, and goes on with the former ones", () => {
     const answers = new ClipAnswers();
-    for (let at = 0; at < 2; at++) {
-      expect(() => answers.follow(set, SPACE, plenty())).toThrow(
-        expect.objectContaining({ code: "STYLE_CLIP" }),
-      );
-    }
+    const good = new ClipSet([box(0)]);
+    draw(answers, good, plenty());
+    const drawn = draw(answers, good, plenty());
+    const set = new ClipSet([Clip.box({ center: { source: [2, 2, 2] }, size: [1, 1, 1] })]);
+    const placeless = { ...SPACE, place: () => fail("no place there") };
+    const follow = () => {
+      answers.follow(set, placeless, plenty());
+      if (answers.form(nodes, plenty()) === 0) answers.advance();
+    };
+    follow();
+    expect(answers.takeFailure()).toEqual(new Error("no place there"));
+    follow();
+    expect([answers.takeFailure(), answers.pending, answers.blocked]).toEqual([undefined, false, false]);
+    expect(nodes.map((node) => answers.of(node))).toEqual(drawn);
+    set.clear();
+    set.add(box(40));
+    draw(answers, set, plenty());
+    expect(draw(answers, set, plenty())).toEqual(whole(set));
+  });
+
+  it("draws nothing where the first volumes cannot be prepared", () => {
+    const answers = new ClipAnswers();
+    const set = new ClipSet([Clip.box({ center: { source: [2, 2, 2] }, size: [1, 1, 1] })]);
+    answers.follow(set, { ...SPACE, place: () => fail("no place there") }, plenty());
+    expect([answers.blocked, answers.of(nodes[0])]).toEqual([true, undefined]);
+    answers.follow(undefined, SPACE, plenty());
+    expect(answers.blocked).toBe(false);
+    expect(answers.of(nodes[0])).toMatchObject({ state: "in" });
+  });
+
+  it("leaves out a node that the volumes fail on, and keeps the former volumes where new ones fail", () => {
+    const answers = new ClipAnswers();
+    const set = new ClipSet([box(0)]);
+    draw(answers, set, plenty());
+    const broken = { frame: undefined, box: [0, 0, 0, 1, 1, 1] } as unknown as NodeVertices;
+    expect(answers.form([broken], plenty())).toBe(0);
+    expect(answers.of(broken)).toMatchObject({ state: "out" });
+    expect(answers.takeFailure()).toBeInstanceOf(TypeError);
+    answers.follow(new ClipSet([box(40)]), SPACE, plenty());
+    const other = { ...broken } as NodeVertices;
+    answers.form([...nodes, other], plenty());
+    answers.advance();
+    expect(answers.takeFailure()).toBeInstanceOf(TypeError);
+    expect(nodes.map((node) => answers.of(node))).toEqual(whole(set));
   });
 });
+
+function fail(message: string): never {
+  throw new Error(message);
+}

@@ -4,6 +4,7 @@ import type { NodeVertices } from "../workers/index.js";
 import type { FrameAllowance } from "./frame-allowance.js";
 
 const WHOLE: NodeClips = { state: "in", count: 0, texels: [] };
+const NOTHING: NodeClips = { state: "out", count: 0, texels: [] };
 
 /** The volumes of a set at one time, and what they make of nodes as far as that was asked. */
 interface Answers {
@@ -22,6 +23,7 @@ interface Answers {
  * are drawn, the former ones hold for the whole picture. A node that comes anew is not drawn before the volumes that
  * hold were held against it, so no point is ever drawn that they cut. Before the first volumes hold, nothing is drawn.
  * While volumes are being prepared others wait: of one that is dragged, each picture shows some place that it was at.
+ * Volumes that cannot be prepared are passed over: the former ones go on holding, and {@link takeFailure} tells why.
  */
 export class ClipAnswers {
   #now: Answers | undefined;
@@ -40,14 +42,14 @@ export class ClipAnswers {
   >();
   #outdated = false;
   #rested = false;
+  /** The volumes that could not be prepared, which are not tried again, and why as long as nobody was told. */
+  #failed: Pick<Answers, "set" | "revision"> | undefined;
+  #failure: unknown;
   /** Whether this frame found an answer to its traversal, and how often it had to do with an outdated one. */
   #found = false;
   #guesses = 0;
 
-  /**
-   * Begins a frame: compiles volumes that are new, as far as the frame allows.
-   * @throws StyleError STYLE_CLIP; PlacementError
-   */
+  /** Begins a frame: compiles volumes that are new, as far as the frame allows. */
   follow(clips: ClipSet | undefined, space: SourceSpace, allowance: FrameAllowance): void {
     this.#found = false;
     this.#guesses = 0;
@@ -59,12 +61,26 @@ export class ClipAnswers {
       this.#compiling = undefined;
     }
     this.#rested = false;
-    if (!this.#next && !this.#compiling && !isOf(this.#now, set, revision)) {
+    if (!isOf(this.#failed, set, revision)) this.#failed = undefined;
+    if (!this.#next && !this.#compiling && !this.#failed && !isOf(this.#now, set, revision)) {
       if (set) this.#compiling = { set, revision, steps: set.overInSteps(space) };
       else this.#take({ set, revision, volumes: undefined, nodes: new WeakMap() });
     }
     this.#compile(allowance);
-    this.#outdated = !isOf(this.#next ?? this.#now, set, revision);
+    const known = isOf(this.#next ?? this.#now, set, revision) || isOf(this.#failed, set, revision);
+    this.#outdated = !known;
+  }
+
+  /** Whether nothing can be drawn: the volumes cannot be prepared, and none held before. */
+  get blocked(): boolean {
+    return this.#failed !== undefined && this.#now === undefined;
+  }
+
+  /** Why volumes could not be prepared or held against a node; each failure is given once. */
+  takeFailure(): unknown {
+    const failure = this.#failure;
+    this.#failure = undefined;
+    return failure;
   }
 
   /** The volumes that hold now or, where there are some, are to hold next; a frame's effects follow from these. */
@@ -89,7 +105,7 @@ export class ClipAnswers {
       return known?.rejected ?? false;
     }
     this.#found = true;
-    const rejected = volumes.rejects(bounds);
+    const rejected = this.#rejects(volumes, bounds);
     this.#rejected.set(bounds, { by: volumes, rejected });
     return rejected;
   }
@@ -145,7 +161,21 @@ export class ClipAnswers {
       }
     } catch (thrown) {
       this.#compiling = undefined;
-      throw thrown;
+      this.#passOver({ set, revision }, thrown);
+    }
+  }
+
+  #passOver(failed: Pick<Answers, "set" | "revision">, thrown: unknown): void {
+    this.#failed = failed;
+    this.#failure ??= thrown;
+  }
+
+  #rejects(volumes: ClipVolumes, bounds: NodeBounds): boolean {
+    try {
+      return volumes.rejects(bounds);
+    } catch (thrown) {
+      this.#failure ??= thrown;
+      return false;
     }
   }
 
@@ -161,6 +191,23 @@ export class ClipAnswers {
 
   /** @returns whether it is done */
   #form(answers: Answers, node: NodeVertices, allowance: FrameAllowance): boolean {
+    try {
+      return this.#formInSteps(answers, node, allowance);
+    } catch (thrown) {
+      this.#forming = undefined;
+      if (answers === this.#next) {
+        this.#next = undefined;
+        this.#passOver(answers, thrown);
+      } else {
+        // Nobody knows what they leave of the node: none of it is drawn, so that nothing shows that they cut.
+        answers.nodes.set(node, NOTHING);
+        this.#failure ??= thrown;
+      }
+      return true;
+    }
+  }
+
+  #formInSteps(answers: Answers, node: NodeVertices, allowance: FrameAllowance): boolean {
     while (allowance.grants()) {
       if (this.#forming?.answers !== answers || this.#forming.node !== node) {
         this.#forming = { answers, node, steps: answers.volumes!.forNodeInSteps(node) };
@@ -175,6 +222,10 @@ export class ClipAnswers {
   }
 }
 
-function isOf(answers: Answers | undefined, set: ClipSet | undefined, revision: number): boolean {
+function isOf(
+  answers: Pick<Answers, "set" | "revision"> | undefined,
+  set: ClipSet | undefined,
+  revision: number,
+): boolean {
   return answers !== undefined && answers.set === set && answers.revision === revision;
 }

@@ -12,6 +12,9 @@ export class DecodeError extends GromaError {}
 /** An application asked for a way of drawing that does not exist or that the data cannot give. Codes start with `STYLE_`. */
 export class StyleError extends GromaError {}
 
+/** A frame of a layer could not be drawn. Codes start with `DRAW_`. */
+export class DrawError extends GromaError {}
+
 const kinds = [SourceError, FormatError, DecodeError, StyleError, CrsError, PlacementError, RecordError];
 
 /**
