@@ -216,6 +216,8 @@ describe("the command line", () => {
     [["convert", "only-one.las"], "OPTION_INVALID"],
     [["convert", "in.las", "out.copc.laz", "--no-such-option"], "OPTION_INVALID"],
     [["view", "x.las", "--port", "70000"], "OPTION_INVALID"],
+    [["serve", "--cors", "folder"], "OPTION_INVALID"],
+    [["serve", ".", "--cors", "https://a.example/path"], "OPTION_INVALID"],
     [["info", "nowhere.laz"], "INPUT_NOT_FOUND"],
     [["locate", sample], "OPTION_INVALID"],
     [["locate", sample, "--points", "nowhere.txt"], "POINTS_NOT_FOUND"],

@@ -34,6 +34,12 @@ const host = () => new Option("--host <address>", "address to listen on").defaul
 const port = () =>
   new Option("--port <number>", "first port to try, 0 for any").default(8080).argParser(portNumber);
 
+const cors = () =>
+  new Option(
+    "--cors [ORIGINS]",
+    "let pages of other origins read: those listed, separated by commas, or all",
+  ).argParser(originList);
+
 /** What may be said of inputs that PDAL reads. */
 const reading = () => [
   new Option("--pipeline <FILE>", "PDAL pipeline that the inputs go through; it may name them itself"),
@@ -60,6 +66,23 @@ function portNumber(text: string): number {
   const number = Number(text);
   if (Number.isInteger(number) && number >= 0 && number <= 65535) return number;
   throw new InvalidArgumentError("a port is a number from 0 to 65535");
+}
+
+/** Options with `--cors` alone read as all origins. */
+function serving<T extends { cors?: true | string[] }>(options: T) {
+  const { cors, ...others } = options;
+  return { ...others, ...(cors !== undefined && { cors: cors === true ? ("any" as const) : cors }) };
+}
+
+/** Origins as browsers send them. */
+function originList(text: string): string[] {
+  return text.split(",").map((piece) => {
+    const origin = URL.canParse(piece) ? new URL(piece).origin : "null";
+    if (origin !== "null" && piece.replace(/\/$/, "").toLowerCase() === origin) return origin;
+    throw new InvalidArgumentError(
+      `${piece} is not an origin such as https://maps.example; to let all read, put --cors at the end of the line`,
+    );
+  });
 }
 
 const program = new Command("groma")
@@ -110,11 +133,14 @@ program
 
 program
   .command("serve")
-  .description("serve the files of a folder with Range and CORS")
+  .description("serve the files of a folder with Range")
   .argument("<folder>")
   .addOption(host())
   .addOption(port())
-  .action(async (folder: string, options) => (await import("./commands/serve.js")).runServe(folder, options));
+  .addOption(cors())
+  .action(async (folder: string, options) =>
+    (await import("./commands/serve.js")).runServe(folder, serving(options)),
+  );
 
 const view = program
   .command("view")
@@ -123,7 +149,10 @@ const view = program
   .addOption(progress())
   .addOption(host())
   .addOption(port())
-  .action(async (file: string, options) => (await import("./commands/view.js")).runView(file, options));
+  .addOption(cors())
+  .action(async (file: string, options) =>
+    (await import("./commands/view.js")).runView(file, serving(options)),
+  );
 
 for (const command of [convert, view]) {
   for (const option of [...placing(), ...reading()]) command.addOption(option);

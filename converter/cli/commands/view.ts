@@ -15,11 +15,10 @@ import { count } from "../output.js";
 import { chosenProj } from "../place/engine.js";
 import { placed } from "../placed.js";
 import { createProgress, defaultProgress } from "../progress.js";
-import { mountFile, ServerError, serve } from "../server.js";
-import type { ServeOptions } from "./serve.js";
+import { mountFile, ServerError, type ServingOptions, serve } from "../server/server.js";
 
 /** Of the options of a conversion, those that `view` takes too say how the file is read and where it is. */
-export interface ViewOptions extends ConvertOptions, ServeOptions {}
+export interface ViewOptions extends ConvertOptions, ServingOptions {}
 
 /** The built page; served as files, not imported. */
 const page = fileURLToPath(new URL("../../../demo/dist", import.meta.url));
