@@ -24,6 +24,11 @@ const georef = (name, allowed) =>
 const layer = (name, allowed) =>
   onlyTo(`layer-${name}`, `layer/src/${name}`, [...allowed.map((other) => `layer/src/${other}`), "georef"]);
 
+/** What everybody may know of a source of points, whatever its format. */
+const CONTRACT = "sources/(point-source|point-attribute|statistics)\\.ts";
+/** What chooses the format. */
+const OPEN_SOURCE = "sources/open-source\\.ts";
+
 /** @type {import("dependency-cruiser").IConfiguration} */
 module.exports = {
   forbidden: [
@@ -58,11 +63,16 @@ module.exports = {
     layer("errors", []),
     layer("sources", ["errors"]),
     layer("sources/bytes", ["errors"]),
-    layer("sources/las", ["sources/bytes", "errors"]),
-    layer("sources/copc", ["sources/las", "sources/bytes", "errors"]),
-    layer("octree", ["sources", "errors"]),
-    layer("workers", ["sources", "errors"]),
-    layer("cloud", ["octree", "workers", "sources", "errors"]),
+    layer("sources/las", [CONTRACT, "sources/bytes", "errors"]),
+    layer("sources/copc", [CONTRACT, "sources/las", "sources/bytes", "errors"]),
+    onlyTo("sources-contract-knows-no-format", `layer/src/${CONTRACT}`, [
+      "layer/src/sources/bytes",
+      "layer/src/errors",
+      "georef",
+    ]),
+    layer("octree", [CONTRACT, "errors"]),
+    layer("workers", [CONTRACT, OPEN_SOURCE, "errors"]),
+    layer("cloud", ["octree", "workers", CONTRACT, OPEN_SOURCE, "errors"]),
     layer("clips", ["octree", "errors"]),
     layer("effects", ["clips", "octree", "errors"]),
     layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "errors"]),
@@ -82,7 +92,7 @@ module.exports = {
   ],
   options: {
     doNotFollow: { path: "node_modules" },
-    exclude: { path: ["^demo/dist/", "/dist/.*\\.map$", "\\.test\\.ts$", "/target/"] },
+    exclude: { path: ["^demo/dist/", "/dist/.*\\.map$", "\\.(test|fixture)\\.ts$", "/target/"] },
     tsPreCompilationDeps: true,
     tsConfig: { fileName: "tsconfig.base.json" },
     enhancedResolveOptions: { exportsFields: ["exports"], conditionNames: ["types", "import", "default"] },

@@ -14,12 +14,18 @@ export {
   type PointCloudOptions,
   type PointRecord,
   type RecordValue,
-  type SourceBox,
   type StreamLimits,
 } from "./cloud/index.js";
 export { DecodeError, FormatError, SourceError, StyleError } from "./errors/index.js";
-export { SharedBudget, type SharedBudgetOptions } from "./octree/index.js";
-export type { ByteSource, CloudStatistics, HttpOptions, ReadOptions, SourceLike } from "./sources/index.js";
+export { SharedBudget, type SharedBudgetOptions, type VoxelKey } from "./octree/index.js";
+export type {
+  ByteSource,
+  CloudStatistics,
+  HttpOptions,
+  ReadOptions,
+  SourceBox,
+  SourceLike,
+} from "./sources/index.js";
 export {
   type Column,
   LazDecoder,

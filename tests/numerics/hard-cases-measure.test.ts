@@ -107,12 +107,14 @@ describe.skipIf(missing)(titled("hard cases of measuring at their own tolerance"
         expect(Math.abs(high + low - number(row, "x"))).toBeLessThanOrEqual(tolerance(row));
       },
       edge: (row) => {
-        const info = { center: [0, 0, 0], halfSize: number(row, "L") / 2 };
+        const size = number(row, "L");
+        const boundingBox = { min: [0, 0, 0], max: [size, size, size] } as const;
         const geometry = new NodeGeometry(
-          info as unknown as ConstructorParameters<typeof NodeGeometry>[0],
-          {} as ConstructorParameters<typeof NodeGeometry>[1],
+          { boundingBox, cube: [0, 0, 0, size], spacing: 1 },
           () => undefined,
-          { horizontalUnit: { name: "metre", kind: "linear", size: 1 } },
+          {
+            horizontalUnit: { name: "metre", kind: "linear", size: 1 },
+          },
         );
         const [, , , edge] = geometry.cube({ depth: number(row, "levels"), x: 0, y: 0, z: 0 });
         expect(edge).toBe(row.truth.edge);

@@ -41,7 +41,7 @@ export async function inspect(file: string): Promise<Inspection> {
     const header = await headerDetails(source);
     const { octree, octreeProblem } = scan.copc ? await octreeOf(source) : noOctree;
     const whole = scan.groma?.["2"];
-    const taken = whole ? undefined : await sample(source, scan, header, octree?.nodes ?? []);
+    const taken = whole ? undefined : await sample(source, scan, header, octree);
     const statistics = whole ?? taken?.statistics;
     const time = statistics?.attributes.find(({ name }) => name === "gpsTime");
     return {
@@ -57,12 +57,12 @@ export async function inspect(file: string): Promise<Inspection> {
 const noOctree = { octree: undefined, octreeProblem: undefined } as const;
 
 async function octreeOf(source: FileSource): Promise<Pick<Inspection, "octree" | "octreeProblem">> {
-  const [{ openCopc }, { octree }] = await Promise.all([
+  const [{ openSource }, { octree }] = await Promise.all([
     import("@groma/layer/sources"),
     import("./octree.js"),
   ]);
   try {
-    return { octree: await octree(await openCopc(source)), octreeProblem: undefined };
+    return { octree: await octree(await openSource(source)), octreeProblem: undefined };
   } catch (error) {
     // Everything else that is known of the file is worth telling all the same.
     return { octree: undefined, octreeProblem: error instanceof Error ? error.message : String(error) };

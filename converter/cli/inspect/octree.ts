@@ -1,4 +1,4 @@
-import type { CopcFile, HierarchyEntry } from "@groma/layer/sources";
+import type { HierarchyEntry, PointSource } from "@groma/layer/sources";
 
 /** One level of the octree. */
 export interface Level {
@@ -16,42 +16,44 @@ export interface Octree {
   readonly whole: boolean;
   /** Nodes with points, the coarse ones first. */
   readonly nodes: readonly HierarchyEntry[];
+  /** Where their points come from. */
+  readonly source: PointSource;
 }
 
-/** Bytes of the hierarchy that are read at most: two million nodes. */
-const MOST_BYTES = 1 << 26;
+/** Entries of the hierarchy that are read at most. */
+const MOST_ENTRIES = 1 << 21;
 
 /** Reads the hierarchy page by page. @throws FormatError, SourceError */
-export async function octree(copc: CopcFile): Promise<Octree> {
-  const { readHierarchyPage } = await import("@groma/layer/sources");
-  const pages = [copc.info.rootPage];
-  const seen = new Set<number>();
+export async function octree(source: PointSource): Promise<Octree> {
+  const pages = [source.rootPage];
+  const seen = new Set<string>();
   const nodes: HierarchyEntry[] = [];
-  let bytes = 0;
-  for (let page = pages.shift(); page; page = pages.shift()) {
-    // A damaged file may lead back to a page.
-    if (seen.has(page.offset)) continue;
-    seen.add(page.offset);
-    bytes += page.length;
-    if (bytes > MOST_BYTES) return { ...counted(nodes, copc.info.spacing), whole: false };
-    for (const entry of await readHierarchyPage(copc, page)) {
-      if (entry.pointCount === -1) pages.push(entry.address);
-      else if (entry.pointCount > 0) nodes.push(entry);
+  let left = MOST_ENTRIES;
+  for (let page = pages.shift(); page !== undefined; page = pages.shift()) {
+    for (const entry of await source.page(page)) {
+      if (left-- === 0) return { ...counted(nodes, source), whole: false };
+      const { depth, x, y, z, pointCount, address } = entry;
+      if (pointCount > 0) nodes.push(entry);
+      if (pointCount !== -1) continue;
+      const name = [depth, x, y, z].join("-");
+      // A damaged file may lead back to a page.
+      if (!seen.has(name)) pages.push(address);
+      seen.add(name);
     }
   }
-  return { ...counted(nodes, copc.info.spacing), whole: true };
+  return { ...counted(nodes, source), whole: true };
 }
 
-function counted(nodes: HierarchyEntry[], spacing: number): Omit<Octree, "whole"> {
+function counted(nodes: HierarchyEntry[], source: PointSource): Omit<Octree, "whole"> {
   const levels: { level: number; nodes: number; points: number; spacing: number }[] = [];
   nodes.sort((a, b) => a.depth - b.depth);
   for (const { depth, pointCount } of nodes) {
     if (levels.at(-1)?.level !== depth) {
-      levels.push({ level: depth, nodes: 0, points: 0, spacing: spacing / 2 ** depth });
+      levels.push({ level: depth, nodes: 0, points: 0, spacing: source.spacing / 2 ** depth });
     }
     const level = levels.at(-1)!;
     level.nodes++;
     level.points += pointCount;
   }
-  return { levels, nodes };
+  return { levels, nodes, source };
 }

@@ -1,8 +1,8 @@
-import type { HierarchyEntry } from "@groma/layer/sources";
 import type { Scan, ScanStatistics } from "../core.js";
 import { fields } from "./fields.js";
 import type { FileSource } from "./file-source.js";
 import type { HeaderDetails } from "./header.js";
+import type { Octree } from "./octree.js";
 
 /** Statistics of some of the points, for a file that has none of all. */
 export interface Sample {
@@ -28,22 +28,22 @@ const PLACES = 50;
  * Looks at a bounded number of points: of LAS evenly spread ones, of COPC the coarsest nodes, which cover the whole, of
  * LAZ the first chunk, since the others cannot be found without reading all before them.
  *
- * @param nodes of the octree, the coarse ones first; empty for a file without
+ * @param octree of a COPC file; undefined for a file without
  * @returns nothing for point formats that cannot be decoded here, and for damaged data
  */
 export async function sample(
   source: FileSource,
   scan: Scan,
   { pointsOffset, records }: HeaderDetails,
-  nodes: readonly HierarchyEntry[],
+  octree: Octree | undefined,
 ): Promise<Sample | undefined> {
   const most = Math.min(MOST_POINTS, Math.floor(MOST_BYTES / scan.recordLength), scan.points);
   if (most === 0) return undefined;
   try {
     const [taken, of] = !scan.compressed
       ? [await spread(source, scan, pointsOffset, most), "evenly spread"]
-      : nodes.length > 0
-        ? [await coarse(source, scan, nodes, most), "those of the coarsest nodes"]
+      : octree && octree.nodes.length > 0
+        ? [await coarse(octree, scan, most), "those of the coarsest nodes"]
         : [await first(source, scan, pointsOffset, chunkSize(source, records), most), "the first ones"];
     const count = taken.reduce((sum, one) => sum + one.count, 0);
     return count > 0 ? { statistics: statisticsOf(scan, taken, count), of } : undefined;
@@ -70,18 +70,13 @@ async function spread(
   return taken;
 }
 
-async function coarse(
-  source: FileSource,
-  scan: Scan,
-  nodes: readonly HierarchyEntry[],
-  most: number,
-): Promise<Records[]> {
+async function coarse({ source, nodes }: Octree, scan: Scan, most: number): Promise<Records[]> {
   const { decodeChunk } = await import("./decode.js");
   const taken: Records[] = [];
   let count = 0;
   for (const { address, pointCount } of nodes) {
     if (count + pointCount > most && count > 0) break;
-    const chunk = await source.read(address.offset, address.offset + Math.min(address.length, MOST_BYTES));
+    const chunk = new Uint8Array(await source.chunk(address));
     const points = Math.min(pointCount, most);
     taken.push({ bytes: await decodeChunk(chunk, scan, points), count: points });
     count += points;

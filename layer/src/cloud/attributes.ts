@@ -1,10 +1,11 @@
 import type { Crs } from "@groma/georef";
-import type { Appearance, RecordField } from "../workers/index.js";
+import type { PointAttribute } from "../sources/point-attribute.js";
+import type { Appearance } from "../workers/index.js";
 import type { AttributeInfo } from "./attribute-info.js";
 
 /** What the list of attributes is made from. */
 export interface AttributeSources {
-  readonly fields: readonly RecordField[];
+  readonly recorded: readonly PointAttribute[];
   /** Whether the points have colours of their own. */
   readonly hasColour: boolean;
   readonly verticalUnit: Crs["verticalUnit"];
@@ -16,30 +17,29 @@ export interface AttributeSources {
 }
 
 const COLOURS = ["red", "green", "blue"];
-const UNITS: Readonly<Record<string, string>> = { scanAngle: "°", gpsTime: "s" };
 
 /** The attributes of a data set's points: colour and heights first, then as they are recorded. */
 export function attributesOf(sources: AttributeSources): AttributeInfo[] {
-  const { fields, hasColour, verticalUnit, elevations, heights, appearance } = sources;
+  const { recorded, hasColour, verticalUnit, elevations, heights, appearance } = sources;
   const colour: AttributeInfo = { name: "color", range: undefined, kind: "color", components: 4 };
   const scalar = { kind: "scalar", components: 1 } as const;
   return [
     ...(hasColour ? [colour] : []),
     { name: "elevation", unit: verticalUnit.name, range: elevations, ...scalar },
     { name: "ellipsoidalHeight", unit: "metre", range: heights, ...scalar },
-    ...fields.filter(({ name }) => !COLOURS.includes(name)).map((field) => infoOf(field, appearance)),
+    ...recorded
+      .filter(({ name }) => !COLOURS.includes(name))
+      .map((attribute) => infoOf(attribute, appearance)),
   ];
 }
 
 function infoOf(
-  { name, description, components, extra }: RecordField,
+  { name, description, unit, kind, components }: PointAttribute,
   appearance?: Appearance,
 ): AttributeInfo {
-  const kind = extra ? "scalar" : name === "flags" ? "flags" : name === "classification" ? "class" : "scalar";
-  const unit = extra ? undefined : UNITS[name];
   return {
     ...{ name, kind, components, range: kind === "flags" ? undefined : appearance?.ranges[name] },
     ...(description && { label: description }),
-    ...(unit && { unit }),
+    ...(unit !== undefined && { unit }),
   };
 }

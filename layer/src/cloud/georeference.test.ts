@@ -12,8 +12,9 @@ import {
 } from "@groma/georef";
 import { beforeAll, describe, expect, it } from "vitest";
 import { SourceError } from "../errors/index.js";
+import { BlobSource } from "../sources/bytes/blob-source.js";
+import { CopcSource } from "../sources/copc/copc-source.js";
 import { type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
-import { BlobSource, openCopc } from "../sources/index.js";
 import { transformationBytes } from "../workers/transformation.fixture.js";
 import { type GeoreferenceOptions, georeferenceOf } from "./georeference.js";
 import type { HeightData } from "./height-data.js";
@@ -92,8 +93,8 @@ function withRecords(georeference: GeoreferenceRecord, third?: Uint8Array): Tiny
 }
 
 async function open(file: TinyCopc, options: GeoreferenceOptions = {}) {
-  const copc = await openCopc(new BlobSource(new Blob([tinyCopc(file).slice()]), "tiny.copc.laz"));
-  return georeferenceOf(copc, { heightData, ...options });
+  const source = await CopcSource.open(new BlobSource(new Blob([tinyCopc(file).slice()]), "tiny.copc.laz"));
+  return georeferenceOf(source, { heightData, ...options });
 }
 
 function placed({ truth }: Awaited<ReturnType<typeof open>>, x: number, y: number, z: number): number[] {

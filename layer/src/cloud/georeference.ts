@@ -19,7 +19,7 @@ import {
   type TruthSources,
   truthOf,
 } from "@groma/georef";
-import type { CopcFile } from "../sources/index.js";
+import type { PointSource } from "../sources/point-source.js";
 import { type HeightData, packagedHeights } from "./height-data.js";
 import {
   crsWithHeights,
@@ -73,27 +73,32 @@ const OVERRULED = "the transformation that the conversion put into the file is n
 const LOST = "the transformation of the conversion is no longer in the file; derived in the page by proj4js";
 
 /**
- * Settles the coordinate system of a file.
+ * Settles the coordinate system of a data set.
  * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED
  * @throws RecordError where the file's georeference record or its transformation is damaged
  * @throws SourceError SOURCE_HEIGHTS where a height reference is given that needs data which cannot be had
  */
-export async function georeferenceOf(copc: CopcFile, options: GeoreferenceOptions): Promise<Georeference> {
-  const record = copc.georeference && decodeRecord(copc.georeference, copc.source.name);
+export async function georeferenceOf(
+  source: PointSource,
+  options: GeoreferenceOptions,
+): Promise<Georeference> {
+  const { name: file, crs: declared } = source;
+  const record = declared.georeference && decodeRecord(declared.georeference, file);
   const { crs: named, vertical, heightData = packagedHeights } = options;
-  if (record && named === undefined && vertical === undefined) return recorded(record, copc, options);
-  const { source, wkt, geoTiff } = copc;
+  if (record && named === undefined && vertical === undefined) return recorded(record, source, options);
+  const { wkt, geoTiff } = declared;
   const epsg =
-    vertical === undefined ? options.epsg : await lookupFor(vertical, source.name, options.epsg, heightData);
+    vertical === undefined ? options.epsg : await lookupFor(vertical, file, options.epsg, heightData);
   if (record && named === undefined && vertical !== undefined) {
-    const crs = crsWithHeights(record, vertical, source.name, epsg);
-    if (copc.transformation && sameHeights(crs, record.crs)) return recorded(record, copc, options);
-    if (copc.transformation) return withOtherHeights(record, copc.transformation, crs, copc, options);
-    return fromCrs(crs, copc, options);
+    const crs = crsWithHeights(record, vertical, file, epsg);
+    const { transformation } = declared;
+    if (transformation && sameHeights(crs, record.crs)) return recorded(record, source, options);
+    if (transformation) return withOtherHeights(record, transformation, crs, source, options);
+    return fromCrs(crs, source, options);
   }
   return fromCrs(
-    resolveCrs({ file: source.name, given: named, givenVertical: vertical, wkt, geoTiff }, epsg),
-    copc,
+    resolveCrs({ file, given: named, givenVertical: vertical, wkt, geoTiff }, epsg),
+    source,
     options,
   );
 }
@@ -103,16 +108,16 @@ async function withOtherHeights(
   { engine, operation }: GeoreferenceRecord,
   bytes: Uint8Array,
   crs: Crs,
-  copc: CopcFile,
+  source: PointSource,
   { tolerance = 0.001, heightData = packagedHeights }: GeoreferenceOptions,
 ): Promise<Georeference> {
   const egm96 = crs.height.kind === "geoid" ? await heightData.egm96() : undefined;
-  const own = decodeTransformation(bytes, copc.source.name);
-  const map = derived({ crs, transformation: regiven(own, crs, copc, egm96) }, copc);
+  const own = decodeTransformation(bytes, source.name);
+  const map = derived({ crs, transformation: regiven(own, crs, source, egm96) }, source);
   const report = operation && operationRegiven(operation, own, crs);
   const placing = { operation: report ?? UNSTATED, geoids: map.geoids };
-  const bound = greatestBound(map.truth, copc, tolerance);
-  const parts = accuracyParts(crs, copc.header.scale, bound, placing);
+  const bound = greatestBound(map.truth, source, tolerance);
+  const parts = accuracyParts(crs, source.scale, bound, placing);
   return {
     ...map,
     ...{ crs, basis: "given", engine, operation: report, tolerance },
@@ -124,13 +129,13 @@ const UNSTATED = { name: "not stated", accuracy: null, ballpark: false };
 const GIVEN = "given by the user";
 
 /** By proj4js in the page, heights above a geoid by EGM96. */
-async function fromCrs(crs: Crs, copc: CopcFile, options: GeoreferenceOptions): Promise<Georeference> {
+async function fromCrs(crs: Crs, source: PointSource, options: GeoreferenceOptions): Promise<Georeference> {
   const { crs: named, vertical, tolerance = 0.001 } = options;
   const given = named !== undefined || vertical !== undefined;
-  const overruled = copc.georeference && copc.transformation;
+  const overruled = source.crs.georeference && source.crs.transformation;
   const whose = given ? "for the system given by the user" : "derived in the page from the file";
-  const by = await transformationByEgm96(crs, copc, options);
-  const map = derived({ crs, ...(by.transformation && { transformation: by.transformation }) }, copc);
+  const by = await transformationByEgm96(crs, source, options);
+  const map = derived({ crs, ...(by.transformation && { transformation: by.transformation }) }, source);
   const placing = by.transformation && {
     operation: {
       name: crs.datum?.operation ?? UNSTATED.name,
@@ -139,7 +144,7 @@ async function fromCrs(crs: Crs, copc: CopcFile, options: GeoreferenceOptions): 
     },
     geoids: map.geoids,
   };
-  const parts = accuracyParts(crs, copc.header.scale, greatestBound(map.truth, copc, tolerance), placing);
+  const parts = accuracyParts(crs, source.scale, greatestBound(map.truth, source, tolerance), placing);
   const told = remarked(parts, "datum operation", overruled ? `${whose}; ${OVERRULED}` : whose);
   return {
     ...map,
@@ -154,12 +159,12 @@ async function fromCrs(crs: Crs, copc: CopcFile, options: GeoreferenceOptions): 
  */
 async function transformationByEgm96(
   crs: Crs,
-  copc: CopcFile,
+  source: PointSource,
   { vertical, heightData = packagedHeights }: GeoreferenceOptions,
 ): Promise<{ transformation?: Uint8Array; lack?: string }> {
   if (crs.height.kind !== "geoid") return {};
   try {
-    return { transformation: await derivedByEgm96(crs, copc, await heightData.egm96()) };
+    return { transformation: await derivedByEgm96(crs, source, await heightData.egm96()) };
   } catch (thrown) {
     if (vertical !== undefined || !(thrown instanceof GromaError)) throw thrown;
     return { lack: thrown.cause };
@@ -169,18 +174,18 @@ async function transformationByEgm96(
 /** As the conversion settled it. */
 function recorded(
   record: GeoreferenceRecord,
-  copc: CopcFile,
+  source: PointSource,
   { tolerance = 0.001 }: GeoreferenceOptions,
 ): Georeference {
   const { crs, similarity, engine, operation } = record;
-  const { transformation, header, source } = copc;
+  const { transformation } = source.crs;
   if (engine.name === "similarity" && !similarity) throw withoutSimilarity(source.name);
-  const map = derived({ crs, similarity, transformation }, copc);
+  const map = derived({ crs, similarity, transformation }, source);
   const common = { ...map, crs, basis: "record", tolerance } as const;
-  const bound = greatestBound(map.truth, copc, tolerance);
+  const bound = greatestBound(map.truth, source, tolerance);
   const lost = !transformation && !similarity && (engine.name === "PROJ" || operation !== undefined);
   if (lost) {
-    const parts = remarked(accuracyParts(crs, header.scale, bound), "datum operation", LOST);
+    const parts = remarked(accuracyParts(crs, source.scale, bound), "datum operation", LOST);
     return { ...common, engine: ENGINE, operation: undefined, accuracy: statedAccuracy(parts) };
   }
   // The record's own fit is the converter's default; what holds here is the tolerance of this page.
@@ -192,11 +197,11 @@ function recorded(
  * How far a drawn point may be from its exact place, metres: the tolerance, but for data sets so wide that float32
  * alone costs more in their greatest nodes.
  */
-function greatestBound(truth: Truth, { header, source }: CopcFile, tolerance: number): number {
-  const [minX, minY, minZ] = header.min;
-  const [maxX, maxY, maxZ] = header.max;
+function greatestBound(truth: Truth, { name, boundingBox }: PointSource, tolerance: number): number {
+  const [minX, minY, minZ] = boundingBox.min;
+  const [maxX, maxY, maxZ] = boundingBox.max;
   try {
-    const whole = fitPlacement(truth, { minX, minY, minZ, maxX, maxY, maxZ }, tolerance, source.name);
+    const whole = fitPlacement(truth, { minX, minY, minZ, maxX, maxY, maxZ }, tolerance, name);
     return Math.max(tolerance, whole.bound);
   } catch (thrown) {
     // Whoever looks for the sphere around the points finds the same, and says it better.
@@ -208,9 +213,9 @@ function greatestBound(truth: Truth, { header, source }: CopcFile, tolerance: nu
 /** The map, and what follows from it. */
 function derived(
   sources: TruthSources,
-  { header, source }: CopcFile,
+  { name, boundingBox }: PointSource,
 ): Pick<Georeference, "sources" | "truth" | "geoids"> {
-  const truth = truthOf(sources, (header.min[2] + header.max[2]) / 2, source.name);
+  const truth = truthOf(sources, (boundingBox.min[2] + boundingBox.max[2]) / 2, name);
   const steps = typeof truth === "function" ? [] : truth.transformation.steps;
   const geoids = steps.flatMap((step) => (step.kind === "verticalShift" ? [step.window.grid] : []));
   return { sources, truth, geoids };

@@ -21,7 +21,7 @@ import {
   verticalLookup,
   withHeights,
 } from "@groma/georef";
-import type { CopcFile } from "../sources/index.js";
+import type { PointSource } from "../sources/point-source.js";
 import type { HeightData } from "./height-data.js";
 
 const CODE = /^\s*EPSG:(\d{1,6})\s*$/i;
@@ -96,10 +96,10 @@ export function sameHeights(a: Crs, b: Crs): boolean {
 export function regiven(
   transformation: Transformation,
   crs: Crs,
-  copc: CopcFile,
+  source: PointSource,
   egm96: Grid | undefined,
 ): Uint8Array {
-  const geoid = egm96 && egm96Step(egm96, boundsOf(transformation, copc));
+  const geoid = egm96 && egm96Step(egm96, boundsOf(transformation, source));
   return encodeTransformation(withHeights(transformation, { metresPerUnit: crs.verticalUnit.size, geoid }));
 }
 
@@ -128,22 +128,22 @@ export function operationRegiven(
  *
  * @throws PlacementError PLACE_POLE, PLACE_ANTIMERIDIAN, PLACE_DOMAIN, PLACE_PATCHWORK
  */
-export async function derivedByEgm96(crs: Crs, copc: CopcFile, egm96: Grid): Promise<Uint8Array> {
-  const file = copc.source.name;
-  return encodeTransformation(await deriveTransformation(crs, domainOf(copc), { egm96, file }));
+export async function derivedByEgm96(crs: Crs, source: PointSource, egm96: Grid): Promise<Uint8Array> {
+  const file = source.name;
+  return encodeTransformation(await deriveTransformation(crs, domainOf(source), { egm96, file }));
 }
 
 /** The bounds of the points, and one step of their integers around. */
-function domainOf({ header: { min, max, scale } }: CopcFile): Domain {
+function domainOf({ boundingBox: { min, max }, scale }: PointSource): Domain {
   const [minX, minY, minZ] = min.map((least, axis) => least - scale[axis]);
   const [maxX, maxY, maxZ] = max.map((greatest, axis) => greatest + scale[axis]);
   return { minX, minY, minZ, maxX, maxY, maxZ };
 }
 
 /** Where the data set lies on the earth. */
-function boundsOf(transformation: Transformation, copc: CopcFile) {
-  const { evaluate } = compileTransformation(transformation, copc.source.name);
-  const [min, max] = [copc.header.min, copc.header.max];
+function boundsOf(transformation: Transformation, source: PointSource) {
+  const { evaluate } = compileTransformation(transformation, source.name);
+  const { min, max } = source.boundingBox;
   const points = spread({
     minX: min[0],
     minY: min[1],
@@ -162,7 +162,7 @@ function boundsOf(transformation: Transformation, copc: CopcFile) {
   if (bounds) return bounds;
   throw new PlacementError({
     code: "PLACE_DOMAIN",
-    file: copc.source.name,
+    file: source.name,
     cause: "its coordinates lie outside what the transformation in its georeference record covers",
     fix: "convert the scan again, or give its coordinate system with the option crs",
   });

@@ -3,4 +3,4 @@ export type { GeoreferenceOptions } from "./georeference.js";
 export type { HeightData } from "./height-data.js";
 export { guessHeights } from "./height-guess.js";
 export { NodeStream, type StreamLimits, type StreamListener, type StreamProgress } from "./node-stream.js";
-export { PointCloud, type PointCloudOptions, type SourceBox } from "./point-cloud.js";
+export { PointCloud, type PointCloudOptions } from "./point-cloud.js";

@@ -14,7 +14,7 @@ const VERTICES = { count: 50, bytes: 1000 } as NodeVertices;
 class Streamed {
   readonly store: NodeStore;
   readonly stream: NodeStream;
-  readonly read: number[] = [];
+  readonly read: unknown[] = [];
   failing = false;
 
   constructor(octree: PagedOctree, knownNodes: number) {
@@ -25,9 +25,8 @@ class Streamed {
       if (this.failing) throw new Error("gone");
     };
     const open = (node: OctreeNode) => {
-      const offset = node.address?.offset ?? 0;
-      this.read.push(offset);
-      insertPage(this.store, node, octree.pages.get(offset) ?? []);
+      this.read.push(node.address);
+      insertPage(this.store, node, octree.pages.get(node.address) ?? []);
     };
     this.stream = new NodeStream(
       {

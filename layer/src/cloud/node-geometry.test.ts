@@ -1,8 +1,7 @@
 import { exactTransform, pointTransform, resolveCrs } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import type { CopcInfo, LasHeader } from "../sources/index.js";
-import { NodeGeometry } from "./node-geometry.js";
+import { type GeometrySource, NodeGeometry } from "./node-geometry.js";
 
 /** A data set's geometry, with its map. */
 function geometryOf(
@@ -14,13 +13,12 @@ function geometryOf(
   const crs = resolveCrs({ file: "a", given, givenVertical: "ellipsoidal" });
   const truth = exactTransform(crs);
   const [x, y] = corner;
-  const header = { min: [x, y, heights[0]], max: [x + edge, y + edge, heights[1]] } as unknown as LasHeader;
-  const center = [x + edge / 2, y + edge / 2, heights[0] + edge / 2] as const;
-  const info: CopcInfo = {
-    ...{ center, halfSize: edge / 2, spacing: edge / 128 },
-    rootPage: { offset: 0, length: 0 },
+  const boundingBox: GeometrySource["boundingBox"] = {
+    min: [x, y, heights[0]],
+    max: [x + edge, y + edge, heights[1]],
   };
-  return { geometry: new NodeGeometry(info, header, truth, crs), place: pointTransform(truth), header };
+  const source: GeometrySource = { boundingBox, cube: [x, y, heights[0], edge], spacing: edge / 128 };
+  return { geometry: new NodeGeometry(source, truth, crs), place: pointTransform(truth), boundingBox };
 }
 
 const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
@@ -36,7 +34,7 @@ describe("NodeGeometry", () => {
     ["a plane", geometryOf(UTM, [450_000, 5_200_000], 1000, [7, 7])],
   ])(
     "has spheres around all points of a node, hardly larger than needed: %s",
-    (_, { geometry, place, header }) => {
+    (_, { geometry, place, boundingBox }) => {
       const unit = fc.double({ min: 0, max: 1, noNaN: true });
       const node = fc.integer({ min: 0, max: 12 }).chain((depth) =>
         fc.record({
@@ -52,8 +50,8 @@ describe("NodeGeometry", () => {
           (key, points) => {
             const bounds = geometry.bounds({ ...key, z: 0 })!;
             const [x, y, z, edge] = geometry.cube({ ...key, z: 0 });
-            const low = [x, y, z].map((from, axis) => Math.max(from, header.min[axis]));
-            const high = [x, y, z].map((from, axis) => Math.min(from + edge, header.max[axis]));
+            const low = [x, y, z].map((from, axis) => Math.max(from, boundingBox.min[axis]));
+            const high = [x, y, z].map((from, axis) => Math.min(from + edge, boundingBox.max[axis]));
             const out = new Float64Array(3);
             const at = (parts: readonly number[]) => {
               const [px, py, pz] = parts.map((part, axis) => low[axis] + part * (high[axis] - low[axis]));

@@ -1,13 +1,10 @@
 import { type Crs, ecefToGeodetic, type PointTransform, pointTransform, type Truth } from "@groma/georef";
 import { ancestorAt, isWithin, keyName, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
-import type { CopcInfo, LasHeader } from "../sources/index.js";
+import type { PointSource } from "../sources/point-source.js";
 import { type AffineMap, affineBounds, affineMap } from "./affine-bounds.js";
 
 /** Radius from which the sag of the ground between samples is reckoned, metres: the least of the WGS84 ellipsoid's. */
 const LEAST_RADIUS_OF_CURVATURE = 6_335_439;
-
-/** COPC writers give spacing as an edge's 128th or so; taken where the file leaves it at 0. */
-const CELLS_PER_EDGE = 128;
 
 /** Every so many levels nodes have maps that nodes below them may use. */
 const LEVELS_PER_MAP = 2;
@@ -15,16 +12,18 @@ const LEVELS_PER_MAP = 2;
 /** Maps that are kept at most, half a kilobyte each. */
 const MAPS = 16_384;
 
+/** What the geometry is made from. */
+export type GeometrySource = Pick<PointSource, "cube" | "boundingBox" | "spacing">;
+
 /** Map of a node's part of the data, where there is one. */
 interface NodeMap {
   readonly key: VoxelKey;
   readonly map: AffineMap | undefined;
 }
 
-/** Cubes of octree nodes: in source coordinates as COPC lays them, and as spheres on the globe. */
+/** Cubes of octree nodes: in source coordinates, and as spheres on the globe. */
 export class NodeGeometry {
-  readonly #info: CopcInfo;
-  readonly #header: LasHeader;
+  readonly #source: GeometrySource;
   readonly #transform: PointTransform;
   readonly #unit: number;
   readonly #maps = new Map<string, NodeMap>();
@@ -33,9 +32,8 @@ export class NodeGeometry {
   /** The box of the node at hand. */
   readonly #box = new Float64Array(6);
 
-  constructor(info: CopcInfo, header: LasHeader, truth: Truth, crs: Pick<Crs, "horizontalUnit">) {
-    this.#info = info;
-    this.#header = header;
+  constructor(source: GeometrySource, truth: Truth, crs: Pick<Crs, "horizontalUnit">) {
+    this.#source = source;
     this.#transform = pointTransform(truth);
     const { kind, size } = crs.horizontalUnit;
     this.#unit = kind === "angular" ? size * LEAST_RADIUS_OF_CURVATURE : size;
@@ -43,17 +41,12 @@ export class NodeGeometry {
 
   /** Cube of a node in source coordinates: min x, y, z and edge. */
   cube({ depth, x, y, z }: VoxelKey): [number, number, number, number] {
-    const { center, halfSize } = this.#info;
-    const edge = (2 * halfSize) / 2 ** depth;
-    return [
-      center[0] - halfSize + x * edge,
-      center[1] - halfSize + y * edge,
-      center[2] - halfSize + z * edge,
-      edge,
-    ];
+    const [minX, minY, minZ, whole] = this.#source.cube;
+    const edge = whole / 2 ** depth;
+    return [minX + x * edge, minY + y * edge, minZ + z * edge, edge];
   }
 
-  /** Least and greatest height above WGS84 of the file's bounding box, metres; zeros where it has no place. */
+  /** Least and greatest height above WGS84 of the data set's bounding box, metres; zeros where it has no place. */
   get heights(): readonly [number, number] {
     const samples = this.#sample(this.#dataBox(ROOT_KEY, new Float64Array(6)));
     if (!samples.every(Number.isFinite)) return [0, 0];
@@ -67,7 +60,7 @@ export class NodeGeometry {
   }
 
   /**
-   * Sphere around the part of a node's cube in which the file has points, and the spacing of its points on the
+   * Sphere around the part of a node's cube in which the data set has points, and the spacing of its points on the
    * ground; undefined where the data set's map has no such place. What the file's own transformation covers ends with
    * its bounding box, which cubes reach beyond.
    *
@@ -128,18 +121,17 @@ export class NodeGeometry {
 
   /** Spacing at a depth, source units. */
   #spacing(depth: number): number {
-    const { spacing, halfSize } = this.#info;
-    return (spacing || (2 * halfSize) / CELLS_PER_EDGE) / 2 ** depth;
+    return this.#source.spacing / 2 ** depth;
   }
 
-  /** Part of a node's cube inside the file's bounding box; the cube where they do not meet: min x, y, z, max x, y, z. */
+  /** Part of a node's cube inside the data set's bounding box; the cube where they do not meet: min x, y, z, max x, y, z. */
   #dataBox(key: VoxelKey, out: Float64Array): Float64Array {
-    const { min, max } = this.#header;
-    const { center, halfSize } = this.#info;
-    const edge = (2 * halfSize) / 2 ** key.depth;
-    out[0] = center[0] - halfSize + key.x * edge;
-    out[1] = center[1] - halfSize + key.y * edge;
-    out[2] = center[2] - halfSize + key.z * edge;
+    const { min, max } = this.#source.boundingBox;
+    const [minX, minY, minZ, whole] = this.#source.cube;
+    const edge = whole / 2 ** key.depth;
+    out[0] = minX + key.x * edge;
+    out[1] = minY + key.y * edge;
+    out[2] = minZ + key.z * edge;
     let meet = true;
     for (let axis = 0; axis < 3; axis++) {
       out[axis + 3] = out[axis] + edge;

@@ -1,6 +1,6 @@
 import { FormatError } from "../errors/index.js";
 import { LruCache, type OctreeNode } from "../octree/index.js";
-import type { ByteSource } from "../sources/index.js";
+import type { PointSource } from "../sources/point-source.js";
 import type { Appearance, ChunkJob, NodeExecutor, NodeRecords, NodeVertices } from "../workers/index.js";
 import type { NodeGeometry } from "./node-geometry.js";
 
@@ -11,7 +11,7 @@ type Judged =
 
 /** What a loader works with. */
 export interface LoaderParts {
-  readonly source: ByteSource;
+  readonly source: Pick<PointSource, "name" | "chunk">;
   readonly executor: NodeExecutor;
   /** Number of the data set with the executor. */
   readonly dataSet: number;
@@ -21,10 +21,10 @@ export interface LoaderParts {
   readonly appearance: Appearance | undefined;
 }
 
-/** Bytes of plain records that are kept for points to be read again: some ten nodes. */
+/** Bytes of records that are kept for points to be read again: some ten nodes. */
 const RECORD_BYTES = 32 * 1024 * 1024;
 
-/** Reads the chunks of nodes and has them made into vertices or plain records. */
+/** Reads the chunks of nodes and has them made into vertices or records. */
 export class NodeLoader {
   readonly #parts: LoaderParts;
   // By name, not by node: hierarchy pages may be given up meanwhile, and bring other nodes when they are read again.
@@ -82,7 +82,7 @@ export class NodeLoader {
   async #decode(node: OctreeNode): Promise<NodeRecords> {
     const { name, pointCount } = node;
     const records = await this.#parts.executor.records(await this.#jobOf(node, undefined));
-    this.#records.set(name, records, { points: pointCount, bytes: records.bytes.byteLength });
+    this.#records.set(name, records, { points: pointCount, bytes: bytesOf(records) });
     this.#records.trim((candidate) => candidate === name);
     return records;
   }
@@ -109,12 +109,16 @@ export class NodeLoader {
   async #jobOf(node: OctreeNode, signal: AbortSignal | undefined): Promise<ChunkJob> {
     const { source, dataSet, geometry } = this.#parts;
     const { address, pointCount, name } = node;
-    if (!address || pointCount === 0) throw noNode(name, source.name);
-    const bytes = await source.read(address.offset, address.offset + address.length, { signal });
-    const whole = bytes.byteLength === bytes.buffer.byteLength;
-    const chunk = (whole ? bytes.buffer : bytes.slice().buffer) as ArrayBuffer;
+    if (address === undefined || pointCount === 0) throw noNode(name, source.name);
+    const chunk = await source.chunk(address, { signal });
     return { dataSet, chunk, pointCount, node: name, cube: geometry.cube(node.key) };
   }
+}
+
+/** Bytes that a node's records take. */
+function bytesOf({ xyz, order, attributes }: NodeRecords): number {
+  const buffers = new Set([xyz, order, ...attributes.map(({ bytes }) => bytes)].map(({ buffer }) => buffer));
+  return [...buffers].reduce((sum, { byteLength }) => sum + byteLength, 0);
 }
 
 /** The error for a node that is not there. */

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { NodeStore, type OctreeNode, SharedBudget, type View } from "../octree/index.js";
 import { insertPage } from "../octree/insert-page.fixture.js";
-import type { HierarchyEntry } from "../sources/index.js";
+import type { HierarchyEntry } from "../sources/point-source.js";
 import type { NodeVertices } from "../workers/index.js";
 import { NodeStream } from "./node-stream.js";
 

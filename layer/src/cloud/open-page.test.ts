@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { NodeStore } from "../octree/index.js";
+import { entriesOfPage } from "../sources/copc/hierarchy.js";
 import { pageBytes } from "../sources/copc/tiny-copc.fixture.js";
-import type { CopcFile } from "../sources/index.js";
 import { openPage } from "./open-page.js";
 
 /** A flat octree of six levels in one page. */
@@ -12,12 +12,12 @@ const rows = Array.from({ length: 6 }, (_, depth) =>
   }),
 ).flat();
 
-const offset = 500;
+const address = { offset: 500, length: 32 * rows.length };
 const limits = { file: "a.copc.laz", fileSize: 1e6, pointsOffset: 700, pointCount: 1e6 };
-const copc = { source: { name: "a", read: async () => pageBytes(rows) }, limits } as unknown as CopcFile;
+const source = { page: async () => entriesOfPage(pageBytes(rows), limits) };
 
 function opening() {
-  const store = new NodeStore("a.copc.laz", 1e6, { offset, length: 32 * rows.length });
+  const store = new NodeStore("a.copc.laz", 1e6, address);
   store.root.become("opening");
   return store;
 }
@@ -36,7 +36,7 @@ describe("openPage", () => {
   it("gives the thread back on the way, and shows the page only once all of it is there", async () => {
     const store = opening();
     let done = false;
-    const reading = openPage(copc, store, store.root, undefined).finally(() => {
+    const reading = openPage(source, store, store.root, undefined).finally(() => {
       done = true;
     });
     let turns = 0;
@@ -52,12 +52,12 @@ describe("openPage", () => {
   it("stops on the way, with nothing of the page left, and can begin anew", async () => {
     const store = opening();
     const controller = new AbortController();
-    const reading = openPage(copc, store, store.root, controller.signal);
+    const reading = openPage(source, store, store.root, controller.signal);
     await turn();
     controller.abort(new Error("no longer"));
     await expect(reading).rejects.toThrow("no longer");
-    expect([store.size, store.root.children, store.root.address?.offset]).toEqual([1, undefined, offset]);
-    await openPage(copc, store, store.root, undefined);
+    expect([store.size, store.root.children, store.root.address]).toEqual([1, undefined, address]);
+    await openPage(source, store, store.root, undefined);
     expect(store.size).toBe(rows.length);
   });
 });

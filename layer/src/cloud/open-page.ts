@@ -1,5 +1,5 @@
 import type { NodeStore, OctreeNode } from "../octree/index.js";
-import { type CopcFile, ENTRY_LENGTH, parseHierarchyPage, readPageBytes } from "../sources/index.js";
+import type { PointSource } from "../sources/point-source.js";
 import { Pace } from "./pace.js";
 
 /** Entries between two looks at the clock. */
@@ -11,17 +11,18 @@ const SLICE = 256;
  * @throws SourceError, FormatError; the signal's reason when aborted
  */
 export async function openPage(
-  copc: CopcFile,
+  source: Pick<PointSource, "page">,
   store: NodeStore,
   node: OctreeNode,
   signal: AbortSignal | undefined,
 ): Promise<void> {
   const draft = store.draft(node);
-  const bytes = await readPageBytes(copc, draft.page.address, { signal });
+  const entries = await source.page(draft.page.address, { signal });
   const pace = new Pace(signal);
-  for (let at = 0; at < bytes.length; at += SLICE * ENTRY_LENGTH) {
-    draft.take(parseHierarchyPage(bytes.subarray(at, at + SLICE * ENTRY_LENGTH), copc.limits));
-    await pace.rest();
+  let taken = 0;
+  for (const entry of entries) {
+    draft.take(entry);
+    if (++taken % SLICE === 0) await pace.rest();
   }
   while (draft.grow(SLICE)) await pace.rest();
   store.insertPage(draft);

@@ -1,5 +1,5 @@
 import { type NodeBounds, NodeStore, type OctreeNode, type View, type VoxelKey } from "../octree/index.js";
-import type { HierarchyEntry } from "../sources/index.js";
+import type { HierarchyEntry } from "../sources/point-source.js";
 
 /** Metres of the root's edge; the octree's corner is at the origin of ECEF. */
 export const EDGE = 1024;
@@ -7,14 +7,12 @@ export const EDGE = 1024;
 /** Levels below the root. */
 const DEPTH = 5;
 
-const ENTRY = 32;
-
 /** A flat octree of random shape in pages: nodes with and without points, some missing, some left out by the writer. */
 export interface PagedOctree {
-  /** Entries by the byte at which their page lies. */
-  readonly pages: ReadonlyMap<number, readonly HierarchyEntry[]>;
+  /** Entries by the address of their page. */
+  readonly pages: ReadonlyMap<unknown, readonly HierarchyEntry[]>;
   readonly points: number;
-  readonly first: { readonly offset: number; readonly length: number };
+  readonly first: number;
 }
 
 /** Number from 0 to 1 that depends on what is given alone. */
@@ -27,15 +25,15 @@ function chance(seed: number, { depth, x, y }: VoxelKey, what: number): number {
 
 /** @param seed what its shape depends on */
 export function pagedOctree(seed: number): PagedOctree {
-  const pages = new Map<number, HierarchyEntry[]>();
+  const pages = new Map<unknown, HierarchyEntry[]>();
   let points = 0;
   let next = 1000;
   const enterPage = (key: VoxelKey) => {
     const entries: HierarchyEntry[] = [];
-    const offset = next++;
-    pages.set(offset, entries);
+    const address = next++;
+    pages.set(address, entries);
     enter(key, entries, true);
-    return { offset, length: ENTRY * entries.length };
+    return address;
   };
   const enter = (key: VoxelKey, entries: HierarchyEntry[], first: boolean) => {
     if (!first && chance(seed, key, 0) < 0.25) {
@@ -45,7 +43,7 @@ export function pagedOctree(seed: number): PagedOctree {
     const pointCount = chance(seed, key, 1) < 0.3 ? 0 : 50;
     points += pointCount;
     const written = first || pointCount > 0 || chance(seed, key, 2) < 0.5;
-    if (written) entries.push({ ...key, pointCount, address: { offset: 10, length: pointCount && 32 } });
+    if (written) entries.push({ ...key, pointCount, address: 10 });
     if (key.depth === DEPTH) return;
     for (let child = 0; child < 4; child++) {
       const x = 2 * key.x + (child & 1);

@@ -2,6 +2,7 @@ import { encodeRecord, exactTransform, type GeoreferenceRecord, resolveCrs } fro
 import { describe, expect, it } from "vitest";
 import { pageBytes, type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource, type ByteSource } from "../sources/index.js";
+import { recordFields } from "../sources/las/record-fields.js";
 import type {
   ChunkJob,
   DataSetSpec,
@@ -52,16 +53,19 @@ class Recorder implements NodeExecutor {
   /** Records whose x is their number, drawn last first. */
   async records(job: ChunkJob): Promise<NodeRecords> {
     this.asked.push(job);
-    const bytes = new Uint8Array(36 * job.pointCount);
+    const count = job.pointCount;
+    const bytes = new Uint8Array(36 * count);
     const view = new DataView(bytes.buffer);
-    for (let record = 0; record < job.pointCount; record++) {
-      view.setInt32(36 * record, record, true);
+    const xyz = new Int32Array(3 * count);
+    for (let record = 0; record < count; record++) {
+      xyz[3 * record] = record;
       view.setUint16(36 * record + 12, 7 * record, true);
       view.setFloat64(36 * record + 22, 1e9 / 3 + record, true);
       view.setUint16(36 * record + 32, 65535, true);
     }
-    const order = Uint16Array.from({ length: job.pointCount }, (_, drawn) => job.pointCount - 1 - drawn);
-    return { bytes, order };
+    const order = Uint16Array.from({ length: count }, (_, drawn) => count - 1 - drawn);
+    const attributes = recordFields(7, []).map((field) => ({ ...field, bytes, stride: 36 }));
+    return { count, xyz, attributes, order };
   }
 
   destroy(): void {}

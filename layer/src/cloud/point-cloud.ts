@@ -18,21 +18,14 @@ import {
   sameKey,
   type VoxelKey,
 } from "../octree/index.js";
-import {
-  type CloudStatistics,
-  type CopcFile,
-  type HttpOptions,
-  openBytes,
-  openCopc,
-  type SourceLike,
-} from "../sources/index.js";
+import { type OpenedSource, type OpenOptions, openSource, type SourceLike } from "../sources/open-source.js";
+import type { PointSource, SourceBox } from "../sources/point-source.js";
+import type { CloudStatistics } from "../sources/statistics.js";
 import {
   type Appearance,
   type NodeExecutor,
   type NodeVertices,
   type PoolOptions,
-  type RecordField,
-  recordFields,
   WorkerPool,
 } from "../workers/index.js";
 import { recordedAppearance } from "./appearance.js";
@@ -46,9 +39,7 @@ import { openPage } from "./open-page.js";
 import { pointRecord } from "./point-record.js";
 
 /** How a data set is opened. */
-export interface PointCloudOptions extends GeoreferenceOptions, HttpOptions {
-  /** Stops the opening. */
-  readonly signal?: AbortSignal | undefined;
+export interface PointCloudOptions extends GeoreferenceOptions, OpenOptions {
   /** Where nodes are decoded. Default: an own pool of workers. */
   readonly executor?: NodeExecutor | undefined;
   /** Options of that pool. */
@@ -57,12 +48,6 @@ export interface PointCloudOptions extends GeoreferenceOptions, HttpOptions {
   readonly limits?: StreamLimits | undefined;
   /** Budget that several clouds share; its bytes hold for what is kept. Default: none. */
   readonly budget?: SharedBudget | undefined;
-}
-
-/** Least and greatest corner in source coordinates. */
-export interface SourceBox {
-  readonly min: readonly [number, number, number];
-  readonly max: readonly [number, number, number];
 }
 
 /** A data set, opened once, whatever number of views draw it. Knows no view and no library of views. */
@@ -96,14 +81,13 @@ export class PointCloud {
   /** Brings nodes for views. */
   readonly stream: NodeStream;
 
-  readonly #copc: CopcFile;
+  readonly #source: PointSource;
   readonly #truth: Truth;
   readonly #store: NodeStore;
   readonly #geometry: NodeGeometry;
   readonly #executor: NodeExecutor;
   readonly #ownsExecutor: boolean;
   readonly #dataSet: number;
-  readonly #fields: readonly RecordField[];
   #attributes:
     | { readonly appearance: Appearance | undefined; readonly list: readonly AttributeInfo[] }
     | undefined;
@@ -112,13 +96,13 @@ export class PointCloud {
   readonly #heights: readonly [number, number];
   readonly #opening = new Map<OctreeNode, Promise<void>>();
 
-  private constructor(copc: CopcFile, georeference: Georeference, options: PointCloudOptions) {
-    const { header, info, source } = copc;
+  private constructor(source: OpenedSource, georeference: Georeference, options: PointCloudOptions) {
+    const { boundingBox, statistics, scale, attributes } = source;
     const { crs, sources, truth, tolerance } = georeference;
-    this.#copc = copc;
+    this.#source = source;
     this.#truth = truth;
     this.name = baseName(source.name);
-    this.pointCount = header.pointCount;
+    this.pointCount = source.pointCount;
     this.crs = crs;
     this.height = crs.height;
     this.accuracy = georeference.accuracy;
@@ -126,26 +110,23 @@ export class PointCloud {
     this.engine = georeference.engine;
     this.operation = georeference.operation;
     this.geoids = georeference.geoids;
-    this.statistics = copc.statistics;
-    this.boundingBox = { min: header.min, max: header.max };
-    this.scale = header.scale;
-    this.hasColour = header.pointFormat !== 6 && copc.statistics?.rgbBits !== null;
-    this.#store = new NodeStore(source.name, header.pointCount, info.rootPage);
-    this.#geometry = new NodeGeometry(info, header, truth, crs);
+    this.statistics = statistics;
+    this.boundingBox = boundingBox;
+    this.scale = scale;
+    this.hasColour = attributes.some(({ name }) => name === "red") && statistics?.rgbBits !== null;
+    this.#store = new NodeStore(source.name, source.pointCount, source.rootPage);
+    this.#geometry = new NodeGeometry(source, truth, crs);
     this.bounds = this.#rootBounds();
     this.#heights = this.#geometry.heights;
-    this.#fields = recordFields(header.pointFormat, copc.extraBytes);
     this.#ownsExecutor = options.executor === undefined;
     this.#executor = options.executor ?? new WorkerPool(options.workers);
     this.#dataSet = this.#executor.addDataSet({
       ...sources,
       file: source.name,
-      pointFormat: header.pointFormat,
-      recordLength: header.recordLength,
-      scale: header.scale,
-      offset: header.offset,
-      heights: [header.min[2], header.max[2]],
-      extraBytes: copc.extraBytes,
+      encoding: source.encoding,
+      scale,
+      offset: source.offset,
+      heights: [boundingBox.min[2], boundingBox.max[2]],
       ellipsoidalOrigin: this.#heights[0],
       tolerance,
     });
@@ -155,7 +136,7 @@ export class PointCloud {
       dataSet: this.#dataSet,
       geometry: this.#geometry,
       root: this.#store.root,
-      appearance: recordedAppearance(copc, this.#fields),
+      appearance: recordedAppearance(source),
     });
     this.stream = new NodeStream(
       {
@@ -169,14 +150,13 @@ export class PointCloud {
   }
 
   /**
-   * Opens a COPC file: its header, coordinate system and the root page of its hierarchy; no points yet.
+   * Opens a data set: what it says of itself, its coordinate system and the root page of its hierarchy; no points yet.
    * @param from an address, a `File` or `Blob`, or an own source of bytes
    * @throws SourceError, FormatError, CrsError, PlacementError, RecordError
    */
   static async fromUrl(from: SourceLike, options: PointCloudOptions = {}): Promise<PointCloud> {
-    const source = await openBytes(from, options);
-    const copc = await openCopc(source, { signal: options.signal });
-    const cloud = new PointCloud(copc, await georeferenceOf(copc, options), options);
+    const source = await openSource(from, options);
+    const cloud = new PointCloud(source, await georeferenceOf(source, options), options);
     try {
       await cloud.#openRoot(options.signal);
     } catch (thrown) {
@@ -198,7 +178,11 @@ export class PointCloud {
   #listAttributes(appearance: Appearance | undefined): readonly AttributeInfo[] {
     const { min, max } = this.boundingBox;
     return attributesOf({
-      ...{ fields: this.#fields, hasColour: this.hasColour, verticalUnit: this.crs.verticalUnit },
+      ...{
+        recorded: this.#source.attributes,
+        hasColour: this.hasColour,
+        verticalUnit: this.crs.verticalUnit,
+      },
       ...{ elevations: [min[2], max[2]], heights: this.#heights, appearance },
     });
   }
@@ -209,7 +193,7 @@ export class PointCloud {
    * @throws PlacementError PLACE_DOMAIN where the data set's map has no such place
    */
   place(x: number, y: number, z: number, out: Float64Array = new Float64Array(3)): Float64Array {
-    placePoint(this.#truth, x, y, z, out, this.#copc.source.name);
+    placePoint(this.#truth, x, y, z, out, this.#source.name);
     return out;
   }
 
@@ -249,9 +233,9 @@ export class PointCloud {
     });
     const index = typeof point === "number" ? records.order[point] : point.record;
     if (index === undefined || !(index in records.order)) {
-      throw noNode(`${name} with point ${typeof point === "number" ? point : index}`, this.#copc.source.name);
+      throw noNode(`${name} with point ${typeof point === "number" ? point : index}`, this.#source.name);
     }
-    return pointRecord(name, index, records, this.#copc.header, this.#fields);
+    return pointRecord(name, index, records, this.#source);
   }
 
   /**
@@ -264,7 +248,7 @@ export class PointCloud {
     signal: AbortSignal,
     work: (node: OctreeNode) => Promise<T>,
   ): Promise<T> {
-    const file = this.#copc.source.name;
+    const file = this.#source.name;
     const wanted = typeof key === "string" ? parseKey(key) : key;
     if (!wanted) throw noNode(String(key), file);
     for (;;) {
@@ -316,7 +300,7 @@ export class PointCloud {
     const what = derived ? this.crs.name : "the transformation in its georeference record";
     throw new PlacementError({
       code: "PLACE_DOMAIN",
-      file: this.#copc.source.name,
+      file: this.#source.name,
       cause: `its coordinates lie outside what ${what} covers`,
       fix: derived
         ? "Check the coordinate system, or give the right one with the option crs"
@@ -331,14 +315,14 @@ export class PointCloud {
     if (root.pointCount > 0 || root.children) return;
     throw new FormatError({
       code: "FORMAT_HIERARCHY",
-      file: this.#copc.source.name,
+      file: this.#source.name,
       cause: "its octree names no node with points",
       fix: "Convert the scan again",
     });
   }
 
   async #openPage(node: OctreeNode, signal?: AbortSignal): Promise<void> {
-    const reading = openPage(this.#copc, this.#store, node, signal);
+    const reading = openPage(this.#source, this.#store, node, signal);
     this.#opening.set(node, reading);
     try {
       await reading;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { HierarchyEntry } from "../sources/index.js";
+import type { HierarchyEntry } from "../sources/point-source.js";
 import { insertPage } from "./insert-page.fixture.js";
 import { NodeStore } from "./node-store.js";
 
@@ -82,13 +82,15 @@ describe("NodeStore", () => {
   });
 
   it("refuses a page with nodes of another branch, and a loop of pages", () => {
-    const store = storeOf([entry("0-0-0-0", 1), entry("1-0-0-0", -1, 600), entry("1-1-0-0", -1, 500)]);
+    const first = [entry("0-0-0-0", 1), entry("1-0-0-0", -1, 600), entry("1-1-0-0", -1, 500)];
+    const store = storeOf(first);
     const page = store.closest({ depth: 1, x: 0, y: 0, z: 0 });
     page.become("opening");
     expect(() => insertPage(store, page, [entry("1-1-0-0", 1)])).toThrow(hierarchyError);
     const loop = store.closest({ depth: 1, x: 1, y: 0, z: 0 });
     loop.become("opening");
-    expect(() => insertPage(store, loop, [entry("1-1-0-0", 1)])).toThrow(hierarchyError);
+    expect(() => insertPage(store, loop, first)).toThrow(hierarchyError);
+    expect(() => insertPage(store, loop, [entry("1-1-0-0", -1, 600)])).toThrow(hierarchyError);
   });
 
   it("keeps nothing of a damaged page, so that it can be read again", () => {
@@ -107,8 +109,8 @@ describe("NodeStore", () => {
     const before = [store.size, store.points];
     store.limit = 1;
     expect(store.trim(unused)).toBe(true);
-    expect([page.state, page.pointCount, page.children, page.address?.offset]).toEqual([
-      ...["page", 0, undefined, 600],
+    expect([page.state, page.pointCount, page.children, page.address]).toEqual([
+      ...["page", 0, undefined, { offset: 600, length: 32 }],
     ]);
     expect([store.size, store.points]).toEqual([4, 1]);
     open("1-0-0-0");
@@ -165,7 +167,7 @@ describe("NodeStore", () => {
     const node = store.closest({ depth: 1, x: 1, y: 0, z: 0 });
     node.become("opening");
     const draft = store.draft(node);
-    draft.take(PAGES["1-1-0-0"]);
+    for (const taken of PAGES["1-1-0-0"]) draft.take(taken);
     expect(draft.grow(1)).toBe(true);
     expect([store.closest({ depth: 2, x: 2, y: 0, z: 0 }), store.size, node.pointCount]).toEqual([
       node,

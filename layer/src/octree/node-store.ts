@@ -1,4 +1,4 @@
-import { badHierarchy } from "../sources/index.js";
+import { badHierarchy } from "../sources/point-source.js";
 import { type HierarchyPage, OctreeNode } from "./octree-node.js";
 import { PageDraft } from "./page-draft.js";
 import { ROOT_KEY, type VoxelKey } from "./voxel-key.js";
@@ -7,8 +7,8 @@ import { ROOT_KEY, type VoxelKey } from "./voxel-key.js";
 const LOOKS = 64;
 
 /**
- * The octree as far as its hierarchy pages are known. Pages are held against each other: a page that is there twice,
- * names a node outside its own, or one that is already known, is an error. Beyond a limit the pages used longest ago
+ * The octree as far as its hierarchy pages are known. Pages are held against each other: a page that names a node
+ * outside its own, or one that is already known, is an error, so that none can come twice. Beyond a limit the pages used longest ago
  * are given up; their nodes leave the octree, and come anew when the page is read again.
  */
 export class NodeStore {
@@ -17,16 +17,17 @@ export class NodeStore {
   limit = Number.POSITIVE_INFINITY;
   readonly #file: string;
   readonly #pointLimit: number;
-  /** Pages that were read, by their place in the file, the one used longest ago first. */
-  readonly #pages = new Map<number, HierarchyPage>();
+  /** Pages that were read, the one used longest ago first. */
+  readonly #pages = new Set<HierarchyPage>();
   #points = 0;
   #size = 1;
 
   /**
    * @param file name for errors
    * @param pointLimit number of points in the whole file; all nodes together cannot hold more
+   * @param rootPage where the source finds the first page
    */
-  constructor(file: string, pointLimit: number, rootPage: { offset: number; length: number }) {
+  constructor(file: string, pointLimit: number, rootPage: unknown) {
     this.#file = file;
     this.#pointLimit = pointLimit;
     this.root = new OctreeNode(ROOT_KEY, "page");
@@ -53,9 +54,7 @@ export class NodeStore {
    * @throws FormatError FORMAT_HIERARCHY; nothing of the page is in the octree then
    */
   insertPage({ page, root }: PageDraft): void {
-    const { root: node, address, above } = page;
-    if (this.#pages.has(address.offset))
-      throw badHierarchy(this.#file, `the page at byte ${address.offset} twice`);
+    const { root: node, above } = page;
     if (this.#points + page.points > this.#pointLimit)
       throw badHierarchy(this.#file, `more points than the ${this.#pointLimit} of the header`);
     node.children = root.children;
@@ -64,7 +63,7 @@ export class NodeStore {
     node.become(node.pointCount > 0 ? "listed" : "empty");
     node.page = page;
     above?.below.add(page);
-    this.#pages.set(address.offset, page);
+    this.#pages.add(page);
     this.#points += page.points;
     this.#size += page.nodes;
   }
@@ -76,10 +75,9 @@ export class NodeStore {
 
   /** Notes that a page was used until now. */
   use(page: HierarchyPage): void {
-    const { dropped, address } = page;
-    if (dropped) return;
-    this.#pages.delete(address.offset);
-    this.#pages.set(address.offset, page);
+    if (page.dropped) return;
+    this.#pages.delete(page);
+    this.#pages.add(page);
   }
 
   /**
@@ -90,7 +88,7 @@ export class NodeStore {
   trim(inUse: (page: HierarchyPage) => boolean): boolean {
     let looks = 0;
     let dropped = false;
-    for (const page of this.#pages.values()) {
+    for (const page of this.#pages) {
       if (this.#size <= this.limit || looks++ === LOOKS) break;
       if (!page.above || page.held || inUse(page)) this.use(page);
       else {
@@ -116,7 +114,7 @@ export class NodeStore {
   #forget(page: HierarchyPage): void {
     for (const below of page.below) this.#forget(below);
     page.dropped = true;
-    this.#pages.delete(page.address.offset);
+    this.#pages.delete(page);
     this.#points -= page.points;
     this.#size -= page.nodes;
   }

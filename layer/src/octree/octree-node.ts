@@ -1,4 +1,3 @@
-import type { PageAddress } from "../sources/index.js";
 import { assertLegal, isHeld, type NodeState } from "./node-state.js";
 import { keyName, octant, type VoxelKey } from "./voxel-key.js";
 
@@ -21,8 +20,11 @@ export class OctreeNode {
   children: (OctreeNode | undefined)[] | undefined;
   /** Number of points; 0 until the page is read. */
   pointCount = 0;
-  /** Chunk of points, or the page while the state is `page` or `opening`. */
-  address: PageAddress | undefined;
+  /**
+   * Where the source finds its points, or its page while the state is `page` or `opening`: handed back to the source,
+   * looked into by nobody else. Undefined where there is neither.
+   */
+  address: unknown;
   /** The page that lists it; while the state is `page` or `opening` the one that refers to its page. */
   page: HierarchyPage | undefined;
   /** True where the failure was in reading the page rather than the points. */
@@ -89,7 +91,7 @@ export class OctreeNode {
 export class HierarchyPage {
   /** The node that stands for it in the page above. */
   readonly root: OctreeNode;
-  readonly address: PageAddress;
+  readonly address: unknown;
   /** The page that refers to it; undefined for the first of the file. */
   readonly above: HierarchyPage | undefined;
   /** Pages that it refers to, as far as they were read. */
@@ -104,7 +106,7 @@ export class HierarchyPage {
   dropped = false;
   #holds = 0;
 
-  constructor(root: OctreeNode, address: PageAddress) {
+  constructor(root: OctreeNode, address: unknown) {
     this.root = root;
     this.address = address;
     this.above = root.page;

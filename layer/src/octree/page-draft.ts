@@ -1,4 +1,4 @@
-import { badHierarchy, type HierarchyEntry } from "../sources/index.js";
+import { badHierarchy, type HierarchyEntry } from "../sources/point-source.js";
 import { HierarchyPage, OctreeNode } from "./octree-node.js";
 import { ancestorAt, isWithin, keyName, sameKey } from "./voxel-key.js";
 
@@ -26,24 +26,22 @@ export class PageDraft {
    */
   constructor(file: string, node: OctreeNode) {
     const { address } = node;
-    if (!address) throw new Error(`node ${node.name} has no page`);
+    if (address === undefined) throw new Error(`node ${node.name} has no page`);
     this.#file = file;
     this.page = new HierarchyPage(node, address);
     this.root = new OctreeNode(node.key);
   }
 
   /**
-   * Takes in entries of the page, in whatever order they are.
-   * @throws FormatError FORMAT_HIERARCHY where they belong elsewhere
+   * Takes in an entry of the page; they may come in whatever order.
+   * @throws FormatError FORMAT_HIERARCHY where it belongs elsewhere
    */
-  take(entries: readonly HierarchyEntry[]): void {
-    for (const entry of entries) {
-      if (!isWithin(entry, this.root.key)) {
-        throw badHierarchy(this.#file, `node ${keyName(entry)} in the page of node ${this.root.name}`);
-      }
-      this.#levels[entry.depth] ??= [];
-      this.#levels[entry.depth]?.push(entry);
+  take(entry: HierarchyEntry): void {
+    if (!isWithin(entry, this.root.key)) {
+      throw badHierarchy(this.#file, `node ${keyName(entry)} in the page of node ${this.root.name}`);
     }
+    this.#levels[entry.depth] ??= [];
+    this.#levels[entry.depth]?.push(entry);
   }
 
   /**

@@ -13,7 +13,9 @@ function chunkOf(points: number, sizes: number[], recordLength = 38): Uint8Array
 }
 
 const sizes = [9, 8, 7, 6, 5, 4, 3, 2, 1, 20, 0, 3];
-const check = (bytes: Uint8Array, points = 10) => checkChunk(bytes, 7, 38, points, "a.copc.laz", "0-0-0-0");
+const encoding = { kind: "laz", pointFormat: 7, recordLength: 38, extraLength: 2, fields: [] } as const;
+const check = (bytes: Uint8Array, pointCount = 10) =>
+  checkChunk(bytes, encoding, { pointCount, file: "a.copc.laz", node: "0-0-0-0" });
 const damaged = expect.objectContaining({ code: "DECODE_CHUNK" });
 
 describe("checkChunk", () => {

@@ -1,5 +1,5 @@
 import { DecodeError } from "../errors/index.js";
-import { BASE_RECORD_LENGTH } from "../sources/index.js";
+import type { Encoded, Expected } from "./point-decoder.js";
 
 /** Layers of a compressed record of format 6 (LAZ 1.4): xy and returns, z, class, flags, intensity, angle, user data, source, time. */
 const BASE_LAYERS = 9;
@@ -15,14 +15,10 @@ const COLOUR_LAYERS: Readonly<Record<number, number>> = { 6: 0, 7: 1, 8: 2 };
  */
 export function checkChunk(
   chunk: Uint8Array,
-  pointFormat: number,
-  recordLength: number,
-  pointCount: number,
-  file: string,
-  node: string,
+  { pointFormat, recordLength, extraLength }: Encoded<"laz">,
+  { pointCount, file, node }: Expected,
 ): void {
-  const extraBytes = recordLength - (BASE_RECORD_LENGTH[pointFormat] ?? recordLength);
-  const layers = BASE_LAYERS + (COLOUR_LAYERS[pointFormat] ?? 0) + extraBytes;
+  const layers = BASE_LAYERS + (COLOUR_LAYERS[pointFormat] ?? 0) + extraLength;
   const contents = recordLength + 4 + 4 * layers;
   if (chunk.length < contents) throw badChunk(file, node, `${chunk.length} bytes are too few`);
   const view = new DataView(chunk.buffer, chunk.byteOffset, chunk.byteLength);

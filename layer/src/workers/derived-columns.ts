@@ -1,18 +1,31 @@
 import { type Frame, WGS84 } from "@groma/georef";
+import type { ColumnSink, DrawnPoints } from "./attribute-columns.js";
 import { constantColumn, halfUlp32, type PlannedArray, planArray } from "./column-plan.js";
-import type { ColumnSink, OrderedRecords } from "./record-columns.js";
+import type { StoredAttribute } from "./stored-attribute.js";
 
-/** Bytes of red, green and blue in the formats 7 and 8 (LAS 1.4 R15, tables 16 and 17). */
-const RED = 30;
+/** Names of the attributes that the column `color` stands for. */
+export const COLOUR_CHANNELS: readonly string[] = ["red", "green", "blue"];
 
-/** Greatest colour value; 0 where the format has no colour. */
-export function greatestColour(records: OrderedRecords, pointFormat: number): number {
-  if (pointFormat < 7) return 0;
-  const { bytes, recordLength, count } = records;
+/** Red, green and blue of the points, of 8 or 16 bits each. */
+export type Colours = readonly [red: StoredAttribute, green: StoredAttribute, blue: StoredAttribute];
+
+/** The points' own colours; undefined where they have none that can be shown. */
+export function coloursOf(attributes: readonly StoredAttribute[]): Colours | undefined {
+  const channels = COLOUR_CHANNELS.map((channel) => attributes.find(({ name }) => name === channel));
+  const [red, green, blue] = channels;
+  if (!red || !green || !blue) return undefined;
+  return channels.every((channel) => channel?.type === "uint16" || channel?.type === "uint8")
+    ? [red, green, blue]
+    : undefined;
+}
+
+/** Greatest colour value of the points. */
+export function greatestColour(count: number, colours: Colours): number {
   let greatest = 0;
-  for (let record = 0, at = RED; record < count; record++, at += recordLength) {
-    for (let byte = at; byte < at + 6; byte += 2) {
-      const value = bytes[byte] | (bytes[byte + 1] << 8);
+  for (const { bytes, at, stride, type } of colours) {
+    const upper = type === "uint16" ? 1 : 0;
+    for (let point = 0, from = at; point < count; point++, from += stride) {
+      const value = upper === 0 ? bytes[from] : bytes[from] | (bytes[from + 1] << 8);
       if (value > greatest) greatest = value;
     }
   }
@@ -21,41 +34,46 @@ export function greatestColour(records: OrderedRecords, pointFormat: number): nu
 
 /** Plans the column `color`: RGBA of 8 bits each; 16-bit colours are shown by their upper byte. */
 export function planColour(
-  records: OrderedRecords,
+  { order, count }: DrawnPoints,
+  colours: Colours,
   rgbBits: 8 | 16,
   sink: ColumnSink,
 ): PlannedArray | undefined {
-  const { bytes, recordLength, order, count } = records;
-  const lower = rgbBits === 16 ? 1 : 0;
-  const at = RED + lower;
-  let constant = true;
-  for (let record = 1, from = at + recordLength; constant && record < count; record++, from += recordLength) {
-    constant =
-      bytes[from] === bytes[at] && bytes[from + 2] === bytes[at + 2] && bytes[from + 4] === bytes[at + 4];
-  }
-  if (constant) {
-    const colour = constantColumn("color", [bytes[at], bytes[at + 2], bytes[at + 4], 255]);
-    sink({ ...colour, bound: lower });
+  const lower = rgbBits === 16 && colours[0].type === "uint16" ? 1 : 0;
+  if (colours.every((channel) => isOneByte(count, channel, lower))) {
+    const constant = [...colours.map(({ bytes, at }) => bytes[at + lower]), 255];
+    sink({ ...constantColumn("color", constant), bound: lower });
     return undefined;
   }
   return planArray(Uint8Array, 4 * count, (data) => {
+    const [red, green, blue] = colours;
+    const [r, g, b] = colours.map(({ at }) => at + lower);
     for (let point = 0, to = 0; point < count; point++, to += 4) {
-      const from = order[point] * recordLength + at;
-      data[to] = bytes[from];
-      data[to + 1] = bytes[from + 2];
-      data[to + 2] = bytes[from + 4];
+      const from = order[point];
+      data[to] = red.bytes[from * red.stride + r];
+      data[to + 1] = green.bytes[from * green.stride + g];
+      data[to + 2] = blue.bytes[from * blue.stride + b];
       data[to + 3] = 255;
     }
     sink({ name: "color", components: 4, data, scale: 1, offset: 0, bound: lower });
   });
 }
 
+/** Whether all points have the same in the byte that is shown. */
+function isOneByte(count: number, { bytes, at, stride }: StoredAttribute, lower: number): boolean {
+  const first = bytes[at + lower];
+  for (let point = 1, from = at + lower + stride; point < count; point++, from += stride) {
+    if (bytes[from] !== first) return false;
+  }
+  return true;
+}
+
 /**
  * Plans the column `elevation`: z as recorded, source units, counted from a height.
- * @param xyz LAS integers in the order of the records
+ * @param xyz LAS integers in the order of the chunk
  */
 export function planElevation(
-  { order, count }: OrderedRecords,
+  { order, count }: DrawnPoints,
   xyz: Int32Array,
   range: readonly [number, number],
   scale: number,

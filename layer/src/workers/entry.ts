@@ -1,5 +1,6 @@
 import { create } from "laz-perf/lib/worker/index.js";
 import { DecodeError, toWire } from "../errors/index.js";
+import { decodersWith } from "./decoders.js";
 import { LazDecoder } from "./laz-decoder.js";
 import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
 import type { ChunkJob, WorkerReply, WorkerRequest } from "./protocol.js";
@@ -11,13 +12,26 @@ declare const self: DedicatedWorkerGlobalScope;
 type JobRequest = Extract<WorkerRequest, { readonly job: ChunkJob }>;
 
 const dataSets = new Map<number, PreparedDataSet | unknown>();
-let decoder: Promise<LazDecoder> | undefined;
+let wasm: Promise<Uint8Array> | undefined;
+
+const decoders = decodersWith(
+  new LazDecoder(async () => {
+    wasm ??= fetchWasm();
+    try {
+      return await create({ wasmBinary: await wasm });
+    } catch (thrown) {
+      // What could not be fetched is asked for again with the next job.
+      wasm = undefined;
+      throw thrown;
+    }
+  }),
+);
 
 /** Magic number of a WebAssembly module: `\0asm`. */
 const WASM_MAGIC = [0x00, 0x61, 0x73, 0x6d];
 
-/** Fetches the decoder that lies beside this file. @throws DecodeError DECODE_WASM */
-async function loadDecoder(): Promise<LazDecoder> {
+/** Fetches the LAZ decoder that lies beside this file. @throws DecodeError DECODE_WASM */
+async function fetchWasm(): Promise<Uint8Array> {
   const url = new URL("./laz-perf.wasm", import.meta.url).href;
   const fail = (cause: string) =>
     new DecodeError({
@@ -35,28 +49,23 @@ async function loadDecoder(): Promise<LazDecoder> {
     throw thrown instanceof DecodeError ? thrown : fail("the decoder cannot be fetched");
   }
   if (WASM_MAGIC.some((byte, index) => bytes[index] !== byte)) throw fail("this is not WebAssembly");
-  return new LazDecoder(() => create({ wasmBinary: bytes }));
+  return bytes;
 }
 
-/** Does what a request asks for and says which arrays go along with the answer. */
-async function carryOut(request: JobRequest): Promise<[WorkerReply, ArrayBufferLike]> {
+/** Does what a request asks for and says which buffers go along with the answer. */
+async function carryOut(request: JobRequest): Promise<[WorkerReply, ArrayBufferLike[]]> {
   const { id, job } = request;
   const dataSet = dataSets.get(job.dataSet);
   if (dataSet === undefined) throw new Error(`data set ${job.dataSet} is not known to this worker`);
   if (!isPrepared(dataSet)) throw dataSet;
-  decoder ??= loadDecoder();
-  try {
-    if (request.kind === "node") {
-      const result = await runNodeJob(dataSet, request.job, await decoder);
-      return [{ kind: "vertices", id, result }, result.buffer];
-    }
-    const result = await runRecordsJob(dataSet, request.job, await decoder);
-    return [{ kind: "records", id, result }, result.bytes.buffer];
-  } catch (thrown) {
-    // A decoder that could not be fetched is asked for again with the next job.
-    if (thrown instanceof DecodeError && thrown.code === "DECODE_WASM") decoder = undefined;
-    throw thrown;
+  if (request.kind === "node") {
+    const result = await runNodeJob(dataSet, request.job, decoders);
+    return [{ kind: "vertices", id, result }, [result.buffer]];
   }
+  const result = await runRecordsJob(dataSet, request.job, decoders);
+  const { xyz, order, attributes } = result;
+  const buffers = new Set([xyz, order, ...attributes.map(({ bytes }) => bytes)].map(({ buffer }) => buffer));
+  return [{ kind: "records", id, result }, [...buffers]];
 }
 
 function isPrepared(value: unknown): value is PreparedDataSet {
@@ -74,8 +83,8 @@ function prepare(id: number, request: Extract<WorkerRequest, { kind: "dataSet" }
 
 async function answer(request: JobRequest): Promise<void> {
   try {
-    const [reply, buffer] = await carryOut(request);
-    self.postMessage(reply, [buffer as ArrayBuffer]);
+    const [reply, buffers] = await carryOut(request);
+    self.postMessage(reply, buffers as ArrayBuffer[]);
   } catch (thrown) {
     const fault = toWire(thrown, {
       code: "DECODE_FAILED",

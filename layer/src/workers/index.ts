@@ -12,4 +12,4 @@ export type {
   NodeRecords,
   NodeVertices,
 } from "./protocol.js";
-export { exactValue, type RecordField, recordFields } from "./record-fields.js";
+export { exactValue, type StoredAttribute } from "./stored-attribute.js";

@@ -1,4 +1,6 @@
 import { badChunk, checkChunk } from "./chunk-layout.js";
+import type { DecodedPoints, Encoded, Expected, PointDecoder } from "./point-decoder.js";
+import { readCoordinates } from "./records.js";
 
 /** The part of laz-perf's module that is used; its own types lean on a package that is not there. */
 export interface LazPerf {
@@ -15,8 +17,8 @@ export interface LazPerf {
 /** Records decoded into WebAssembly memory before they are copied out at once. */
 const BLOCK = 4096;
 
-/** Decodes LAZ chunks of point formats 6, 7 and 8 to plain records. */
-export class LazDecoder {
+/** Decodes LAZ chunks of point formats 6, 7 and 8. */
+export class LazDecoder implements PointDecoder<Encoded<"laz">> {
   readonly #create: () => Promise<LazPerf>;
   #module: LazPerf | undefined;
 
@@ -25,19 +27,23 @@ export class LazDecoder {
     this.#create = create;
   }
 
-  /**
-   * Uncompressed records, `pointCount · recordLength` bytes.
-   * @throws DecodeError DECODE_CHUNK
-   */
-  async decode(
+  /** @throws DecodeError DECODE_CHUNK */
+  async decode(chunk: Uint8Array, encoding: Encoded<"laz">, expected: Expected): Promise<DecodedPoints> {
+    checkChunk(chunk, encoding, expected);
+    const bytes = await this.#records(chunk, encoding, expected);
+    const { recordLength, fields } = encoding;
+    return {
+      xyz: readCoordinates(bytes, recordLength),
+      attributes: fields.map((field) => ({ ...field, bytes, stride: recordLength })),
+    };
+  }
+
+  /** Uncompressed records, `pointCount · recordLength` bytes. */
+  async #records(
     chunk: Uint8Array,
-    pointFormat: number,
-    recordLength: number,
-    pointCount: number,
-    file: string,
-    node: string,
+    { pointFormat, recordLength }: Encoded<"laz">,
+    { pointCount, file, node }: Expected,
   ): Promise<Uint8Array> {
-    checkChunk(chunk, pointFormat, recordLength, pointCount, file, node);
     const module = this.#module ?? (await this.#create());
     this.#module = module;
     try {

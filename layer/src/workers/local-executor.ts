@@ -1,16 +1,17 @@
+import { type Decoders, decodersWith } from "./decoders.js";
 import type { LazDecoder } from "./laz-decoder.js";
 import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
 import type { ChunkJob, DataSetSpec, NodeExecutor, NodeJob, NodeRecords, NodeVertices } from "./protocol.js";
 
 /** Carries out node jobs on the calling thread: for tools and tests, where nothing else waits for it. */
 export class LocalExecutor implements NodeExecutor {
-  readonly #decoder: LazDecoder;
+  readonly #decoders: Decoders;
   readonly #dataSets = new Map<number, PreparedDataSet>();
   #next = 1;
   #pending = 0;
 
-  constructor(decoder: LazDecoder) {
-    this.#decoder = decoder;
+  constructor(laz: LazDecoder) {
+    this.#decoders = decodersWith(laz);
   }
 
   get pending(): number {
@@ -27,11 +28,11 @@ export class LocalExecutor implements NodeExecutor {
   }
 
   run(job: NodeJob, signal?: AbortSignal): Promise<NodeVertices> {
-    return this.#carryOut(job, signal, (dataSet) => runNodeJob(dataSet, job, this.#decoder));
+    return this.#carryOut(job, signal, (dataSet) => runNodeJob(dataSet, job, this.#decoders));
   }
 
   records(job: ChunkJob, signal?: AbortSignal): Promise<NodeRecords> {
-    return this.#carryOut(job, signal, (dataSet) => runRecordsJob(dataSet, job, this.#decoder));
+    return this.#carryOut(job, signal, (dataSet) => runRecordsJob(dataSet, job, this.#decoders));
   }
 
   destroy(): void {

@@ -1,15 +1,19 @@
 import type { Frame } from "@groma/georef";
+import { type DrawnPoints, planAttribute } from "./attribute-columns.js";
 import { layOut, type PlannedArray, planArray } from "./column-plan.js";
-import { greatestColour, planColour, planElevation, planHeight } from "./derived-columns.js";
+import {
+  COLOUR_CHANNELS,
+  coloursOf,
+  greatestColour,
+  planColour,
+  planElevation,
+  planHeight,
+} from "./derived-columns.js";
 import type { Appearance, Column, DataSetSpec, NodeVertices } from "./protocol.js";
-import { type OrderedRecords, planField } from "./record-columns.js";
-import type { RecordField } from "./record-fields.js";
-
-/** Fields that the column `color` stands for. */
-const COLOURS = ["red", "green", "blue"];
+import type { StoredAttribute } from "./stored-attribute.js";
 
 /** A node's placed points, as the columns need them. */
-export interface PlacedPoints {
+export interface PlacedPoints extends DrawnPoints {
   readonly xyz: Int32Array;
   /** Least and greatest z, LAS integers. */
   readonly heights: readonly [number, number];
@@ -26,34 +30,32 @@ export type NodeArrays = Pick<NodeVertices, "buffer" | "positions" | "columns" |
 /** Makes all arrays of a node. */
 export function makeArrays(
   spec: DataSetSpec,
-  fields: readonly RecordField[],
-  records: OrderedRecords,
-  placed: PlacedPoints,
+  attributes: readonly StoredAttribute[],
+  points: PlacedPoints,
   given: Appearance | undefined,
 ): NodeArrays {
-  const { count } = records;
+  const { count, xyz, heights, frame, bound } = points;
   const columns: Record<string, Column> = {};
   const sink = (column: Column) => {
     columns[column.name] = column;
   };
   let positions = new Float32Array(0);
-  let order = records.order;
-  const coloured = spec.pointFormat >= 7;
-  const rgbBits = given?.rgbBits ?? (greatestColour(records, spec.pointFormat) > 255 ? 16 : 8);
-  const { xyz, heights, frame, bound } = placed;
+  let { order } = points;
+  const colours = coloursOf(attributes);
+  const rgbBits = given?.rgbBits ?? (colours && greatestColour(count, colours) > 255 ? 16 : 8);
   const planned: (PlannedArray | undefined)[] = [
     planArray(Float32Array, 3 * count, (array) => {
-      placed.place(array);
+      points.place(array);
       positions = array;
     }),
-    planOrder(records.order, (array) => {
+    planOrder(points.order, (array) => {
       order = array;
     }),
-    coloured ? planColour(records, rgbBits, sink) : undefined,
-    ...fields
-      .filter(({ name }) => !COLOURS.includes(name))
-      .map((field) => planField(records, field, given?.ranges[field.name]?.[0], sink)),
-    planElevation(records, xyz, heights, spec.scale[2], spec.offset[2], spec.heights[0], sink),
+    colours && planColour(points, colours, rgbBits, sink),
+    ...attributes
+      .filter(({ name }) => !COLOUR_CHANNELS.includes(name))
+      .map((attribute) => planAttribute(points, attribute, given?.ranges[attribute.name]?.[0], sink)),
+    planElevation(points, xyz, heights, spec.scale[2], spec.offset[2], spec.heights[0], sink),
     planHeight(() => positions, count, frame, bound, spec.ellipsoidalOrigin, sink),
   ];
   const buffer = layOut(planned.filter((array) => array !== undefined));
@@ -61,10 +63,7 @@ export function makeArrays(
   return { buffer, positions, columns, order, seen };
 }
 
-function planOrder(
-  order: OrderedRecords["order"],
-  sink: (copy: OrderedRecords["order"]) => void,
-): PlannedArray {
+function planOrder(order: DrawnPoints["order"], sink: (copy: DrawnPoints["order"]) => void): PlannedArray {
   const fill = (array: Uint16Array | Uint32Array) => {
     array.set(order);
     sink(array);

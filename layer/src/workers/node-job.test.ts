@@ -1,6 +1,7 @@
 import { ecefToGeodetic, placePoint, resolveCrs } from "@groma/georef";
 import { beforeAll, describe, expect, it } from "vitest";
-import type { LazDecoder } from "./laz-decoder.js";
+import { recordFields } from "../sources/las/record-fields.js";
+import type { Decoders } from "./decoders.js";
 import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
 import type { Column, DataSetSpec, NodeJob, NodeVertices } from "./protocol.js";
 import { transformationBytes } from "./transformation.fixture.js";
@@ -15,25 +16,31 @@ const crs = resolveCrs({
 const DOMAIN = { minX: 500_000, minY: 5_500_000, maxX: 501_000, maxY: 5_501_000 };
 
 const plain: DataSetSpec = {
-  ...{ file: FILE, crs, pointFormat: 7, recordLength: RECORD, tolerance: 0.001 },
+  ...{ file: FILE, crs, tolerance: 0.001 },
   ...{ scale: [0.001, 0.001, 0.001], offset: [500_000, 5_500_000, 0], heights: [0, 50] },
-  ...{ extraBytes: [], ellipsoidalOrigin: -3 },
+  encoding: {
+    kind: "laz",
+    pointFormat: 7,
+    recordLength: RECORD,
+    extraLength: 0,
+    fields: recordFields(7, []),
+  },
+  ellipsoidalOrigin: -3,
 };
 
 /** Three points at corners of the domain and one inside, LAS integers. */
 const XYZ = [0, 0, 0, 1_000_000, 1_000_000, 50_000, 0, 1_000_000, 25_000, 123_456, 654_321, 10_000];
 
-/** Hands out plain records in place of a chunk. */
-const decoder = {
-  decode: async () => {
-    const bytes = new Uint8Array((XYZ.length / 3) * RECORD);
-    const view = new DataView(bytes.buffer);
-    XYZ.forEach((value, i) => {
-      view.setInt32(Math.floor(i / 3) * RECORD + 4 * (i % 3), value, true);
-    });
-    return bytes;
+/** Hands out points whose attributes are all 0 in place of a chunk. */
+const decoders: Decoders = {
+  laz: {
+    decode: async (_, { fields }) => {
+      const bytes = new Uint8Array((XYZ.length / 3) * RECORD);
+      const attributes = fields.map((field) => ({ ...field, bytes, stride: RECORD }));
+      return { xyz: Int32Array.from(XYZ), attributes };
+    },
   },
-} as unknown as LazDecoder;
+};
 
 const job: NodeJob = {
   ...{ dataSet: 1, chunk: new ArrayBuffer(0), pointCount: 4, node: "0-0-0-0" },
@@ -56,7 +63,7 @@ function placeOf(dataSet: PreparedDataSet, vertices: NodeVertices, point: number
 /** Greatest distance of a stored vertex from where the data set's own map has it, and the node's bound. */
 async function worst(spec: DataSetSpec): Promise<{ distance: number; bound: number }> {
   const dataSet = prepareDataSet(spec);
-  const vertices = await runNodeJob(dataSet, job, decoder);
+  const vertices = await runNodeJob(dataSet, job, decoders);
   const { positions, frame, bound, count } = vertices;
   let distance = 0;
   for (let point = 0; point < count; point++) {
@@ -100,7 +107,7 @@ describe("runNodeJob", () => {
   it("puts heights above the geoid where the geoid is", async () => {
     const frames = [];
     for (const spec of [plain, { ...plain, transformation }]) {
-      frames.push((await runNodeJob(prepareDataSet(spec), job, decoder)).frame);
+      frames.push((await runNodeJob(prepareDataSet(spec), job, decoders)).frame);
     }
     const [flat, lifted] = frames.map(({ origin }) => [...origin]);
     expect(Math.hypot(...lifted.map((value, axis) => value - flat[axis]))).toBeCloseTo(40, 3);
@@ -109,7 +116,7 @@ describe("runNodeJob", () => {
   it("says how high each point is, by its source and above the ellipsoid", async () => {
     for (const spec of [plain, { ...plain, transformation }]) {
       const dataSet = prepareDataSet(spec);
-      const vertices = await runNodeJob(dataSet, job, decoder);
+      const vertices = await runNodeJob(dataSet, job, decoders);
       const { elevation, ellipsoidalHeight } = vertices.columns;
       expect([elevation.offset, ellipsoidalHeight.offset]).toEqual([0, -3]);
       const geodetic = new Float64Array(3);
@@ -128,7 +135,7 @@ describe("runNodeJob", () => {
 
   it("maps the node frame back into the node's cube within its error", async () => {
     for (const spec of [plain, { ...plain, transformation }]) {
-      const vertices = await runNodeJob(prepareDataSet(spec), job, decoder);
+      const vertices = await runNodeJob(prepareDataSet(spec), job, decoders);
       const { toCube, toCubeError, positions } = vertices;
       let off = 0;
       for (let point = 0; point < vertices.count; point++) {
@@ -148,30 +155,30 @@ describe("runNodeJob", () => {
 
   it("puts all arrays into the one buffer that is transferred, and measures what it was not told", async () => {
     const dataSet = prepareDataSet(plain);
-    const { buffer, bytes, positions, order, columns, seen } = await runNodeJob(dataSet, job, decoder);
+    const { buffer, bytes, positions, order, columns, seen } = await runNodeJob(dataSet, job, decoders);
     expect([positions.buffer, order.buffer, columns.elevation.data.buffer]).toEqual([buffer, buffer, buffer]);
     expect(bytes).toBe(buffer.byteLength);
     // 4 points: 12 + 2 + 4 + 4 bytes each; all else is the same for all of them.
     expect(bytes).toBe(88);
     expect(seen).toBeUndefined();
     expect(columns.color.constant).toEqual([0, 0, 0, 255]);
-    const judged = await runNodeJob(dataSet, { ...job, appearance: undefined }, decoder);
+    const judged = await runNodeJob(dataSet, { ...job, appearance: undefined }, decoders);
     expect(judged.seen).toMatchObject({ rgbBits: 8, ranges: { intensity: [0, 0] } });
     expect(judged.seen?.ranges.elevation.map((height) => Math.round(height * 1e3))).toEqual([0, 50_000]);
   });
 
   it("hands out the records themselves in the same drawing order", async () => {
     const dataSet = prepareDataSet(plain);
-    const { order } = await runNodeJob(dataSet, job, decoder);
-    const records = await runRecordsJob(dataSet, job, decoder);
+    const { order } = await runNodeJob(dataSet, job, decoders);
+    const records = await runRecordsJob(dataSet, job, decoders);
     expect(records.order).toEqual(order);
-    expect(new DataView(records.bytes.buffer).getInt32(3 * RECORD + 4, true)).toBe(654_321);
+    expect([...records.xyz.subarray(9, 12)]).toEqual([123_456, 654_321, 10_000]);
   });
 
   it("PLACE_DOMAIN for points beyond what the transformation covers", async () => {
     const smaller = await transformationBytes(crs, { ...DOMAIN, maxX: 500_900 }, 40);
     const dataSet = prepareDataSet({ ...plain, transformation: smaller });
-    await expect(runNodeJob(dataSet, job, decoder)).rejects.toThrow(
+    await expect(runNodeJob(dataSet, job, decoders)).rejects.toThrow(
       expect.objectContaining({ code: "PLACE_DOMAIN" }),
     );
   });

@@ -1,26 +1,23 @@
 import { type Domain, fitPlacement, placeIntegers, type Truth, truthOf } from "@groma/georef";
 import { badChunk } from "./chunk-layout.js";
 import { cubeMap } from "./cube-map.js";
+import { type Decoders, decode } from "./decoders.js";
 import { drawingOrder } from "./drawing-order.js";
-import type { LazDecoder } from "./laz-decoder.js";
 import { cellGrid } from "./morton-sort.js";
 import { makeArrays } from "./node-columns.js";
 import type { ChunkJob, DataSetSpec, NodeJob, NodeRecords, NodeVertices } from "./protocol.js";
-import type { OrderedRecords } from "./record-columns.js";
-import { type RecordField, recordFields } from "./record-fields.js";
-import { integerBox, positionBox, readCoordinates } from "./records.js";
+import { integerBox, positionBox } from "./records.js";
 
 /** A data set with the map of its coordinates to ECEF, which is made once. */
 export interface PreparedDataSet {
   readonly spec: DataSetSpec;
   readonly truth: Truth;
-  readonly fields: readonly RecordField[];
 }
 
 /** Makes the map of a data set. @throws CrsError, RecordError */
 export function prepareDataSet(spec: DataSetSpec): PreparedDataSet {
   const truth = truthOf(spec, (spec.heights[0] + spec.heights[1]) / 2, spec.file);
-  return { spec, truth, fields: recordFields(spec.pointFormat, spec.extraBytes) };
+  return { spec, truth };
 }
 
 /**
@@ -28,12 +25,11 @@ export function prepareDataSet(spec: DataSetSpec): PreparedDataSet {
  * @throws DecodeError, PlacementError
  */
 export async function runNodeJob(
-  { spec, truth, fields }: PreparedDataSet,
+  { spec, truth }: PreparedDataSet,
   job: NodeJob,
-  decoder: LazDecoder,
+  decoders: Decoders,
 ): Promise<NodeVertices> {
-  const { xyz, records } = await decodeChunk(spec, job, decoder);
-  const { count, order } = records;
+  const { xyz, count, order, attributes } = await decodeChunk(spec, job, decoders);
   const box = integerBox(xyz);
   const domain = sourceBox(box, spec);
   checkInCube(domain, job, spec);
@@ -42,8 +38,9 @@ export async function runNodeJob(
   const place = (positions: Float32Array) => {
     placeIntegers(placement, drawn(xyz, order), count, spec.scale, spec.offset, positions);
   };
-  const placed = { xyz, heights: [box[2], box[5]] as const, frame, bound, place };
-  const arrays = makeArrays(spec, fields, records, placed, job.appearance);
+  const heights = [box[2], box[5]] as const;
+  const points = { xyz, count, order, heights, frame, bound, place };
+  const arrays = makeArrays(spec, attributes, points, job.appearance);
   const extent = positionBox(arrays.positions);
   return {
     ...arrays,
@@ -53,36 +50,28 @@ export async function runNodeJob(
 }
 
 /**
- * A node's records as they are, with the order in which they are drawn.
+ * A node's points as they are recorded, with the order in which they are drawn.
  * @throws DecodeError
  */
 export async function runRecordsJob(
   { spec }: PreparedDataSet,
   job: ChunkJob,
-  decoder: LazDecoder,
+  decoders: Decoders,
 ): Promise<NodeRecords> {
-  const { xyz, records } = await decodeChunk(spec, job, decoder);
-  checkInCube(sourceBox(integerBox(xyz), spec), job, spec);
-  return { bytes: records.bytes, order: records.order };
+  const records = await decodeChunk(spec, job, decoders);
+  checkInCube(sourceBox(integerBox(records.xyz), spec), job, spec);
+  return records;
 }
 
 async function decodeChunk(
-  { pointFormat, recordLength, file, scale, offset }: DataSetSpec,
+  { encoding, file, scale, offset }: DataSetSpec,
   { chunk, pointCount, node, cube }: ChunkJob,
-  decoder: LazDecoder,
-): Promise<{ readonly xyz: Int32Array; readonly records: OrderedRecords }> {
-  const bytes = await decoder.decode(
-    new Uint8Array(chunk),
-    pointFormat,
-    recordLength,
-    pointCount,
-    file,
-    node,
-  );
-  const xyz = readCoordinates(bytes, recordLength);
+  decoders: Decoders,
+): Promise<NodeRecords> {
+  const expected = { pointCount, file, node };
+  const { xyz, attributes } = await decode(decoders, new Uint8Array(chunk), encoding, expected);
   const count = xyz.length / 3;
-  const order = drawingOrder(xyz, count, cellGrid(cube, scale, offset));
-  return { xyz, records: { bytes, recordLength, count, order } };
+  return { xyz, attributes, count, order: drawingOrder(xyz, count, cellGrid(cube, scale, offset)) };
 }
 
 /** Coordinates in drawing order. */

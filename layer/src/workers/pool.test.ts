@@ -1,7 +1,14 @@
 import { describe, expect, it } from "vitest";
 import { DecodeError } from "../errors/index.js";
 import { type WorkerLike, WorkerPool } from "./pool.js";
-import type { DataSetSpec, NodeJob, NodeVertices, WorkerReply, WorkerRequest } from "./protocol.js";
+import type {
+  DataSetSpec,
+  NodeJob,
+  NodeRecords,
+  NodeVertices,
+  WorkerReply,
+  WorkerRequest,
+} from "./protocol.js";
 
 /** A worker that answers when told to. */
 class FakeWorker implements WorkerLike {
@@ -162,7 +169,12 @@ describe("WorkerPool", () => {
   it("has records decoded by the same workers, and takes no other answer for them", async () => {
     const { pool, workers, job } = setUp(1);
     const { appearance: _, ...chunk } = job();
-    const records = { bytes: new Uint8Array(1), order: new Uint16Array(1) };
+    const records: NodeRecords = {
+      count: 1,
+      xyz: new Int32Array(3),
+      attributes: [],
+      order: new Uint16Array(1),
+    };
     const asked = pool.records(chunk);
     const { id } = workers[0].heard.at(-1) as Extract<WorkerRequest, { kind: "records" }>;
     workers[0].onmessage?.({ data: { kind: "records", id, result: records } } as MessageEvent<WorkerReply>);

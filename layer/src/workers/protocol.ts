@@ -1,22 +1,19 @@
 import type { FaultWire, Frame, Scheme, TruthSources } from "@groma/georef";
-import type { ExtraBytes } from "../sources/index.js";
+import type { Encoding } from "../sources/open-source.js";
+import type { StoredAttribute } from "./stored-attribute.js";
 
 /** What a worker must know of a data set, once, before it takes jobs for it: where it is, and how it is stored. */
 export interface DataSetSpec extends TruthSources {
   /** Name of the file, for errors. */
   readonly file: string;
-  /** Point data record format: 6, 7 or 8. */
-  readonly pointFormat: number;
-  /** Bytes per record, extra bytes included. */
-  readonly recordLength: number;
+  /** How chunks are encoded, and so which decoder they get. */
+  readonly encoding: Encoding;
   /** Source units per integer step, per axis. */
   readonly scale: readonly [number, number, number];
   /** Source units, per axis. */
   readonly offset: readonly [number, number, number];
-  /** Least and greatest height that the header declares, source units. */
+  /** Least and greatest height that is declared, source units. */
   readonly heights: readonly [number, number];
-  /** What the extra bytes of a record hold, in record order. */
-  readonly extraBytes: readonly ExtraBytes[];
   /** Height above WGS84 that the column `ellipsoidalHeight` counts from, metres. */
   readonly ellipsoidalOrigin: number;
   /** Greatest distance of a drawn point from its exact place, metres. */
@@ -31,7 +28,7 @@ export interface Appearance {
   readonly ranges: Readonly<Record<string, readonly [number, number]>>;
 }
 
-/** One node's chunk of compressed points, as it lies in the file. */
+/** One node's chunk of encoded points, as the source gives it. */
 export interface ChunkJob {
   readonly dataSet: number;
   readonly chunk: ArrayBuffer;
@@ -42,7 +39,7 @@ export interface ChunkJob {
   readonly cube: readonly [number, number, number, number];
 }
 
-/** One node's work: a chunk of compressed points that becomes vertices. */
+/** One node's work: a chunk of encoded points that becomes vertices. */
 export interface NodeJob extends ChunkJob {
   /** Undefined: to be judged by this node's own points. */
   readonly appearance: Appearance | undefined;
@@ -112,10 +109,13 @@ export interface NodeVertices {
   readonly bytes: number;
 }
 
-/** A node's points as recorded. */
+/** A node's points as recorded, in the order of the chunk. The buffers of all arrays are transferred. */
 export interface NodeRecords {
-  /** Uncompressed records one after the other. Transferred. */
-  readonly bytes: Uint8Array;
+  readonly count: number;
+  /** x, y and z of each point: the integers that the source's scale and offset turn into coordinates. */
+  readonly xyz: Int32Array;
+  /** All attributes that the source names. */
+  readonly attributes: readonly StoredAttribute[];
   /** Index in the chunk of each drawn point; as {@link NodeVertices.order}. */
   readonly order: Uint16Array | Uint32Array;
 }

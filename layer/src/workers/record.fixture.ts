@@ -1,5 +1,6 @@
-import type { ExtraBytes } from "../sources/index.js";
-import { recordFields, sizeOf } from "./record-fields.js";
+import type { ExtraBytes } from "../sources/las/extra-bytes.js";
+import { recordFields } from "../sources/las/record-fields.js";
+import { type StoredAttribute, sizeOf } from "./stored-attribute.js";
 
 /** Bytes of records of formats 6, 7 and 8 without extra bytes. */
 const BASE: Readonly<Record<number, number>> = { 6: 30, 7: 36, 8: 38 };
@@ -19,7 +20,7 @@ export function extraBytes(
   });
 }
 
-/** Plain records of random bytes but for coordinates in [0, 1000), with the fields that they hold. */
+/** Plain records of random bytes but for coordinates in [0, 1000), with the attributes that they hold. */
 export function randomRecords(
   pointFormat: number,
   count: number,
@@ -38,10 +39,12 @@ export function randomRecords(
     // Seconds of a year, as GPS counts them; random bytes would be numbers of all sizes.
     view.setFloat64(at + 22, 3e8 + next() * 3e7, true);
     for (const field of fields) {
-      if (field.extra && field.type === "float64") view.setFloat64(at + field.at, next() * 1e6 - 5e5, true);
+      if (field.at >= BASE[pointFormat] && field.type === "float64")
+        view.setFloat64(at + field.at, next() * 1e6 - 5e5, true);
     }
   }
-  return { bytes, view, fields, recordLength: length, count };
+  const attributes: StoredAttribute[] = fields.map((field) => ({ ...field, bytes, stride: length }));
+  return { bytes, view, attributes, recordLength: length, count };
 }
 
 /** Numbers in [0, 1) that are the same in each run (G. Marsaglia, xorshift32, 2003). */

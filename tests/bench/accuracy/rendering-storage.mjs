@@ -1,6 +1,6 @@
 import { open } from "node:fs/promises";
 import { LazDecoder, LocalExecutor, PointCloud } from "@groma/layer";
-import { openCopc, readHierarchyPage } from "@groma/layer/sources";
+import { openSource } from "@groma/layer/sources";
 import { create } from "laz-perf/lib/node/index.js";
 
 /** Nodes of a level, and points of a node, that are looked at: evenly out of all. */
@@ -98,12 +98,12 @@ function errorOf({ exact, count }, stored) {
 }
 
 /** Names of the nodes with points by level, from all pages of the hierarchy. */
-async function nodesByLevel(source) {
-  const copc = await openCopc(source);
+async function nodesByLevel(bytes) {
+  const source = await openSource(bytes);
   const levels = new Map();
-  const pages = [copc.info.rootPage];
-  for (let page = pages.pop(); page; page = pages.pop()) {
-    for (const { depth, x, y, z, pointCount, address } of await readHierarchyPage(copc, page)) {
+  const pages = [source.rootPage];
+  for (let page = pages.pop(); page !== undefined; page = pages.pop()) {
+    for (const { depth, x, y, z, pointCount, address } of await source.page(page)) {
       if (pointCount < 0) pages.push(address);
       if (pointCount <= 0) continue;
       levels.set(depth, [...(levels.get(depth) ?? []), `${depth}-${x}-${y}-${z}`]);

@@ -1,7 +1,5 @@
 import type { GeoTiffKeys } from "@groma/georef";
-import { SourceError } from "../../errors/index.js";
 import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
-import { looksLikeHtml } from "../bytes/http-answer.js";
 import { type ExtraBytes, parseExtraBytes } from "../las/extra-bytes.js";
 import {
   BASE_RECORD_LENGTH,
@@ -11,28 +9,22 @@ import {
   truncated,
 } from "../las/las-header.js";
 import { findVlr, readVlr, type VlrEntry, walkEvlrs, walkVlrs } from "../las/vlrs.js";
-import { COPC_INFO_END, type CopcInfo, type PageAddress, parseCopcInfo } from "./copc-info.js";
-import {
-  checkPageAddress,
-  type HierarchyEntry,
-  type HierarchyLimits,
-  parseHierarchyPage,
-} from "./hierarchy.js";
-import { type CloudStatistics, decodeStatistics } from "./statistics-record.js";
+import type { CrsDeclaration } from "../point-source.js";
+import type { CloudStatistics } from "../statistics.js";
+import { COPC_INFO_END, type CopcInfo, parseCopcInfo } from "./copc-info.js";
+import { checkPageAddress, type HierarchyLimits } from "./hierarchy.js";
+import { decodeStatistics } from "./statistics-record.js";
 
 /** Everything a COPC file says about itself before any point is read. */
 export interface CopcFile {
   readonly source: ByteSource;
   readonly header: LasHeader;
   readonly info: CopcInfo;
-  /** Coordinate system as OGC WKT (VLR or extended VLR LASF_Projection 2112). */
-  readonly wkt?: string;
-  /** Coordinate system as GeoTIFF keys (LASF_Projection 34735 to 34737). */
-  readonly geoTiff?: GeoTiffKeys;
-  /** Raw bytes of Groma's georeference record (VLR `groma` 1). */
-  readonly georeference?: Uint8Array;
-  /** Raw bytes of the transformation that goes with it (VLR or extended VLR `groma` 3), in a buffer of their own. */
-  readonly transformation?: Uint8Array;
+  /**
+   * The coordinate system as it is declared: WKT (VLR or extended VLR LASF_Projection 2112), GeoTIFF keys (34735 to
+   * 34737), and Groma's records (VLR `groma` 1; VLR or extended VLR `groma` 3).
+   */
+  readonly crs: CrsDeclaration;
   /** Groma's statistics record (VLR `groma` 2). */
   readonly statistics?: CloudStatistics;
   /** What the extra bytes of each record hold (LASF_Spec 4); empty where they are not described. */
@@ -53,14 +45,6 @@ const MAX_POINTS_OFFSET = 64 * 1024 * 1024;
 export async function openCopc(source: ByteSource, options: ReadOptions = {}): Promise<CopcFile> {
   const file = source.name;
   const opening = await source.read(0, Math.min(COPC_INFO_END, source.size ?? COPC_INFO_END), options);
-  if (looksLikeHtml(opening)) {
-    throw new SourceError({
-      code: "SOURCE_HTML",
-      file,
-      cause: "this is an HTML page, not a point cloud",
-      fix: "Check the address; a login or error page may stand in for the file",
-    });
-  }
   const header = parseLasHeader(opening, file);
   const info = parseCopcInfo(opening, file);
   if (source.size !== undefined && header.pointsOffset > source.size) throw truncated(file, "its records");
@@ -91,10 +75,7 @@ function isSpreadOut(entries: readonly VlrEntry[], { evlrCount }: LasHeader): bo
   return !findVlr(entries, PROJECTION, 2112);
 }
 
-type Records = Pick<
-  CopcFile,
-  "wkt" | "geoTiff" | "georeference" | "transformation" | "statistics" | "extraBytes"
->;
+type Records = Pick<CopcFile, "crs" | "statistics" | "extraBytes">;
 
 async function readRecords(
   source: ByteSource,
@@ -110,19 +91,21 @@ async function readRecords(
   const statistics = await content("groma", 2);
   const extraBytes = await content("LASF_Spec", 4);
   return {
-    // LAS allows WKT to end with NULs.
-    ...(wkt && {
-      wkt: new TextDecoder()
-        .decode(wkt)
-        .replace(/\0[\s\S]*$/, "")
-        .trim(),
-    }),
-    ...(directory && {
-      geoTiff: geoTiffKeys(directory, await content(PROJECTION, 34736), await content(PROJECTION, 34737)),
-    }),
-    ...(georeference && { georeference }),
-    // A copy: what goes to the workers takes its whole buffer along, here that of the opening read.
-    ...(transformation && { transformation: transformation.slice() }),
+    crs: {
+      // LAS allows WKT to end with NULs.
+      ...(wkt && {
+        wkt: new TextDecoder()
+          .decode(wkt)
+          .replace(/\0[\s\S]*$/, "")
+          .trim(),
+      }),
+      ...(directory && {
+        geoTiff: geoTiffKeys(directory, await content(PROJECTION, 34736), await content(PROJECTION, 34737)),
+      }),
+      ...(georeference && { georeference }),
+      // A copy: what goes to the workers takes its whole buffer along, here that of the opening read.
+      ...(transformation && { transformation: transformation.slice() }),
+    },
     extraBytes: extraBytes ? parseExtraBytes(extraBytes, recordLength - BASE_RECORD_LENGTH[pointFormat]) : [],
     ...(statistics && { statistics: decodeStatistics(statistics, source.name) }),
   };
@@ -137,25 +120,4 @@ function geoTiffKeys(directory: Uint8Array, doubles?: Uint8Array, ascii?: Uint8A
     doubles: doubles ? new Float64Array(whole(doubles, 8)) : new Float64Array(0),
     ascii: ascii ? new TextDecoder().decode(ascii) : "",
   };
-}
-
-/**
- * Reads one page of the hierarchy.
- * @throws SourceError, FormatError
- */
-export async function readHierarchyPage(copc: CopcFile, page: PageAddress): Promise<HierarchyEntry[]> {
-  return parseHierarchyPage(await readPageBytes(copc, page), copc.limits);
-}
-
-/**
- * Reads one page of the hierarchy as it lies in the file.
- * @throws SourceError, FormatError
- */
-export async function readPageBytes(
-  copc: CopcFile,
-  page: PageAddress,
-  options: ReadOptions = {},
-): Promise<Uint8Array> {
-  checkPageAddress(page, copc.limits);
-  return copc.source.read(page.offset, page.offset + page.length, options);
 }

@@ -14,11 +14,11 @@ export interface CopcInfo {
   /** Distance between points at the root node, source units; halved at each level. */
   readonly spacing: number;
   /** Root page of the hierarchy, in bytes from the file's start. */
-  readonly rootPage: PageAddress;
+  readonly rootPage: ByteRange;
 }
 
-/** Where a page of the hierarchy lies. */
-export interface PageAddress {
+/** Where a page of the hierarchy or a chunk of points lies: bytes from the file's start. */
+export interface ByteRange {
   readonly offset: number;
   readonly length: number;
 }

@@ -1,14 +1,14 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { FormatError } from "../../errors/index.js";
-import { type HierarchyLimits, parseHierarchyPage } from "./hierarchy.js";
+import { entriesOfPage, type HierarchyLimits } from "./hierarchy.js";
 import { pageBytes } from "./tiny-copc.fixture.js";
 
 const limits: HierarchyLimits = { file: "a.copc.laz", fileSize: 10_000, pointsOffset: 600, pointCount: 1000 };
 
-const parse = (...rows: number[][]) => parseHierarchyPage(pageBytes(rows), limits);
+const parse = (...rows: number[][]) => [...entriesOfPage(pageBytes(rows), limits)];
 
-describe("parseHierarchyPage", () => {
+describe("entriesOfPage", () => {
   it("reads nodes, empty nodes and references to pages", () => {
     const entries = parse([0, 0, 0, 0, 600, 50, 10], [1, 1, 0, 1, 0, 0, 0], [1, 0, 1, 1, 5000, 64, -1]);
     expect(entries.map((entry) => entry.pointCount)).toEqual([10, 0, -1]);
@@ -44,7 +44,7 @@ describe("parseHierarchyPage", () => {
     fc.assert(
       fc.property(fc.uint8Array({ maxLength: 160 }), (bytes) => {
         try {
-          for (const { pointCount, address } of parseHierarchyPage(bytes, limits)) {
+          for (const { pointCount, address } of entriesOfPage(bytes, limits)) {
             if (pointCount !== 0) expect(address.offset + address.length).toBeLessThanOrEqual(10_000);
           }
         } catch (error) {

@@ -1,5 +1,6 @@
 import { FormatError } from "../../errors/index.js";
-import type { PageAddress } from "./copc-info.js";
+import { badHierarchy, type HierarchyEntry } from "../point-source.js";
+import type { ByteRange } from "./copc-info.js";
 
 /** Bytes of one entry of a hierarchy page (copc.io, "hierarchy VLR"). */
 export const ENTRY_LENGTH = 32;
@@ -12,18 +13,6 @@ const MAX_NODE_POINTS = 2 ** 24;
 
 /** Bytes that one page may take: 2^20 entries. */
 const MAX_PAGE_LENGTH = ENTRY_LENGTH * 2 ** 20;
-
-/** One entry of a hierarchy page: a node with its chunk of points, or a reference to a further page. */
-export interface HierarchyEntry {
-  readonly depth: number;
-  readonly x: number;
-  readonly y: number;
-  readonly z: number;
-  /** Chunk of compressed points, or the further page. Length 0 where the node holds no points. */
-  readonly address: PageAddress;
-  /** Number of points; -1 for a reference to a further page. */
-  readonly pointCount: number;
-}
 
 /** What entries are held against. */
 export interface HierarchyLimits {
@@ -41,7 +30,7 @@ export interface HierarchyLimits {
  * Holds the address of a page against the file before it is read.
  * @throws FormatError FORMAT_HIERARCHY, FORMAT_TRUNCATED
  */
-export function checkPageAddress(page: PageAddress, limits: HierarchyLimits): void {
+export function checkPageAddress(page: ByteRange, limits: HierarchyLimits): void {
   const { offset, length } = page;
   if (length <= 0 || length % ENTRY_LENGTH !== 0 || length > MAX_PAGE_LENGTH || offset <= 0) {
     throw badHierarchy(limits.file, `a page of ${length} bytes at byte ${offset}`);
@@ -50,15 +39,17 @@ export function checkPageAddress(page: PageAddress, limits: HierarchyLimits): vo
 }
 
 /**
- * Reads a page of the hierarchy; each entry is held against the file, so that nothing is ever asked for
- * that the file cannot hold.
+ * Reads a page of the hierarchy, entry by entry as they are taken; each is held against the file, so that nothing is
+ * ever asked for that the file cannot hold.
  * @throws FormatError FORMAT_HIERARCHY, FORMAT_TRUNCATED
  */
-export function parseHierarchyPage(bytes: Uint8Array, limits: HierarchyLimits): HierarchyEntry[] {
+export function* entriesOfPage(
+  bytes: Uint8Array,
+  limits: HierarchyLimits,
+): Generator<HierarchyEntry<ByteRange>> {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const entries: HierarchyEntry[] = [];
   for (let at = 0; at + ENTRY_LENGTH <= bytes.length; at += ENTRY_LENGTH) {
-    const entry: HierarchyEntry = {
+    const entry: HierarchyEntry<ByteRange> = {
       depth: view.getInt32(at, true),
       x: view.getInt32(at + 4, true),
       y: view.getInt32(at + 8, true),
@@ -67,12 +58,11 @@ export function parseHierarchyPage(bytes: Uint8Array, limits: HierarchyLimits): 
       pointCount: view.getInt32(at + 28, true),
     };
     checkEntry(entry, limits);
-    entries.push(entry);
+    yield entry;
   }
-  return entries;
 }
 
-function checkEntry(entry: HierarchyEntry, limits: HierarchyLimits): void {
+function checkEntry(entry: HierarchyEntry<ByteRange>, limits: HierarchyLimits): void {
   const { depth, x, y, z, address, pointCount } = entry;
   const name = () => `node ${depth}-${x}-${y}-${z}`;
   const edge = 2 ** depth;
@@ -94,7 +84,7 @@ function checkEntry(entry: HierarchyEntry, limits: HierarchyLimits): void {
   checkInside(address, limits);
 }
 
-function checkInside(address: PageAddress, limits: HierarchyLimits): void {
+function checkInside(address: ByteRange, limits: HierarchyLimits): void {
   if (limits.fileSize !== undefined && address.offset + address.length > limits.fileSize) {
     throw new FormatError({
       code: "FORMAT_TRUNCATED",
@@ -103,14 +93,4 @@ function checkInside(address: PageAddress, limits: HierarchyLimits): void {
       fix: "Copy or convert the file again",
     });
   }
-}
-
-/** The error for an octree that cannot be. */
-export function badHierarchy(file: string, what: string): FormatError {
-  return new FormatError({
-    code: "FORMAT_HIERARCHY",
-    file,
-    cause: `its octree names ${what}`,
-    fix: "Convert the scan again",
-  });
 }

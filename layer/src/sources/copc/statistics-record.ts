@@ -1,27 +1,8 @@
 import { FormatError } from "../../errors/index.js";
-
-/** Range and mean of one attribute over the whole data set, in the attribute's own units. */
-export interface AttributeStatistics {
-  readonly name: string;
-  readonly min: number;
-  readonly max: number;
-  readonly mean: number;
-}
-
-/** What the converter counted while it wrote the file: the VLR `groma`, record id 2. */
-export interface CloudStatistics {
-  readonly points: number;
-  /** Bits per colour channel that the scan really uses; null where it has no colour. */
-  readonly rgbBits: 8 | 16 | null;
-  readonly attributes: readonly AttributeStatistics[];
-  /** Number of points by class number. */
-  readonly classes: Readonly<Record<string, number>>;
-  /** Number of points by return number. */
-  readonly returns: Readonly<Record<string, number>>;
-}
+import type { AttributeStatistics, CloudStatistics } from "../statistics.js";
 
 /**
- * Decodes and validates the statistics record (UTF-8 JSON, version 1).
+ * Decodes and validates the statistics record: VLR `groma`, record id 2 (UTF-8 JSON, version 1).
  * @throws FormatError FORMAT_STATISTICS
  */
 export function decodeStatistics(bytes: Uint8Array, file: string): CloudStatistics {

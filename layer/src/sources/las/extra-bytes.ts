@@ -1,17 +1,5 @@
+import type { NumberType } from "../point-attribute.js";
 import { readText } from "./las-header.js";
-
-/** Numeric types of LAS extra bytes. */
-export type NumberType =
-  | "uint8"
-  | "int8"
-  | "uint16"
-  | "int16"
-  | "uint32"
-  | "int32"
-  | "uint64"
-  | "int64"
-  | "float32"
-  | "float64";
 
 /** One numeric attribute that is stored after the standard fields of a record. */
 export interface ExtraBytes {

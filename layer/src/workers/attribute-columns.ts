@@ -1,12 +1,11 @@
 import { constantColumn, type PlannedArray, planArray } from "./column-plan.js";
 import type { Column, ColumnData } from "./protocol.js";
-import { type RecordField, readerOf, sizeOf } from "./record-fields.js";
+import { readerOf, type StoredAttribute, sizeOf, viewOf } from "./stored-attribute.js";
 
-/** A chunk's records with the order in which they are drawn. */
-export interface OrderedRecords {
-  readonly bytes: Uint8Array;
-  readonly recordLength: number;
+/** How many points there are, and in which order they are drawn. */
+export interface DrawnPoints {
   readonly count: number;
+  /** Index in the chunk of each drawn point. */
   readonly order: Uint16Array | Uint32Array;
 }
 
@@ -19,18 +18,18 @@ const NO_VALUE = Math.fround(-3.4028234663852886e38);
 /**
  * Plans the column of one attribute. Numbers of up to 16 bits and float32 stay as they are recorded. Wider ones become
  * float32, counted from the least value of the data set, with the error of that measured.
- * @param origin least value of the data set in the attribute's unit; undefined: that of these records
+ * @param origin least value of the data set in the attribute's unit; undefined: that of these points
  * @returns nothing to make where all points have the same value
  */
-export function planField(
-  records: OrderedRecords,
-  field: RecordField,
+export function planAttribute(
+  points: DrawnPoints,
+  attribute: StoredAttribute,
   origin: number | undefined,
   sink: ColumnSink,
 ): PlannedArray | undefined {
-  const { name, components } = field;
-  if (isConstant(records, field)) {
-    const read = valueReader(records, field);
+  const { name, components } = attribute;
+  if (isConstant(points.count, attribute)) {
+    const read = valueReader(attribute);
     sink(
       constantColumn(
         name,
@@ -39,11 +38,13 @@ export function planField(
     );
     return undefined;
   }
-  return isNarrow(field) ? planAsRecorded(records, field, sink) : planAsFloat(records, field, origin, sink);
+  return isNarrow(attribute)
+    ? planAsRecorded(points, attribute, sink)
+    : planAsFloat(points, attribute, origin, sink);
 }
 
 /** Whether the stored numbers themselves go into the column. */
-function isNarrow({ type, scale, offset, components }: RecordField): boolean {
+function isNarrow({ type, scale, offset, components }: StoredAttribute): boolean {
   const even = scale.slice(0, components).every((step) => step === scale[0]);
   const level = offset.slice(0, components).every((from) => from === offset[0]);
   return even && level && (sizeOf(type) < 4 || type === "float32");
@@ -57,20 +58,20 @@ const ARRAYS = {
   float32: Float32Array,
 } as const;
 
-function planAsRecorded(records: OrderedRecords, field: RecordField, sink: ColumnSink): PlannedArray {
-  const { name, components, noData } = field;
+function planAsRecorded(points: DrawnPoints, attribute: StoredAttribute, sink: ColumnSink): PlannedArray {
+  const { name, components, noData } = attribute;
   const fill = (data: ColumnData) => {
-    gather(records, field, data);
+    gather(points, attribute, data);
     const float = data instanceof Float32Array;
     if (float) replaceMissing(data, noData);
     const missing = float ? NO_VALUE : noData;
     sink({
       ...{ name, components, data, bound: 0 },
-      ...{ scale: field.scale[0], offset: field.offset[0] },
+      ...{ scale: attribute.scale[0], offset: attribute.offset[0] },
       ...(missing !== undefined && { noData: Number(missing) }),
     });
   };
-  return planArray(ARRAYS[field.type as keyof typeof ARRAYS], records.count * components, fill);
+  return planArray(ARRAYS[attribute.type as keyof typeof ARRAYS], points.count * components, fill);
 }
 
 /** In place of NaN, infinities and the writer's own mark: the GPU compares with one number. */
@@ -82,19 +83,19 @@ function replaceMissing(data: Float32Array, noData: number | bigint | undefined)
 }
 
 /** Puts the stored numbers in drawing order. */
-function gather(records: OrderedRecords, field: RecordField, data: ColumnData): void {
-  const { bytes, recordLength, order, count } = records;
-  const { type, at, shift, mask, components } = field;
+function gather(points: DrawnPoints, attribute: StoredAttribute, data: ColumnData): void {
+  const { order, count } = points;
+  const { bytes, type, at, stride, shift, mask, components } = attribute;
   if (type === "uint8" && components === 1) {
     for (let point = 0; point < count; point++) {
-      data[point] = (bytes[order[point] * recordLength + at] >> shift) & mask;
+      data[point] = (bytes[order[point] * stride + at] >> shift) & mask;
     }
     return;
   }
   if ((type === "uint16" || type === "int16") && components === 1) {
     // An int16 array takes the upper half of the range for the negative numbers that it is.
     for (let point = 0; point < count; point++) {
-      const from = order[point] * recordLength + at;
+      const from = order[point] * stride + at;
       data[point] = bytes[from] | (bytes[from + 1] << 8);
     }
     return;
@@ -103,22 +104,22 @@ function gather(records: OrderedRecords, field: RecordField, data: ColumnData): 
   const read = readerOf(type);
   const size = sizeOf(type);
   for (let point = 0, to = 0; point < count; point++) {
-    const from = order[point] * recordLength + at;
+    const from = order[point] * stride + at;
     for (let index = 0; index < components; index++) data[to++] = read(view, from + index * size);
   }
 }
 
 function planAsFloat(
-  records: OrderedRecords,
-  field: RecordField,
+  points: DrawnPoints,
+  attribute: StoredAttribute,
   given: number | undefined,
   sink: ColumnSink,
 ): PlannedArray {
-  const { name, components } = field;
-  const { count, order } = records;
+  const { name, components } = attribute;
+  const { count, order } = points;
   const fill = (data: Float32Array) => {
-    const read = valueReader(records, field);
-    const origin = given ?? leastValue(records, field);
+    const read = valueReader(attribute);
+    const origin = given ?? leastValue(points.count, attribute);
     let bound = 0;
     for (let point = 0, to = 0; point < count; point++) {
       for (let index = 0; index < components; index++, to++) {
@@ -136,30 +137,28 @@ function planAsFloat(
   return planArray(Float32Array, count * components, fill);
 }
 
-/** Least value of the records; 0 where none has one. */
-function leastValue(records: OrderedRecords, field: RecordField): number {
-  const read = valueReader(records, field);
+/** Least value of the points; 0 where none has one. */
+function leastValue(count: number, attribute: StoredAttribute): number {
+  const read = valueReader(attribute);
   let least = Number.POSITIVE_INFINITY;
-  for (let record = 0; record < records.count; record++) {
-    for (let index = 0; index < field.components; index++) {
-      const value = read(record, index);
+  for (let point = 0; point < count; point++) {
+    for (let index = 0; index < attribute.components; index++) {
+      const value = read(point, index);
       if (value < least && value !== Number.NEGATIVE_INFINITY) least = value;
     }
   }
   return Number.isFinite(least) ? least : 0;
 }
 
-/** Reads a record's value in the attribute's unit; NaN where it has none. */
-function valueReader(
-  { bytes, recordLength }: Pick<OrderedRecords, "bytes" | "recordLength">,
-  { type, at, shift, mask, scale, offset, noData }: RecordField,
-): (record: number, component: number) => number {
+/** Reads a point's value in the attribute's unit; NaN where it has none. */
+function valueReader(attribute: StoredAttribute): (point: number, component: number) => number {
+  const { bytes, at, stride, type, shift, mask, scale, offset, noData } = attribute;
   const view = viewOf(bytes);
   const read = readerOf(type);
   const size = sizeOf(type);
   const mark = noData === undefined ? Number.NaN : Number(noData);
-  return (record, component) => {
-    const stored = read(view, record * recordLength + at + component * size);
+  return (point, component) => {
+    const stored = read(view, point * stride + at + component * size);
     if (stored === mark) return Number.NaN;
     return (
       (mask === -1 ? stored : (stored >> shift) & mask) * (scale[component] ?? 1) + (offset[component] ?? 0)
@@ -167,22 +166,16 @@ function valueReader(
   };
 }
 
-/** Whether all records hold the same bits: found out fast where they do not, since they differ early. */
-export function isConstant(
-  { bytes, recordLength, count }: Pick<OrderedRecords, "bytes" | "recordLength" | "count">,
-  { type, at, shift, mask, components }: RecordField,
-): boolean {
+/** Whether all points have the same bits: found out fast where they do not, since they differ early. */
+export function isConstant(count: number, attribute: StoredAttribute): boolean {
+  const { bytes, at, stride, type, shift, mask, components } = attribute;
   const length = sizeOf(type) * components;
   const bits = length === 1 ? mask << shift : -1;
   for (let index = 0; index < length; index++) {
     const first = bytes[at + index];
-    for (let record = 1, from = at + index + recordLength; record < count; record++, from += recordLength) {
+    for (let point = 1, from = at + index + stride; point < count; point++, from += stride) {
       if (((bytes[from] ^ first) & bits) !== 0) return false;
     }
   }
   return true;
-}
-
-function viewOf(bytes: Uint8Array): DataView {
-  return new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
 }

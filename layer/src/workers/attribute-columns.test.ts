@@ -1,24 +1,24 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { type DrawnPoints, isConstant, planAttribute } from "./attribute-columns.js";
 import { layOut } from "./column-plan.js";
-import { greatestColour, planColour } from "./derived-columns.js";
+import { coloursOf, greatestColour, planColour } from "./derived-columns.js";
 import type { Column } from "./protocol.js";
 import { extraBytes, randomNumbers, randomRecords } from "./record.fixture.js";
-import { isConstant, type OrderedRecords, planField } from "./record-columns.js";
-import { exactValue, type RecordField } from "./record-fields.js";
+import { exactValue, type StoredAttribute } from "./stored-attribute.js";
 
 type Records = ReturnType<typeof randomRecords>;
 
 /** Drawn last first. */
-const reversed = (records: Records): OrderedRecords => ({
-  ...records,
-  order: Uint16Array.from({ length: records.count }, (_, point) => records.count - 1 - point),
+const reversed = ({ count }: Records): DrawnPoints => ({
+  count,
+  order: Uint16Array.from({ length: count }, (_, point) => count - 1 - point),
 });
 
-/** Column of one field. */
-function columnOf(records: Records, field: RecordField, origin?: number): Column {
+/** Column of one attribute. */
+function columnOf(records: Records, attribute: StoredAttribute, origin?: number): Column {
   const made: Column[] = [];
-  const planned = planField(reversed(records), field, origin, (column) => made.push(column));
+  const planned = planAttribute(reversed(records), attribute, origin, (column) => made.push(column));
   if (planned) layOut([planned]);
   return made[0];
 }
@@ -54,17 +54,17 @@ describe("columns of recorded attributes", () => {
     fc.assert(
       fc.property(fc.integer(), fc.integer({ min: 1, max: 40 }), (seed, count) => {
         const records = randomRecords(pointFormat, count, every, randomNumbers(seed));
-        for (const field of records.fields) {
-          const column = columnOf(records, field);
+        for (const attribute of records.attributes) {
+          const column = columnOf(records, attribute);
           for (let point = 0; point < count; point++) {
-            const record = (count - 1 - point) * records.recordLength;
-            for (let component = 0; component < field.components; component++) {
-              const exact = Number(exactValue(records.view, record, field, component));
+            const record = count - 1 - point;
+            for (let component = 0; component < attribute.components; component++) {
+              const exact = Number(exactValue(attribute, record, component));
               const value = columnValue(column, point, component);
               // What is not finite has no value that a GPU could show.
               if (Number.isFinite(exact)) {
-                expect(Math.abs(value - exact), field.name).toBeLessThanOrEqual(column.bound);
-              } else if (!column.constant) expect(value, field.name).toBeNaN();
+                expect(Math.abs(value - exact), attribute.name).toBeLessThanOrEqual(column.bound);
+              } else if (!column.constant) expect(value, attribute.name).toBeNaN();
             }
           }
         }
@@ -76,7 +76,7 @@ describe("columns of recorded attributes", () => {
   it("are exact up to 16 bits and as float32, and count wider numbers from the data set's least", () => {
     const records = randomRecords(6, 50, every, randomNumbers(7));
     const column = (name: string, origin?: number) =>
-      columnOf(records, records.fields.find((field) => field.name === name)!, origin);
+      columnOf(records, records.attributes.find((attribute) => attribute.name === name)!, origin);
     for (const name of ["intensity", "scanAngle", "thousandths", "height", "flags"]) {
       expect(column(name).bound, name).toBe(0);
     }
@@ -90,8 +90,8 @@ describe("columns of recorded attributes", () => {
   });
 
   it("keep names apart: those taken get a number, those missing their place", () => {
-    const { fields } = randomRecords(7, 1, every, randomNumbers(1));
-    expect(fields.slice(-2).map(({ name }) => name)).toEqual(["intensity 2", "extra 12"]);
+    const { attributes } = randomRecords(7, 1, every, randomNumbers(1));
+    expect(attributes.slice(-2).map(({ name }) => name)).toEqual(["intensity 2", "extra 12"]);
   });
 
   it("take nothing where all points have one value, and say which", () => {
@@ -103,7 +103,8 @@ describe("columns of recorded attributes", () => {
       records.bytes[at + 14] = (records.bytes[at + 14] & 0xf0) | 2;
       records.view.setInt16(at + 36 + 4, -7, true);
     }
-    const column = (name: string) => columnOf(records, records.fields.find((field) => field.name === name)!);
+    const column = (name: string) =>
+      columnOf(records, records.attributes.find((attribute) => attribute.name === name)!);
     expect(column("intensity")).toMatchObject({ constant: [770], bound: 0, data: new Uint8Array(0) });
     expect(column("returnNumber").constant).toEqual([2]);
     expect(column("numberOfReturns").constant).toBeUndefined();
@@ -111,7 +112,7 @@ describe("columns of recorded attributes", () => {
   });
 
   it("are found constant only where every record says so", () => {
-    const one = (records: Records) => isConstant(records, records.fields[0]);
+    const one = (records: Records) => isConstant(records.count, records.attributes[0]);
     const records = randomRecords(6, 9, [], randomNumbers(5));
     for (let record = 0; record < 9; record++) records.view.setUint16(30 * record + 12, 513, true);
     expect(one(records)).toBe(true);
@@ -123,7 +124,9 @@ describe("columns of recorded attributes", () => {
 describe("the column of colours", () => {
   const colourOf = (records: Records, rgbBits: 8 | 16) => {
     const made: Column[] = [];
-    const planned = planColour(reversed(records), rgbBits, (column) => made.push(column));
+    const planned = planColour(reversed(records), coloursOf(records.attributes)!, rgbBits, (column) =>
+      made.push(column),
+    );
     if (planned) layOut([planned]);
     return made[0];
   };
@@ -144,8 +147,8 @@ describe("the column of colours", () => {
     ]);
     expect([...colourOf(records, 8).data]).toEqual([0, 255, 255, 255, 1, 2, 255, 255]);
     expect([...colourOf(records, 16).data]).toEqual([1, 1, 255, 255, 0, 0, 0, 255]);
-    expect(greatestColour(reversed(records), 7)).toBe(65535);
-    expect(greatestColour(reversed(records), 6)).toBe(0);
+    expect(greatestColour(2, coloursOf(records.attributes)!)).toBe(65535);
+    expect(coloursOf(randomRecords(6, 2, [], randomNumbers(2)).attributes)).toBeUndefined();
   });
 
   it("is one colour where all points have it, as far as it is shown", () => {

@@ -1,0 +1,73 @@
+import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
+import { BASE_RECORD_LENGTH, readText } from "../las/las-header.js";
+import { type LazEncoding, recordFields } from "../las/record-fields.js";
+import type { HierarchyEntry, PointSource } from "../point-source.js";
+import { type CopcFile, openCopc } from "./copc-file.js";
+import type { ByteRange } from "./copc-info.js";
+import { checkPageAddress, entriesOfPage, type HierarchyLimits } from "./hierarchy.js";
+
+/** A COPC file as a source of points. */
+export class CopcSource implements PointSource<ByteRange, LazEncoding> {
+  readonly name: string;
+  readonly pointCount: number;
+  readonly boundingBox: PointSource["boundingBox"];
+  readonly cube: PointSource["cube"];
+  readonly spacing: number;
+  readonly scale: PointSource["scale"];
+  readonly offset: PointSource["offset"];
+  readonly crs: PointSource["crs"];
+  readonly attributes: PointSource["attributes"];
+  readonly statistics: PointSource["statistics"];
+  readonly encoding: LazEncoding;
+  readonly rootPage: ByteRange;
+  readonly #bytes: ByteSource;
+  readonly #limits: HierarchyLimits;
+
+  constructor(file: CopcFile) {
+    const { source, header, info } = file;
+    const { pointFormat, recordLength } = header;
+    const [x, y, z] = info.center.map((middle) => middle - info.halfSize);
+    const edge = 2 * info.halfSize;
+    this.#bytes = source;
+    this.#limits = file.limits;
+    this.name = source.name;
+    this.pointCount = header.pointCount;
+    this.boundingBox = { min: header.min, max: header.max };
+    this.cube = [x, y, z, edge];
+    this.spacing = info.spacing || edge / CELLS_PER_EDGE;
+    this.scale = header.scale;
+    this.offset = header.offset;
+    this.crs = file.crs;
+    const fields = recordFields(pointFormat, file.extraBytes);
+    const extraLength = recordLength - BASE_RECORD_LENGTH[pointFormat];
+    this.attributes = fields;
+    this.statistics = file.statistics;
+    this.encoding = { kind: "laz", pointFormat, recordLength, extraLength, fields };
+    this.rootPage = info.rootPage;
+  }
+
+  /** @throws SourceError, FormatError */
+  static async open(bytes: ByteSource, options: ReadOptions = {}): Promise<CopcSource> {
+    return new CopcSource(await openCopc(bytes, options));
+  }
+
+  /** Whether a file that begins with these bytes is of the family of LAS, which COPC belongs to. */
+  static recognises(opening: Uint8Array): boolean {
+    return readText(opening, 0, 4) === "LASF";
+  }
+
+  async page(address: ByteRange, options: ReadOptions = {}): Promise<Iterable<HierarchyEntry<ByteRange>>> {
+    checkPageAddress(address, this.#limits);
+    const { offset, length } = address;
+    return entriesOfPage(await this.#bytes.read(offset, offset + length, options), this.#limits);
+  }
+
+  async chunk({ offset, length }: ByteRange, options: ReadOptions = {}): Promise<ArrayBuffer> {
+    const bytes = await this.#bytes.read(offset, offset + length, options);
+    const whole = bytes.byteLength === bytes.buffer.byteLength;
+    return (whole ? bytes.buffer : bytes.slice().buffer) as ArrayBuffer;
+  }
+}
+
+/** COPC writers give spacing as an edge's 128th or so; taken where the file leaves it at 0. */
+const CELLS_PER_EDGE = 128;

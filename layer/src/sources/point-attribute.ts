@@ -1,0 +1,35 @@
+/** Numeric types in which attributes are recorded. */
+export type NumberType =
+  | "uint8"
+  | "int8"
+  | "uint16"
+  | "int16"
+  | "uint32"
+  | "int32"
+  | "uint64"
+  | "int64"
+  | "float32"
+  | "float64";
+
+/** One attribute of the points of a data set. */
+export interface PointAttribute {
+  /** `red`, `green` and `blue` together are the points' own colour. */
+  readonly name: string;
+  /** The writer's words about it; empty where there are none. */
+  readonly description: string;
+  /** Unit of its values, where it is known. */
+  readonly unit?: string;
+  /** Whether its values are numbers, class numbers or bits. */
+  readonly kind: "scalar" | "class" | "flags";
+  readonly type: NumberType;
+  /** Numbers of that type per point. */
+  readonly components: 1 | 2 | 3;
+  /** value = stored · scale + offset, per component. */
+  readonly scale: readonly number[];
+  readonly offset: readonly number[];
+  /** The stored number that means "no value"; undefined where there is none. */
+  readonly noData: number | bigint | undefined;
+}
+
+/** Names of the columns that come from coordinates and colours: no recorded attribute may have one of them. */
+export const DERIVED_COLUMNS: readonly string[] = ["x", "y", "z", "color", "elevation", "ellipsoidalHeight"];

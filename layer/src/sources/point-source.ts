@@ -1,0 +1,93 @@
+import type { GeoTiffKeys } from "@groma/georef";
+import { FormatError } from "../errors/index.js";
+import type { ReadOptions } from "./bytes/byte-source.js";
+import type { PointAttribute } from "./point-attribute.js";
+import type { CloudStatistics } from "./statistics.js";
+
+/**
+ * One data set in a format of point clouds: what it says of itself before any point is read, the pages of its octree,
+ * and the encoded points of each node. Whoever draws, queries or exports a data set knows no more of its format.
+ *
+ * `Address` is where the source finds a page or a node's points: a token that others keep and hand back, and never
+ * look into. `Encoding` tells by its `kind` which decoder turns a chunk into points, and is all that the decoder needs
+ * to know; it goes to the workers, so it must survive `postMessage`.
+ */
+export interface PointSource<Address = unknown, Encoding extends AnyEncoding = AnyEncoding> {
+  /** Address or file name, for errors and to be shown. */
+  readonly name: string;
+  readonly pointCount: number;
+  /** Box that holds all points, source coordinates. */
+  readonly boundingBox: SourceBox;
+  /** Cube of the octree's root: least x, y, z and edge, source units. */
+  readonly cube: readonly [x: number, y: number, z: number, edge: number];
+  /** Distance between the points of the root, source units; halved at each level. */
+  readonly spacing: number;
+  /** Source units per step of the points' integers, per axis: source coordinate = integer · scale + offset. */
+  readonly scale: readonly [number, number, number];
+  /** Source units, per axis. */
+  readonly offset: readonly [number, number, number];
+  readonly crs: CrsDeclaration;
+  /** The attributes of each point but for x, y and z; names are unique and none of {@link DERIVED_COLUMNS}. */
+  readonly attributes: readonly PointAttribute[];
+  /** What a converter counted of all points; undefined where none did. */
+  readonly statistics: CloudStatistics | undefined;
+  readonly encoding: Encoding;
+  /** Page of the hierarchy that begins with the root. */
+  readonly rootPage: Address;
+  /**
+   * Reads a page of the hierarchy. Its entries are read and checked as they are taken, so that a long page need not be
+   * read in one go.
+   * @throws SourceError, FormatError; also while entries are taken
+   */
+  page(address: Address, options?: ReadOptions): Promise<Iterable<HierarchyEntry<Address>>>;
+  /**
+   * Reads the encoded points of a node, in a buffer of their own.
+   * @throws SourceError, FormatError
+   */
+  chunk(address: Address, options?: ReadOptions): Promise<ArrayBuffer>;
+}
+
+/** What all encodings have in common. */
+interface AnyEncoding {
+  readonly kind: string;
+}
+
+/** Least and greatest corner in source coordinates. */
+export interface SourceBox {
+  readonly min: readonly [number, number, number];
+  readonly max: readonly [number, number, number];
+}
+
+/** What a data set says of its coordinate system; nothing of it need be there. */
+export interface CrsDeclaration {
+  /** OGC WKT, or whatever else `resolveCrs` understands in its place. */
+  readonly wkt?: string;
+  readonly geoTiff?: GeoTiffKeys;
+  /** Raw bytes of Groma's georeference record. */
+  readonly georeference?: Uint8Array;
+  /** Raw bytes of the transformation that goes with that record, in a buffer of their own. */
+  readonly transformation?: Uint8Array;
+}
+
+/** One entry of a hierarchy page: a node with its points, or a reference to a further page. */
+export interface HierarchyEntry<Address = unknown> {
+  /** 0 at the root; x, y and z lie in [0, 2^depth). */
+  readonly depth: number;
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  /** Where the points are, or the further page; of no meaning where the node holds no points. */
+  readonly address: Address;
+  /** Number of points; -1 for a reference to a further page. */
+  readonly pointCount: number;
+}
+
+/** The error for an octree that cannot be. */
+export function badHierarchy(file: string, what: string): FormatError {
+  return new FormatError({
+    code: "FORMAT_HIERARCHY",
+    file,
+    cause: `its octree names ${what}`,
+    fix: "Convert the scan again",
+  });
+}
