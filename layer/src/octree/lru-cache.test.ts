@@ -21,6 +21,27 @@ describe("LruCache", () => {
     expect(cache.trim(none)).toEqual([]);
   });
 
+  it("goes down to 80 % where no low mark is given, and to the limit alone where only an excess must go", () => {
+    const cache = new LruCache<number, number>({ points: 1000, bytes: 100 });
+    for (let key = 0; key < 11; key++) cache.set(key, key, { points: 1, bytes: 10 });
+    expect(cache.trim(none).map(([key]) => key)).toEqual([0, 1, 2]);
+    expect(cache.bytes).toBe(80);
+    expect(cache.trim(none, 15).map(([key]) => key)).toEqual([3, 4]);
+    expect(cache.bytes).toBe(60);
+  });
+
+  it("goes by the low mark of points as well", () => {
+    const cache = new LruCache<number, number>({ points: 10, bytes: 1e9, low: 0.5 });
+    for (let key = 0; key < 11; key++) cache.set(key, key, { points: 1, bytes: 1 });
+    expect(cache.trim(none)).toHaveLength(6);
+    expect(cache.points).toBe(5);
+  });
+
+  it("takes out no more for an excess than that, where a limit is passed too", () => {
+    const cache = filled(11);
+    expect(cache.trim(none, 80).map(([key]) => key)).toEqual([0, 1, 2, 3, 4, 5, 6, 7]);
+  });
+
   it("counts a use, and no peek", () => {
     const cache = filled(11);
     cache.use(0);

@@ -114,6 +114,33 @@ describe("selectNodes", () => {
     expect(nodes.some((node) => node.key.depth === 2 && node.key.x >= 2)).toBe(false);
   });
 
+  it("asks for nothing that the earth hides, and for all of it where the globe is not drawn", () => {
+    const earth = 6_378_137;
+    const sphere = (x: number, radius: number): NodeBounds => ({ x, y: 0, z: 0, radius, spacing: 1e5 });
+    const spheres = new Map([
+      ["0-0-0-0", sphere(0, 1.2 * earth)],
+      ["1-0-0-0", sphere(earth, 1000)],
+      ["1-1-0-0", sphere(-earth, 1000)],
+      ["1-0-1-0", sphere(-earth, 1000)],
+    ]);
+    const root = new OctreeNode({ depth: 0, x: 0, y: 0, z: 0 }, "listed");
+    root.pointCount = 100;
+    for (const key of [
+      { depth: 1, x: 0, y: 0, z: 0 },
+      { depth: 1, x: 1, y: 0, z: 0 },
+    ]) {
+      root.adopt(tree(1, 100, key));
+    }
+    root.adopt(new OctreeNode({ depth: 1, x: 0, y: 1, z: 0 }, "page"));
+    const view: View = { ...viewFrom(0), position: [2 * earth, 0, 0], direction: [-1, 0, 0] };
+    const choose = (horizon: boolean) =>
+      selectNodes(root, { ...view, horizon }, options, (node) => spheres.get(node.name)!);
+    expect(choose(true).nodes.map(({ name }) => name)).toEqual(["0-0-0-0", "1-0-0-0"]);
+    expect(choose(true).pages).toEqual([]);
+    expect(choose(false).nodes.map(({ name }) => name)).toEqual(["0-0-0-0", "1-0-0-0", "1-1-0-0"]);
+    expect(choose(false).pages.map(({ name }) => name)).toEqual(["1-0-1-0"]);
+  });
+
   it("asks for pages instead of nodes where the hierarchy is not read yet", () => {
     const root = tree(1);
     root.adopt(new OctreeNode({ depth: 1, x: 0, y: 0, z: 0 }, "page"));

@@ -51,6 +51,30 @@ describe("horizonOf", () => {
     expect(horizonOf(viewFrom(low.position, [], false))(bounds(-172, -47, 0, 1000))).toBe(false);
   });
 
+  // Above the equator, where the occluder's section is a circle: the earth's, 12 km below WGS 84.
+  const occluder = 6_378_137 - 12_000;
+  const camera = 2 * occluder;
+
+  it("hides a sphere until it reaches out of the cone of the lines that touch the earth", () => {
+    const [longitude, distance] = [3, 6_378_137 + 100_000];
+    const [x, y] = [distance * Math.cos(longitude), distance * Math.sin(longitude)];
+    const slant = Math.hypot(camera - x, y);
+    const toCone = slant * Math.sin(Math.asin(occluder / camera) - Math.asin(y / slant));
+    const behind = horizonOf(viewFrom([camera, 0, 0]));
+    const hidden = (radius: number) => behind({ x, y, z: 0, radius, spacing: 1 });
+    expect(toCone).toBeGreaterThan(100_000);
+    // The radius is taken 0.34 % too large, for the shorter axis, and never too small.
+    expect([hidden(0.99 * toCone), hidden(1.001 * toCone)]).toEqual([true, false]);
+    expect(behind({ x: -x, y, z: 0, radius: 0.99 * toCone, spacing: 1 })).toBe(false);
+  });
+
+  it("hides a sphere on the axis until it reaches through the plane of the horizon", () => {
+    const plane = occluder ** 2 / camera;
+    const behind = horizonOf(viewFrom([camera, 0, 0]));
+    const hidden = (radius: number) => behind({ x: plane - 1_000_000, y: 0, z: 0, radius, spacing: 1 });
+    expect([hidden(990_000), hidden(1_001_000)]).toEqual([true, false]);
+  });
+
   it("hides no point in sight: the line to it stays above the ground", () => {
     const place = fc.record({
       longitude: fc.double({ min: -180, max: 180, noNaN: true }),
