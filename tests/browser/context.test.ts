@@ -242,7 +242,9 @@ describe.skipIf(pythonMissing)(
       }, POSE);
       expect(result.failures).toEqual([]);
       expect(result.drawn).toBe(45);
-      expect(result.programs).toBeGreaterThan(45);
+      // Those of the last picture and its picks, and 24 of former ones at most.
+      expect(result.programs).toBeGreaterThan(10);
+      expect(result.programs).toBeLessThan(36);
     });
   },
 );

@@ -1,4 +1,5 @@
-import { type BoundingSphere, ComponentDatatype, Matrix4, PrimitiveType } from "cesium";
+import { type BoundingSphere, Matrix4, PrimitiveType } from "cesium";
+import type { Program } from "../drawing/programs.js";
 import {
   type Buffer,
   DrawCommand,
@@ -6,9 +7,8 @@ import {
   type UniformMap,
   type VertexArray,
 } from "./engine/cesium-private.js";
-import type { GpuObjects } from "./engine/gpu-objects.js";
-import type { QuadProgram } from "./point-programs.js";
-import type { SceneStates } from "./scene-states.js";
+import type { CesiumTypes, GpuObjects } from "./engine/gpu-objects.js";
+import type { RenderStates } from "./engine/render-states.js";
 
 /** Corners of a triangle that covers the picture. */
 const CORNERS = new Float32Array([-1, -1, 3, -1, -1, 3]);
@@ -17,12 +17,12 @@ const CORNERS = new Float32Array([-1, -1, 3, -1, -1, 3]);
 export class CompositeQuad {
   readonly #objects: GpuObjects;
   readonly #owner: object;
-  readonly #states: SceneStates;
+  readonly #states: RenderStates;
   #corners: Buffer | undefined;
   #array: VertexArray | undefined;
   #command: DrawCommand | undefined;
 
-  constructor(objects: GpuObjects, owner: object, states: SceneStates) {
+  constructor(objects: GpuObjects, owner: object, states: RenderStates) {
     this.#objects = objects;
     this.#owner = owner;
     this.#states = states;
@@ -33,12 +33,12 @@ export class CompositeQuad {
    * @param sphere around all points of the picture, ECEF, metres: Cesium draws the quad in each frustum that it meets
    */
   command(
-    { program }: QuadProgram,
+    { program }: Program<CesiumTypes>,
     uniformMap: UniformMap,
     sphere: BoundingSphere,
     translucent: boolean,
   ): DrawCommand {
-    const renderState = translucent ? this.#states.translucent : this.#states.opaque;
+    const renderState = this.#states.of(translucent ? "translucent" : "opaque");
     const pass = translucent ? Pass.TRANSLUCENT : Pass.OPAQUE;
     const changing = { shaderProgram: program, uniformMap, boundingVolume: sphere, renderState, pass };
     if (this.#command) return Object.assign(this.#command, changing);
@@ -62,13 +62,7 @@ export class CompositeQuad {
   #vertexArray(): VertexArray {
     this.#corners = this.#objects.vertexBuffer(CORNERS);
     this.#array = this.#objects.vertexArray([
-      {
-        index: 0,
-        vertexBuffer: this.#corners,
-        componentsPerAttribute: 2,
-        componentDatatype: ComponentDatatype.FLOAT,
-        normalize: false,
-      },
+      { location: 0, buffer: this.#corners, data: CORNERS, components: 2, normalized: false },
     ]);
     return this.#array;
   }

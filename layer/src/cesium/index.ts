@@ -15,6 +15,7 @@ export {
   type RecordValue,
   type StreamProgress,
 } from "../cloud/index.js";
+export type { GpuCounts, GpuKind } from "../drawing/gpu.js";
 export {
   ASPRS_CLASSES,
   type ClassTable,
@@ -37,7 +38,6 @@ export {
   type StyleParts,
 } from "../effects/index.js";
 export { SharedBudget, type SharedBudgetOptions } from "../octree/index.js";
-export type { GpuCounts, GpuKind } from "./engine/gpu-objects.js";
 export type { LayerSource, LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
 export type { PickOptions } from "./layer-renderer.js";
 export { PointCloudLayer } from "./point-cloud-layer.js";

@@ -1,11 +1,11 @@
 import { Resource, TrustedServers } from "cesium";
 import type { ClipSet } from "../clips/index.js";
 import type { PointCloud, PointRecord } from "../cloud/index.js";
+import type { GpuMilliseconds } from "../drawing/frame.js";
+import type { GpuCounts } from "../drawing/gpu.js";
 import type { Forced, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
 import type { HttpOptions, SourceLike } from "../sources/index.js";
-import type { GpuCounts } from "./engine/gpu-objects.js";
-import type { GpuMilliseconds } from "./point-drawing.js";
 
 /** How a layer draws; all can be changed later. */
 export interface PointCloudLayerOptions {
@@ -20,7 +20,7 @@ export interface PointCloudLayerOptions {
   readonly budget?: SharedBudget | undefined;
   /** Metres above their places at which points are drawn, for looks only. Default: 0. */
   readonly heightOffset?: number | undefined;
-  /** Volumes that cut or highlight; several layers may share one set. Default: none. */
+  /** Volumes that cut or highlight; several layers may share one set. Default: an empty one. */
   readonly clips?: ClipSet | undefined;
   /** Which points are drawn and picked. Default: all. */
   readonly filter?: PointFilter | undefined;

@@ -1,44 +1,19 @@
-import type { PointCloud } from "../cloud/index.js";
-import type { ClipAnswers } from "../drawing/clip-answers.js";
-import type { FrameAllowance } from "../drawing/frame-allowance.js";
-import { bufferPixel, windowPixels } from "../drawing/pick-window.js";
-import { numberProgramsOf, pointProgramsOf, programsOf } from "../drawing/program-needs.js";
-import {
-  drawsOffscreen,
-  type EffectPlan,
-  nodeUniforms,
-  type PointCloudStyle,
-  type SceneFacts,
-  withoutClips,
-} from "../effects/index.js";
-import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
-import { ClipRecords } from "./clip-records.js";
-import type { DrawnNode } from "./drawn-node.js";
-import type { Command, Context, FrameState, PickId } from "./engine/cesium-private.js";
+import { type Camera, Matrix4 } from "cesium";
+import { pointOf } from "../drawing/drawn-node.js";
+import type { GpuMilliseconds, LayerRenderer as Renderer } from "../drawing/frame.js";
+import { type ContentRequest, LayerContent } from "../drawing/layer-content.js";
+import { bufferPixel, nearestId, type Size, windowPixels } from "../drawing/pick-window.js";
+import { numberProgramsOf } from "../drawing/program-needs.js";
+import { type ProbedFrame, type Relief, SilhouetteProbe } from "../drawing/silhouette-probe.js";
+import type { Context, FrameState, PickId } from "./engine/cesium-private.js";
 import { GpuObjects } from "./engine/gpu-objects.js";
-import type { Look } from "./look.js";
-import { Looks } from "./looks.js";
-import { NodeUploads } from "./node-uploads.js";
+import { RenderStates } from "./engine/render-states.js";
+import { type CesiumNode, type CesiumView, matrixOf, NodeDrawable } from "./node-drawable.js";
+import { NumberPicture } from "./number-picture.js";
 import { OffscreenPass } from "./offscreen-pass.js";
 import { candidatesAt } from "./pick-candidates.js";
-import { type GpuMilliseconds, PointDrawing, spheresOf } from "./point-drawing.js";
-import { fitFrustum, isOrthographic } from "./point-frustum.js";
-import { PointPicker } from "./point-picker.js";
-import { PointPrograms } from "./point-programs.js";
-import { SilhouetteProbe } from "./silhouette-probe.js";
-import type { AttributeSet } from "./vertex-attributes.js";
-
-/** What a frame is to show. */
-export interface RenderRequest {
-  readonly selection: Selection;
-  readonly cloud: PointCloud;
-  readonly plan: EffectPlan;
-  readonly style: PointCloudStyle;
-  readonly facts: SceneFacts;
-  readonly clips: ClipAnswers;
-  /** What of it may be prepared in this frame. */
-  readonly allowance: FrameAllowance;
-}
+import { PointDrawing, spheresOf } from "./point-drawing.js";
+import { fitFrustum, type PointFrustum } from "./point-frustum.js";
 
 /** How a place of the picture is asked for its point. */
 export interface PickOptions {
@@ -47,20 +22,18 @@ export interface PickOptions {
   readonly signal?: AbortSignal | undefined;
 }
 
-/** All that a layer has and does on the GPU, in one context. */
-export class LayerRenderer {
+/** All that a layer has and does on the GPU, in one context of Cesium. */
+export class LayerRenderer implements Renderer<CesiumView> {
   readonly objects: GpuObjects;
+  readonly content: LayerContent<CesiumView>;
   readonly #pickId: PickId;
-  readonly #programs: PointPrograms;
-  readonly #uploads = new NodeUploads();
-  readonly #pass = new OffscreenPass();
+  readonly #states = new RenderStates();
   readonly #drawing: PointDrawing;
-  readonly #looks: Looks;
-  readonly #picker: PointPicker;
-  readonly #probe: SilhouetteProbe;
-  readonly #clips = new ClipRecords();
-  #nodes: DrawnNode[] = [];
+  readonly #picked: NumberPicture;
+  readonly #probed: NumberPicture;
+  readonly #probe = new SilhouetteProbe<CesiumView>();
   #frameState: FrameState | undefined;
+  #destroyed = false;
 
   /**
    * @param owner the primitive
@@ -68,126 +41,71 @@ export class LayerRenderer {
    * @param generation how often the context was lost before
    */
   constructor(context: Context, owner: object, picked: object, generation: number) {
-    this.objects = new GpuObjects(context, generation);
+    const objects = new GpuObjects(context, owner, generation);
+    const pass = new OffscreenPass(this.#states);
+    this.objects = objects;
     this.#pickId = context.createPickId(picked);
-    this.#programs = new PointPrograms(this.objects, owner);
-    this.#drawing = new PointDrawing(this.objects, owner, this.#pickId, this.#programs, this.#pass);
-    this.#looks = new Looks(this.objects, this.#drawing.uniforms.map);
-    this.#picker = new PointPicker(this.objects, this.#pass);
-    this.#probe = new SilhouetteProbe(this.objects, this.#pass);
+    this.#drawing = new PointDrawing(objects, owner, this.#pickId, pass, this.#states);
+    this.content = new LayerContent<CesiumView>(
+      objects,
+      this.#drawing.uniforms.values,
+      (vertices, heightOffset) => new NodeDrawable(objects, vertices, heightOffset),
+    );
+    this.#picked = new NumberPicture(objects, pass);
+    this.#probed = new NumberPicture(objects, pass);
   }
 
-  /** Nodes of the last frame, as they were drawn. */
-  get nodes(): readonly DrawnNode[] {
-    return this.#nodes;
-  }
-
-  /** The set of effects that the last frame showed. */
-  get plan(): EffectPlan | undefined {
-    return this.#looks.shown?.plan;
-  }
-
-  /** The style that the last frame showed. */
-  get style(): PointCloudStyle | undefined {
-    return this.#looks.shown?.style;
+  get blends(): boolean {
+    return this.objects.context.colorBufferHalfFloat;
   }
 
   get gpuMilliseconds(): GpuMilliseconds {
-    return this.#drawing.milliseconds(this.plan);
+    return this.#drawing.milliseconds(this.content.material?.plan);
   }
 
-  /** Whether the browser says how long the GPU takes. */
   get measuresGpu(): boolean {
     return this.#drawing.measuresGpu;
   }
 
-  /** Share of the pixels that show points whose depth steps by 1 % or more; undefined where it was not measured. */
   get silhouettes(): number | undefined {
     return this.#probe.share;
   }
 
-  /** Metres above their places at which nodes are drawn. */
-  get heightOffset(): number {
-    return this.#uploads.heightOffset;
-  }
-
-  lift(heightOffset: number): void {
-    this.#uploads.lift(heightOffset);
-  }
-
-  /** Frees what a node has on the GPU. */
-  free(node: OctreeNode): void {
-    this.#uploads.free(node);
-    this.#nodes = this.#nodes.filter((drawn) => drawn.node !== node);
-  }
-
-  /**
-   * Draws a frame: prepares what it may, and puts commands into Cesium's list. A new look and new volumes show once
-   * all that they need is there; until then the former ones are drawn.
-   * @returns steps that wait for a later frame: nodes to be uploaded or held against volumes, and a new look
-   */
-  render(frameState: FrameState, request: RenderRequest): number {
+  /** What is drawn from now on goes into this frame of Cesium's. */
+  begin(frameState: FrameState): void {
     this.#frameState = frameState;
-    this.#drawing.nextFrame();
-    const { selection, cloud, plan, style, facts, clips, allowance } = request;
-    const looks = this.#looks;
-    const look = looks.want(plan);
-    const needs = programsOf(look.plan, isLogarithmic(frameState));
-    const linked = this.#programs.prepare(needs, frameState.useLogDepth, allowance);
-    const vertices = (node: OctreeNode) => cloud.stream.vertices(node);
-    const unformed = clips.form(
-      selection.nodes.flatMap((node) => vertices(node) ?? []),
-      allowance,
-    );
-    const next = linked ? look : looks.shown;
-    const waiting = next
-      ? this.#uploads.upload(this.objects, selection.nodes, vertices, this.#reads(next), allowance)
-      : 0;
-    const ready = looks.coming && linked && unformed === 0 && (waiting === 0 || !looks.shown);
-    // The first frame of a look makes what it draws into.
-    if (ready && allowance.grants()) this.#change();
-    if (unformed === 0 && looks.shown?.plan.key === plan.key) clips.advance();
-    const { shown } = looks;
-    if (shown === look) shown.update(plan, style, facts);
-    this.#nodes = shown ? this.#collect(shown, request) : [];
-    const commands: Command[] = shown ? this.#drawing.draw(frameState, shown, this.#nodes) : [];
-    frameState.commandList.push(...commands);
-    return waiting + unformed + (looks.coming ? 1 : 0);
   }
 
-  /**
-   * Measures the silhouettes of the frame that was just drawn, or no more.
-   * @returns whether an answer is awaited
-   */
-  probe(asked: boolean, { allowance, facts, clips }: RenderRequest): boolean {
-    const { plan } = this;
-    if (!asked || !plan || !this.#frameState || this.#nodes.length === 0) {
-      this.#probe.rest();
+  draw(): void {
+    const frameState = this.#frameState;
+    frameState?.commandList.push(...this.#drawing.draw(frameState, this.content));
+  }
+
+  probe(asked: boolean, { allowance, facts, clips, depth }: ContentRequest): boolean {
+    const frameState = this.#frameState;
+    const { material, nodes, programs, heightOffset } = this.content;
+    if (!asked || !material || !frameState || nodes.length === 0) {
+      this.#endProbe();
       return false;
     }
-    const needs = numberProgramsOf(plan, isLogarithmic(this.#frameState));
-    if (!this.#programs.prepare(needs, false, allowance)) return true;
-    const frustum = fitFrustum(this.#frameState.camera, spheresOf(this.#nodes));
-    return this.#probe.follow({
-      frameState: this.#frameState,
-      nodes: this.#nodes,
-      heightOffset: this.heightOffset,
-      widest: this.#widest,
-      setting: this.#drawing.setting("id", frustum),
-      by: [plan.key, this.style, facts.filter, clips.held],
-    });
+    const { plan, style } = material;
+    if (!programs.prepare(numberProgramsOf(plan, depth), allowance)) return true;
+    const { viewMatrix, frustum } = frameState.camera;
+    const camera = [`${viewMatrix}`, `${(frustum as PointFrustum["frustum"]).projectionMatrix}`];
+    const by = [...camera, heightOffset, plan.key, style, facts.filter, clips.held];
+    return this.#probe.follow(this.#probedFrame(frameState, by));
   }
 
   /** Puts the points of the last frame into Cesium's list for a pass of picking or of depth. */
   repeat(frameState: FrameState): void {
-    frameState.commandList.push(...this.#drawing.sceneCommands(this.#nodes));
+    frameState.commandList.push(...this.#drawing.sceneCommands(this.content));
   }
 
   /** Nothing of the layer is in the next frame. */
   rest(): void {
-    this.#nodes = [];
+    this.content.rest();
     this.#drawing.release();
-    this.#probe.rest();
+    this.#endProbe();
   }
 
   /**
@@ -196,103 +114,95 @@ export class LayerRenderer {
    */
   async pick(position: { readonly x: number; readonly y: number }, { window = 9, signal }: PickOptions) {
     const frameState = this.#frameState;
-    if (!frameState || this.#nodes.length === 0) return undefined;
+    const { nodes, widestPoint } = this.content;
+    if (!frameState || nodes.length === 0) return undefined;
     const { context, camera, pixelRatio } = frameState;
-    const size = { width: context.drawingBufferWidth, height: context.drawingBufferHeight };
-    const nodes = this.#nodes;
-    const candidates = candidatesAt(camera, position, window / 2 + this.#widest + 1, nodes);
+    const picture = sizeOf(context);
+    const candidates = candidatesAt(camera, position, window / 2 + widestPoint + 1, nodes);
     if (candidates.length === 0) return undefined;
+    signal?.throwIfAborted();
     context.uniformState.update(frameState);
-    return this.#picker.pick({
-      ...bufferPixel(position, context._gl.canvas as HTMLCanvasElement, size),
-      window: windowPixels(window, pixelRatio),
-      size,
-      nodes,
-      candidates,
-      setting: this.#drawing.setting("id", fitFrustum(camera, spheresOf(candidates))),
-      signal,
-    });
-  }
-
-  /** Frees what the last frame did not show until the layers that share a budget keep it. */
-  keepWithin(budget: ByteLedger, owner: object): void {
-    const shown = new Set(this.#nodes.map(({ node }) => node));
-    budget.report(owner, this.objects.bytes);
-    for (const node of budget.excess > 0 ? this.#uploads.idle(shown) : []) {
-      this.#uploads.free(node);
-      budget.report(owner, this.objects.bytes);
-      if (budget.excess === 0) return;
-    }
+    const setting = this.#drawing.setting("id", fitFrustum(camera, spheresOf(candidates)), this.content);
+    const edge = windowPixels(window, pixelRatio);
+    const reach = (edge - 1) / 2;
+    const { x, y } = bufferPixel(position, context._gl.canvas as HTMLCanvasElement, picture);
+    const square = { x: x - reach, y: y - reach, size: { width: edge, height: edge }, picture };
+    const until = { gone: () => this.#destroyed, signal };
+    const answer = this.#picked.read(square, candidates, setting, until);
+    // Between Cesium's frames nobody else sends it to the GPU, or unbinds what was drawn with.
+    context._gl.flush();
+    context.endFrame();
+    const pixels = await answer;
+    const id = pixels && nearestId(pixels, edge);
+    return id ? pointOf(nodes, id - 1) : undefined;
   }
 
   /** Frees all. */
   destroy(): void {
-    this.#nodes = [];
-    this.#picker.destroy();
-    this.#probe.rest();
-    this.#uploads.destroy();
-    this.#looks.destroy();
+    this.#destroyed = true;
+    this.#picked.release();
+    this.#endProbe();
+    this.content.destroy();
     this.#drawing.destroy();
-    this.#programs.destroy();
-    this.#pass.destroy();
+    this.#states.destroy();
     this.#pickId.destroy();
     this.objects.destroy();
   }
 
-  /** Greatest width of a point, CSS pixels. */
-  get #widest(): number {
-    const { style } = this;
-    return style?.size === "fixed" ? style.pointSize : (style?.maximumSize ?? 0);
+  #endProbe(): void {
+    this.#probe.rest();
+    this.#probed.release();
   }
 
-  /** Draws the look that was prepared from now on, and frees what only the former one read. */
-  #change(): void {
-    this.#looks.change();
-    const { shown } = this.#looks;
-    if (!shown) return;
-    this.#uploads.keep(this.#reads(shown));
-    if (!drawsOffscreen(shown.plan)) this.#drawing.release();
-  }
-
-  /** What the programs of a look read of a node. */
-  #reads({ plan }: Look): AttributeSet[] {
-    return this.#programs.reads(pointProgramsOf(plan, isLogarithmic(this.#frameState)));
-  }
-
-  #collect(look: Look, { selection, style, facts, clips: answers }: RenderRequest): DrawnNode[] {
-    const reads = this.#reads(look);
-    const plain = withoutClips(look.plan);
-    const drawn: DrawnNode[] = [];
-    let firstId = 0;
-    selection.nodes.forEach((node, index) => {
-      const drawable = this.#uploads.ready(node, reads);
-      const clips = drawable && answers.of(drawable.vertices);
-      if (!drawable || !clips || clips.state === "out") return;
-      const count = Math.min(selection.counts[index], drawable.vertices.count);
-      const plan = clips.state === "in" ? plain : look.plan;
-      drawn.push({ node, drawable, count, firstId, uniforms: look.node(node), clips, plan });
-      firstId += count;
-    });
-    const octreeIndices = look.showOctree(drawn);
-    const clipRecords = this.#clips.show(look, drawn);
-    drawn.forEach(({ node, drawable, firstId, uniforms }, index) => {
-      const { columns, toCube } = drawable.vertices;
-      const values = nodeUniforms(look.plan, look.style ?? style, facts, {
-        columns: { get: (name) => columns[name] },
-        firstId,
-        level: node.key.depth,
-        spacing: node.bounds?.spacing ?? 0,
-        octreeIndex: octreeIndices?.[index] ?? 0,
-        toCube,
-        clips: clipRecords[index] ?? [0, 0],
-      });
-      uniforms.set(values);
-    });
-    return drawn;
+  #probedFrame(frameState: FrameState, by: readonly unknown[]): ProbedFrame<CesiumView> {
+    const { camera, context, pixelRatio } = frameState;
+    const { nodes, widestPoint, heightOffset } = this.content;
+    const picture = sizeOf(context);
+    const points = fitFrustum(camera, spheresOf(nodes));
+    const setting = this.#drawing.setting("id", points, this.content);
+    return {
+      nodes,
+      size: picture,
+      by,
+      reliefOf: (node) => reliefOf(node, camera, points, heightOffset),
+      numbersIn: (middles, size, gone) => {
+        const reach = Math.hypot(size.width, size.height) / 2 / pixelRatio + widestPoint;
+        const answers = middles.map((middle) => {
+          const position = { x: middle.x / pixelRatio, y: (picture.height - middle.y) / pixelRatio };
+          const window = {
+            x: Math.round(middle.x - size.width / 2),
+            y: Math.round(middle.y - size.height / 2),
+            ...{ size, picture },
+          };
+          const candidates = candidatesAt(camera, position, reach, nodes);
+          return this.#probed.read(window, candidates, setting, { gone });
+        });
+        context.uniformState.updateFrustum(camera.frustum as PointFrustum["frustum"]);
+        return Promise.all(answers);
+      },
+    };
   }
 }
 
-/** Whether the layer's own passes write logarithmic depth: in perspective. */
-function isLogarithmic(frameState: FrameState | undefined): boolean {
-  return frameState !== undefined && !isOrthographic(frameState.camera.frustum);
+function sizeOf({ drawingBufferWidth, drawingBufferHeight }: Context): Size {
+  return { width: drawingBufferWidth, height: drawingBufferHeight };
+}
+
+/** What Eye-Dome Lighting compares of a node's points, from their eye depths in float64. */
+function reliefOf(
+  { uploaded: { vertices } }: CesiumNode,
+  { viewMatrix }: Camera,
+  { frustum, orthographic }: PointFrustum,
+  heightOffset: number,
+): Relief {
+  const matrix = matrixOf(vertices, heightOffset);
+  const toEye = Matrix4.multiplyTransformation(viewMatrix, matrix, new Matrix4());
+  const [, , x, , , , y, , , , z, , , , w] = Matrix4.toArray(toEye);
+  const { positions } = vertices;
+  const perMetre = frustum.projectionMatrix[5] / (Math.sqrt(3) * Math.LN2);
+  return (index) => {
+    const at = 3 * index;
+    const depth = -(x * positions[at] + y * positions[at + 1] + z * positions[at + 2] + w);
+    return orthographic ? depth * perMetre : Math.log2(depth);
+  };
 }

@@ -1,50 +1,41 @@
 import { BoundingSphere, Cartesian3, Matrix4, PrimitiveType } from "cesium";
+import type { DrawnNode } from "../drawing/drawn-node.js";
+import type { Gpu } from "../drawing/gpu.js";
+import { NodeBuffers } from "../drawing/node-buffers.js";
+import type { UploadedNode } from "../drawing/node-uploads.js";
+import type { Program } from "../drawing/programs.js";
 import type { NodeVertices } from "../workers/index.js";
-import {
-  type Buffer,
-  DrawCommand,
-  type RenderState,
-  type UniformMap,
-  type VertexArray,
-} from "./engine/cesium-private.js";
-import type { GpuObjects } from "./engine/gpu-objects.js";
-import type { PointProgram } from "./point-programs.js";
-import { type AttributeSet, bufferAttribute, constantAttribute, POSITION } from "./vertex-attributes.js";
+import { DrawCommand, type RenderState, type UniformMap } from "./engine/cesium-private.js";
+import type { CesiumTypes } from "./engine/gpu-objects.js";
+
+/** What a Cesium scene draws with. */
+export interface CesiumView extends CesiumTypes {
+  readonly node: NodeDrawable;
+}
+
+/** A node as a frame shows it in Cesium. */
+export type CesiumNode = DrawnNode<CesiumView>;
 
 /** How a node is drawn: by which program, where to, and with which values. */
-export interface NodeDress {
+export interface DrawState {
   readonly owner: object;
-  readonly program: PointProgram;
+  readonly program: Program<CesiumTypes>;
   readonly renderState: RenderState;
   readonly uniformMap: UniformMap;
   /** One of Cesium's passes. */
   readonly pass: number;
 }
 
-/**
- * A node on the GPU: a buffer for its places and one for each attribute that is asked for, the vertex arrays that
- * programs read them through, and two commands: one for Cesium's list, one for pictures of the layer's own.
- */
-export class NodeDrawable {
-  readonly vertices: NodeVertices;
-  readonly #objects: GpuObjects;
-  readonly #buffers = new Map<string, Buffer>();
-  readonly #arrays = new Map<string, { readonly array: VertexArray; readonly columns: readonly string[] }>();
+/** A node on the GPU with two commands: one for Cesium's list, one for pictures of the layer's own. */
+export class NodeDrawable extends NodeBuffers<CesiumTypes> implements UploadedNode {
   #place: ReturnType<typeof placeOf>;
   #sceneCommand: DrawCommand | undefined;
   #ownCommand: DrawCommand | undefined;
-  #bytes = 0;
 
   /** @param heightOffset metres above its place at which it is drawn */
-  constructor(objects: GpuObjects, vertices: NodeVertices, heightOffset: number) {
-    this.#objects = objects;
-    this.vertices = vertices;
+  constructor(gpu: Gpu<CesiumTypes>, vertices: NodeVertices, heightOffset: number) {
+    super(gpu, vertices);
     this.#place = placeOf(vertices, heightOffset);
-  }
-
-  /** Bytes on the GPU. */
-  get bytes(): number {
-    return this.#bytes;
   }
 
   /** Sphere around the node as it is drawn, ECEF, metres. */
@@ -52,34 +43,6 @@ export class NodeDrawable {
     return this.#place.boundingVolume;
   }
 
-  /** Whether programs that read these attributes can draw the node. */
-  has({ signature }: AttributeSet): boolean {
-    return this.#arrays.has(signature);
-  }
-
-  /** Puts on the GPU what programs with these attributes need. */
-  upload(set: AttributeSet): void {
-    this.#array(set);
-  }
-
-  /** Frees what none of these attributes reads. */
-  keep(sets: readonly AttributeSet[]): void {
-    const kept = new Set([POSITION, ...sets.flatMap(({ columns }) => columns)]);
-    const unused = [...this.#buffers].filter(([column]) => !kept.has(column));
-    if (unused.length === 0) return;
-    for (const [signature, { array, columns }] of this.#arrays) {
-      if (columns.every((column) => kept.has(column))) continue;
-      this.#objects.free(array);
-      this.#arrays.delete(signature);
-    }
-    for (const [column, buffer] of unused) {
-      this.#buffers.delete(column);
-      this.#bytes -= buffer.sizeInBytes;
-      this.#objects.free(buffer);
-    }
-  }
-
-  /** Draws the node so many metres above its place from now on. */
   lift(heightOffset: number): void {
     this.#place = placeOf(this.vertices, heightOffset);
     if (this.#sceneCommand) Object.assign(this.#sceneCommand, this.#place);
@@ -87,77 +50,29 @@ export class NodeDrawable {
   }
 
   /** The command for Cesium's list; it derives those for depth, colour range and `scene.pick` from it. */
-  sceneCommand(dress: NodeDress, count: number): DrawCommand {
-    this.#sceneCommand = this.#command(this.#sceneCommand, dress, count);
+  sceneCommand(state: DrawState, count: number): DrawCommand {
+    this.#sceneCommand = this.#command(this.#sceneCommand, state, count);
     return this.#sceneCommand;
   }
 
   /** A command that only the layer itself executes. */
-  ownCommand(dress: NodeDress, count: number): DrawCommand {
-    this.#ownCommand = this.#command(this.#ownCommand, dress, count);
+  ownCommand(state: DrawState, count: number): DrawCommand {
+    this.#ownCommand = this.#command(this.#ownCommand, state, count);
     return this.#ownCommand;
   }
 
-  /** Frees all that the node has on the GPU. */
-  destroy(): void {
-    for (const { array } of this.#arrays.values()) this.#objects.free(array);
-    for (const buffer of this.#buffers.values()) this.#objects.free(buffer);
-    this.#arrays.clear();
-    this.#buffers.clear();
-    this.#bytes = 0;
-  }
-
-  #command(command: DrawCommand | undefined, dress: NodeDress, count: number): DrawCommand {
-    const { owner, program, renderState, uniformMap, pass } = dress;
-    const vertexArray = this.#array(program.reads);
-    const shaderProgram = program.program;
-    if (command)
-      return Object.assign(command, { vertexArray, shaderProgram, renderState, uniformMap, pass, count });
+  #command(command: DrawCommand | undefined, state: DrawState, count: number): DrawCommand {
+    const { owner, program, renderState, uniformMap, pass } = state;
+    const vertexArray = this.array(program.reads);
+    const changing = { vertexArray, shaderProgram: program.program, renderState, uniformMap, pass, count };
+    if (command) return Object.assign(command, changing);
     return new DrawCommand({
+      ...changing,
       owner,
-      vertexArray,
-      shaderProgram,
-      renderState,
-      uniformMap,
-      pass,
-      count,
       primitiveType: PrimitiveType.POINTS,
       ...this.#place,
       pickId: "u_pickColor",
     });
-  }
-
-  #array({ attributes, columns, signature }: AttributeSet): VertexArray {
-    const found = this.#arrays.get(signature);
-    if (found) return found.array;
-    const made = attributes.map((attribute) => {
-      const buffer = this.#buffer(attribute.column);
-      const data = this.#data(attribute.column);
-      return buffer && data
-        ? bufferAttribute(attribute, buffer, data)
-        : constantAttribute(attribute, this.vertices.columns[attribute.column]);
-    });
-    const array = this.#objects.vertexArray(made);
-    this.#arrays.set(signature, { array, columns });
-    return array;
-  }
-
-  #buffer(column: string): Buffer | undefined {
-    const found = this.#buffers.get(column);
-    if (found) return found;
-    const data = this.#data(column);
-    if (!data) return undefined;
-    const buffer = this.#objects.vertexBuffer(data);
-    this.#buffers.set(column, buffer);
-    this.#bytes += buffer.sizeInBytes;
-    return buffer;
-  }
-
-  /** The numbers of a column; undefined where all points share one value. */
-  #data(column: string) {
-    if (column === POSITION) return this.vertices.positions;
-    const data = this.vertices.columns[column]?.data;
-    return data && data.length > 0 ? data : undefined;
   }
 }
 

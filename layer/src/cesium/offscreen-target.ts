@@ -1,6 +1,8 @@
-import { BoundingRectangle } from "cesium";
-import { type Framebuffer, PassState, type Texture } from "./engine/cesium-private.js";
+import { BoundingRectangle, Cartesian3 } from "cesium";
+import { type Framebuffer, PassState, type PickId, type Texture } from "./engine/cesium-private.js";
 import type { GpuObjects } from "./engine/gpu-objects.js";
+import { UniformValues } from "./engine/uniform-values.js";
+import type { PointFrustum } from "./point-frustum.js";
 
 /** What a picture of the points alone consists of. */
 export interface Picture {
@@ -65,5 +67,28 @@ export class OffscreenTarget {
     state.framebuffer = framebuffer;
     state.viewport = new BoundingRectangle(0, 0, this.#width, this.#height);
     return state;
+  }
+}
+
+/** Uniforms that the drawing side itself fills: the pick colour, and the picture that a quad reads. */
+export class PictureUniforms {
+  readonly values: UniformValues;
+  readonly #depthRange = new Cartesian3();
+  #picture: Picture | undefined;
+
+  constructor(pickId: PickId) {
+    this.values = new UniformValues({
+      u_pickColor: () => pickId.color,
+      u_color: () => this.#picture?.blended ?? this.#picture?.colour,
+      u_depth: () => this.#picture?.depth,
+      u_depthRange: () => this.#depthRange,
+    });
+  }
+
+  /** Takes the picture of a frame and the frustum that its depths lie in. */
+  take(picture: Picture, { frustum: { near, far }, orthographic }: PointFrustum): void {
+    this.#picture = picture;
+    const logarithm = orthographic ? 0 : Math.log2(far - near + 1);
+    Cartesian3.fromElements(near, far - near, logarithm, this.#depthRange);
   }
 }

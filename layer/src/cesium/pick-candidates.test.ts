@@ -1,6 +1,6 @@
 import { BoundingSphere, type Camera, type Cartesian2, Cartesian3, Ray } from "cesium";
 import { describe, expect, it } from "vitest";
-import type { DrawnNode } from "./drawn-node.js";
+import type { CesiumNode } from "./node-drawable.js";
 import { candidatesAt } from "./pick-candidates.js";
 
 /** Looks along x from the origin; a pixel is 1 mrad, and the middle is at 0, 0. */
@@ -14,7 +14,7 @@ const parallel = {
 } as unknown as Camera;
 
 const node = (x: number, y: number, radius: number) =>
-  ({ drawable: { sphere: new BoundingSphere(new Cartesian3(x, y, 0), radius) } }) as unknown as DrawnNode;
+  ({ uploaded: { sphere: new BoundingSphere(new Cartesian3(x, y, 0), radius) } }) as unknown as CesiumNode;
 
 describe("candidatesAt", () => {
   it("keeps what the ray passes, and what lies a point's width beside it", () => {

@@ -1,5 +1,5 @@
 import { type Camera, Cartesian2, Cartesian3, type Ray } from "cesium";
-import type { DrawnNode } from "./drawn-node.js";
+import type { CesiumNode } from "./node-drawable.js";
 
 const place = new Cartesian2();
 const away = new Cartesian3();
@@ -14,15 +14,15 @@ export function candidatesAt(
   camera: Camera,
   position: { readonly x: number; readonly y: number },
   reach: number,
-  nodes: readonly DrawnNode[],
-): DrawnNode[] {
+  nodes: readonly CesiumNode[],
+): CesiumNode[] {
   const ray = camera.getPickRay(Cartesian2.fromElements(position.x, position.y, place));
   const beside = camera.getPickRay(Cartesian2.fromElements(position.x + reach, position.y + reach, place));
   if (!ray || !beside) return [...nodes];
   const atOrigin = Cartesian3.distance(ray.origin, beside.origin);
   // Directions are of unit length, so their difference is the spread per metre; more off the axis, hence the factor.
   const perMetre = 2 * Cartesian3.distance(ray.direction, beside.direction);
-  return nodes.filter(({ drawable: { sphere } }) => {
+  return nodes.filter(({ uploaded: { sphere } }) => {
     const along = Math.max(
       0,
       Cartesian3.dot(Cartesian3.subtract(sphere.center, ray.origin, away), ray.direction),

@@ -1,33 +1,24 @@
-import { BoundingSphere, type Camera, Cartesian3, Event, SceneMode } from "cesium";
+import { BoundingSphere, Cartesian3, Event, SceneMode } from "cesium";
 import { ClipSet } from "../clips/index.js";
 import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
-import { ClipAnswers } from "../drawing/clip-answers.js";
-import { Completion } from "../drawing/completion.js";
-import { CostMeter } from "../drawing/cost-meter.js";
-import { FrameAllowance } from "../drawing/frame-allowance.js";
+import { LayerFrames } from "../drawing/frame.js";
 import { FrameFailures } from "../drawing/frame-failures.js";
+import { NO_OBJECTS } from "../drawing/gpu.js";
 import { checkHeightOffset, liftOf } from "../drawing/height-offset.js";
 import {
-  asksForSilhouettes,
-  type CloudPlacing,
   checkFilter,
-  cloudPlacing,
   completeStyle,
   defaultStyle,
-  type EffectName,
   type Forced,
   type LedgerRow,
   type PointCloudStyle,
   type PointFilter,
-  placingFacts,
-  planEffects,
   type StyleParts,
 } from "../effects/index.js";
-import type { NodeBounds, OctreeNode, Selection, SharedBudget } from "../octree/index.js";
-import type { Context, FrameState } from "./engine/cesium-private.js";
+import type { SharedBudget } from "../octree/index.js";
+import type { FrameState } from "./engine/cesium-private.js";
 import { ContextWatch } from "./engine/context-watch.js";
-import { NO_OBJECTS } from "./engine/gpu-objects.js";
-import { viewOfFrame } from "./frame-view.js";
+import { cameraOfFrame } from "./frame-camera.js";
 import {
   type LayerSource,
   type LayerStatistics,
@@ -36,7 +27,7 @@ import {
   resolveSource,
 } from "./layer-options.js";
 import { LayerRenderer, type PickOptions } from "./layer-renderer.js";
-import { sceneFacts } from "./scene-facts.js";
+import type { CesiumView } from "./node-drawable.js";
 
 /**
  * A georeferenced point cloud for `viewer.scene.primitives`.
@@ -76,38 +67,28 @@ export class PointCloudLayer {
 
   readonly #ownsCloud: boolean;
   readonly #picked: object;
-  readonly #placing: CloudPlacing;
+  readonly #frames: LayerFrames<CesiumView>;
   readonly #unsubscribe: () => void;
-  readonly #completion = new Completion();
-  readonly #costs = new CostMeter();
-  readonly #clips = new ClipAnswers();
   readonly #watch = new ContextWatch(() => this.#release());
   readonly #failures = new FrameFailures();
-  #clipSet: ClipSet;
+  #clips: ClipSet;
   #style: PointCloudStyle;
   #filter: PointFilter | undefined;
   #heightOffset = 0;
   #renderer: LayerRenderer | undefined;
-  #selection: Selection | undefined;
-  #ledger: readonly LedgerRow[] = [];
-  /** Effects that the last frame called for. */
-  #active: ReadonlySet<EffectName> = new Set();
-  #frameStart = 0;
-  /** Parts of a frame that have run before. */
-  readonly #begun = new Set<string>();
   #warned = false;
   #destroyed = false;
 
   /** @param ownsCloud whether `destroy()` destroys the cloud too; a cloud that several views share stays */
   private constructor(cloud: PointCloud, options: PointCloudLayerOptions, ownsCloud: boolean) {
     this.cloud = cloud;
-    this.#placing = cloudPlacing(cloud);
+    this.#frames = new LayerFrames(cloud, this);
     this.#ownsCloud = ownsCloud;
     this.show = options.show ?? true;
     this.maximumScreenSpaceError = options.maximumScreenSpaceError ?? 2;
     this.budget = options.budget;
     this.pointBudget = options.pointBudget ?? (options.budget ? Number.POSITIVE_INFINITY : 1_000_000);
-    this.#clipSet = options.clips ?? new ClipSet();
+    this.#clips = options.clips ?? new ClipSet();
     this.filter = options.filter;
     this.forced = options.forced ?? {};
     this.#style = defaultStyle(cloud.hasColour);
@@ -118,7 +99,7 @@ export class PointCloudLayer {
     this.#unsubscribe = cloud.stream.subscribe({
       nodeLoaded: (node) => this.nodeLoaded.raiseEvent(node.name),
       nodeFailed: (node, error) => this.nodeFailed.raiseEvent(node.name, error),
-      nodeEvicted: (node) => this.#renderer?.free(node),
+      nodeEvicted: (node) => this.#renderer?.content.free(node),
     });
   }
 
@@ -167,11 +148,11 @@ export class PointCloudLayer {
 
   /** Volumes that cut or highlight; assigning undefined gives the layer an empty set of its own. */
   get clips(): ClipSet {
-    return this.#clipSet;
+    return this.#clips;
   }
 
   set clips(clips: ClipSet | undefined) {
-    this.#clipSet = clips ?? new ClipSet();
+    this.#clips = clips ?? new ClipSet();
   }
 
   /**
@@ -195,21 +176,19 @@ export class PointCloudLayer {
    * ran and why, and what it costs as far as frames with and without it were seen.
    */
   get ledger(): readonly LedgerRow[] {
-    return this.#costs.complete({
-      active: this.#renderer?.plan?.active ?? new Set<EffectName>(),
-      ledger: this.#ledger,
-    });
+    return this.#frames.ledger(this.#renderer?.content.material?.plan.active);
   }
 
   get statistics(): LayerStatistics {
     const renderer = this.#renderer;
-    const nodes = renderer?.nodes ?? [];
+    const nodes = renderer?.content.nodes ?? [];
+    const { progress, limited } = this.#frames;
     return {
-      nodesVisible: this.#completion.progress.wanted,
+      nodesVisible: progress.wanted,
       nodesLoaded: nodes.length,
-      nodesFailed: this.#completion.progress.failed,
+      nodesFailed: progress.failed,
       pointsDrawn: nodes.reduce((sum, { count }) => sum + count, 0),
-      budgetReached: this.#selection?.limited ?? false,
+      budgetReached: limited,
       requestsPending: this.#destroyed ? 0 : this.cloud.stream.active,
       gpuBytes: renderer?.objects.bytes ?? 0,
       gpuObjects: renderer?.objects.counts ?? NO_OBJECTS,
@@ -222,9 +201,11 @@ export class PointCloudLayer {
    * the camera has not moved since. Nodes that failed do not keep it from settling, unlike `allNodesLoaded`.
    */
   get settled(): boolean {
-    const lifted = this.#renderer !== undefined && this.#renderer.heightOffset !== this.#heightOffset;
-    const restyled = this.#renderer?.style !== undefined && this.#renderer.style !== this.#style;
-    return this.#completion.settled(this.show) && !lifted && !restyled;
+    const content = this.#renderer?.content;
+    const lifted = content !== undefined && content.heightOffset !== this.#heightOffset;
+    const style = content?.material?.style;
+    const restyled = style !== undefined && style !== this.#style;
+    return this.#frames.settled(this.show) && !lifted && !restyled;
   }
 
   /**
@@ -264,7 +245,7 @@ export class PointCloudLayer {
 
   #draw(frameState: FrameState): void {
     const { passes, context, mode } = frameState;
-    this.#renderer?.lift(this.#heightOffset);
+    this.#renderer?.content.lift(this.#heightOffset);
     const flat = mode === SceneMode.SCENE2D || mode === SceneMode.COLUMBUS_VIEW;
     if (flat && this.show) this.#warnOfFlatView();
     // A lost context takes no commands.
@@ -300,64 +281,24 @@ export class PointCloudLayer {
   }
 
   #rest(): void {
-    if (this.#selection) this.cloud.stream.detach(this);
-    this.#selection = undefined;
+    this.#frames.rest(this.show);
     this.#renderer?.rest();
-    this.#clips.rest();
-    this.#completion.rest(this.show);
   }
 
   #render(frameState: FrameState): void {
-    const { context, afterRender } = frameState;
-    const { stream } = this.cloud;
-    const { maximumScreenSpaceError, pointBudget, budget, clips } = this;
-    const view = viewOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
-    const allowance = new FrameAllowance();
-    const answers = this.#clips;
-    answers.follow(clips, this.cloud, allowance);
-    this.#tell(answers.takeFailure(), frameState);
-    if (answers.blocked) {
+    const { afterRender } = frameState;
+    const camera = cameraOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
+    const report = this.#frames.draw(this, camera, () => this.#rendererFor(frameState));
+    this.#tell(this.#frames.takeFailure(), frameState);
+    if (report === "blocked") {
       this.#rest();
       return;
     }
-    const rejects = (bounds: NodeBounds) => answers.rejects(bounds, allowance);
-    const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
-    const selection = stream.update(this, view, options);
-    this.#selection = selection;
-    if (this.#endsWith("selection", frameState)) return;
-    const renderer = this.#rendererFor(context);
-    const verticesOf = (node: OctreeNode) => stream.vertices(node);
-    const facts = sceneFacts(frameState, selection, verticesOf, {
-      attributes: this.cloud.attributes,
-      clips: answers.volumes?.cutting ?? 0,
-      highlights: answers.volumes?.highlighting ?? 0,
-      filter: this.filter,
-      silhouettes: renderer.silhouettes,
-      placing: placingFacts(
-        this.#placing,
-        selection.nodes.flatMap((node) => verticesOf(node) ?? []),
-      ),
-    });
-    if (this.#endsWith("facts", frameState)) return;
-    // Weighted sums need colours finer than bytes.
-    const forced = context.colorBufferHalfFloat ? this.forced : { ...this.forced, splats: false };
-    const plan = planEffects(this.#style, facts, forced, this.#active);
-    this.#active = plan.active;
-    this.#ledger = plan.ledger;
-    if (this.#endsWith("plan", frameState)) return;
-    const { cloud, style } = this;
-    const request = { selection, cloud, plan, style, facts, clips: answers, allowance };
-    const waiting = renderer.render(frameState, request);
-    const probing = renderer.probe(asksForSilhouettes(style, forced), request);
-    if (budget) renderer.keepWithin(budget.gpu, this);
-    this.#measure(renderer);
-    const progress = stream.progress(this);
-    const { changed, finished, done } = this.#completion.note({
-      progress,
-      drawn: waiting === 0 && !answers.pending && !probing && (budget?.balanced ?? true),
-      idle: stream.active === 0,
-      pose: poseOf(frameState.camera),
-    });
+    if (report === "unfinished") {
+      afterRender.push(() => true);
+      return;
+    }
+    const { progress, changed, finished, done } = report;
     if (done) this.#failures.clear();
     // Events go out after the frame, where a listener may change the scene.
     afterRender.push(() => {
@@ -377,37 +318,8 @@ export class PointCloudLayer {
     });
   }
 
-  /**
-   * True the first time that a part of a frame has run, which takes many times as long as any later one: with it the
-   * frame ends. Nothing stands yet that would go missing.
-   */
-  #endsWith(part: "selection" | "facts" | "plan", { afterRender }: FrameState): boolean {
-    if (this.#begun.has(part)) return false;
-    this.#begun.add(part);
-    afterRender.push(() => true);
-    return true;
-  }
-
-  /** Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other. */
-  #measure({
-    plan,
-    nodes,
-    measuresGpu,
-    gpuMilliseconds: { points: drawing, picture = 0 },
-  }: LayerRenderer): void {
-    const now = performance.now();
-    const interval = now - this.#frameStart;
-    this.#frameStart = now;
-    if (!plan) return;
-    const points = nodes.reduce((sum, { count }) => sum + count, 0);
-    if (drawing !== undefined) {
-      this.#costs.note({ plan, points, milliseconds: drawing + picture, by: "timer query" });
-    } else if (!measuresGpu && interval < LONGEST_FRAME) {
-      this.#costs.note({ plan, points, milliseconds: interval, by: "frame difference" });
-    }
-  }
-
-  #rendererFor(context: Context): LayerRenderer {
+  #rendererFor(frameState: FrameState): LayerRenderer {
+    const { context } = frameState;
     if (this.#renderer && this.#renderer.objects.context !== context) {
       // The primitive was moved to another scene: nothing of the first context can be used in it.
       this.#release();
@@ -415,8 +327,9 @@ export class PointCloudLayer {
     this.#watch.follow(context);
     if (!this.#renderer) {
       this.#renderer = new LayerRenderer(context, this, this.#picked, this.#watch.losses);
-      this.#renderer.lift(this.#heightOffset);
+      this.#renderer.content.lift(this.#heightOffset);
     }
+    this.#renderer.begin(frameState);
     return this.#renderer;
   }
 
@@ -438,11 +351,3 @@ function raise<Arguments extends unknown[]>(
     reportError(thrown);
   }
 }
-
-/** Where a camera is and looks at the time of asking. */
-function poseOf(camera: Camera): () => string {
-  return () => `${camera.positionWC} ${camera.directionWC} ${camera.upWC}`;
-}
-
-/** Milliseconds; what lies further apart are frames on demand, whose distance says nothing. */
-const LONGEST_FRAME = 1000;

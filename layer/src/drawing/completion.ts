@@ -13,8 +13,8 @@ export interface FrameOutcome {
   readonly pose: () => string;
 }
 
-/** What is to be told of a frame. */
-export interface Told {
+/** What a frame changed. */
+export interface FrameChange {
   /** Whether the numbers changed. */
   readonly changed: boolean;
   /** Whether it is the first to show all that its view wants, without any failure. */
@@ -38,7 +38,7 @@ export class Completion {
   }
 
   /** Takes note of a frame. */
-  note({ progress, drawn, idle, pose }: FrameOutcome): Told {
+  note({ progress, drawn, idle, pose }: FrameOutcome): FrameChange {
     const changed = !sameProgress(progress, this.#progress);
     const done = progress.pending === 0 && drawn;
     const complete = done && progress.failed === 0 && idle;

@@ -6,52 +6,68 @@ import {
   withoutClips,
 } from "../effects/index.js";
 
-/** Who draws with a program: Cesium, which derives others from it, or the layer itself. */
-export type Drawer = "scene" | "own";
+/** Where depth is logarithmic: in pictures of the layer's own, and in the view's scene. */
+export interface LogarithmicDepth {
+  readonly own: boolean;
+  readonly scene: boolean;
+}
 
 /** A program for points. */
 export interface PointProgramNeed {
   readonly pass: PointPass;
   readonly plan: EffectPlan;
-  readonly drawer: Drawer;
-  /** Whether it writes logarithmic depth; Cesium adds that itself where it draws. */
+  /** What it draws into: the view's scene, by the view's own commands, or a picture of the layer's. */
+  readonly into: "scene" | "own";
+  /** Whether the depth there is logarithmic. */
+  readonly logarithmic: boolean;
+}
+
+/** A program for a quad that puts a picture of the layer's into the view's scene. */
+export interface QuadProgramNeed {
+  readonly pass: QuadPass;
+  readonly plan: EffectPlan;
+  readonly into: "scene";
   readonly logarithmic: boolean;
 }
 
 /** A program that a set of effects is drawn with. */
-export type ProgramNeed =
-  | PointProgramNeed
-  | { readonly pass: QuadPass; readonly plan: EffectPlan; readonly drawer: "quad" };
+export type ProgramNeed = PointProgramNeed | QuadProgramNeed;
+
+/** Whether a program is for a quad over the whole picture. */
+export function isQuad(need: ProgramNeed): need is QuadProgramNeed {
+  return need.pass === "edl" || need.pass === "splatNormalise";
+}
 
 /** The passes over the points that make their picture. */
 export function passesOf({ active }: EffectPlan): readonly [PointPass, ...PointPass[]] {
   return active.has("splats") ? ["depth", "splat"] : ["color"];
 }
 
-/** The pass that puts their picture into the scene. */
-export function quadPassOf({ active }: EffectPlan): QuadPass {
-  return active.has("eyeDomeLighting") ? "edl" : "splatNormalise";
+/** The program for the quad that puts their picture into the scene. */
+export function quadProgramOf(plan: EffectPlan, depth: LogarithmicDepth): QuadProgramNeed {
+  const pass = plan.active.has("eyeDomeLighting") ? "edl" : "splatNormalise";
+  return { plan, pass, into: "scene", logarithmic: depth.scene };
 }
 
 /** The programs for the points of a set of effects: nodes that no volume touches are drawn without clips. */
-export function pointProgramsOf(plan: EffectPlan, logarithmic: boolean): PointProgramNeed[] {
-  const plans = new Set([plan, withoutClips(plan)]);
+export function pointProgramsOf(plan: EffectPlan, depth: LogarithmicDepth): PointProgramNeed[] {
+  const plans = [...new Set([plan, withoutClips(plan)])];
   if (!drawsOffscreen(plan)) {
-    return [...plans].map((plan) => ({ plan, pass: "color", drawer: "scene", logarithmic: false }));
+    return plans.map((plan) => ({ plan, pass: "color", into: "scene", logarithmic: depth.scene }));
   }
-  return [...plans].flatMap((plan) =>
-    passesOf(plan).map((pass) => ({ plan, pass, drawer: "own", logarithmic }) as const),
+  return plans.flatMap((plan) =>
+    passesOf(plan).map((pass) => ({ plan, pass, into: "own", logarithmic: depth.own }) as const),
   );
 }
 
-/** The programs that draw the numbers of a look's points, for picks and measurements. */
-export function numberProgramsOf(plan: EffectPlan, logarithmic: boolean): PointProgramNeed[] {
-  const plans = new Set([plan, withoutClips(plan)]);
-  return [...plans].map((plan) => ({ plan, pass: "id", drawer: "own", logarithmic }));
+/** The programs that draw the numbers of a material's points, for picks and measurements. */
+export function numberProgramsOf(plan: EffectPlan, depth: LogarithmicDepth): PointProgramNeed[] {
+  const plans = [...new Set([plan, withoutClips(plan)])];
+  return plans.map((plan) => ({ plan, pass: "id", into: "own", logarithmic: depth.own }));
 }
 
 /** All programs of a set of effects that make its picture. */
-export function programsOf(plan: EffectPlan, logarithmic: boolean): ProgramNeed[] {
-  const points = pointProgramsOf(plan, logarithmic);
-  return drawsOffscreen(plan) ? [...points, { plan, pass: quadPassOf(plan), drawer: "quad" }] : points;
+export function programsOf(plan: EffectPlan, depth: LogarithmicDepth): ProgramNeed[] {
+  const points = pointProgramsOf(plan, depth);
+  return drawsOffscreen(plan) ? [...points, quadProgramOf(plan, depth)] : points;
 }

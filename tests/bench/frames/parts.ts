@@ -1,19 +1,19 @@
 import { ClipSet, PointCloudLayer } from "@groma/layer/cesium";
-import { LayerRenderer } from "../../../layer/dist/cesium/layer-renderer.js";
-import { Look } from "../../../layer/dist/cesium/look.js";
-import { NodeUploads } from "../../../layer/dist/cesium/node-uploads.js";
 import { OffscreenPass } from "../../../layer/dist/cesium/offscreen-pass.js";
 import { NodeStream } from "../../../layer/dist/cloud/node-stream.js";
+import { LayerContent } from "../../../layer/dist/drawing/layer-content.js";
+import { Material } from "../../../layer/dist/drawing/material.js";
+import { NodeUploads } from "../../../layer/dist/drawing/node-uploads.js";
 import { wrap } from "./marks.js";
 
 /** Marks what of the layer is told apart; the rest of `update` is facts, plan and ledger. */
 export function markLayer(): void {
   wrap(PointCloudLayer.prototype, ["update"], "update");
   wrap(NodeStream.prototype, ["update"], "selection");
-  wrap(LayerRenderer.prototype, ["render"], "render");
+  wrap(LayerContent.prototype, ["prepare"], "content");
   wrap(NodeUploads.prototype, ["upload", "keep"], "uploads");
   wrap(ClipSet.prototype, ["over"], "clip volumes");
-  wrap(Look.prototype, ["showOctree"], "octree");
+  wrap(Material.prototype, ["showOctree"], "octree");
   wrap(OffscreenPass.prototype, ["draw"], "own passes");
 }
 

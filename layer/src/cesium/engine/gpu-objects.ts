@@ -1,4 +1,17 @@
-import { PixelDatatype, PixelFormat } from "cesium";
+import { ComponentDatatype, PixelDatatype, PixelFormat } from "cesium";
+import {
+  type Destroyable,
+  type Gpu,
+  type GpuCounts,
+  type GpuKind,
+  type GpuTypes,
+  NO_OBJECTS,
+  type Texels,
+  type VertexInput,
+} from "../../drawing/gpu.js";
+import type { ProgramNeed } from "../../drawing/program-needs.js";
+import type { PointShader } from "../../effects/index.js";
+import type { ColumnData } from "../../workers/index.js";
 import {
   Buffer,
   BufferUsage,
@@ -13,62 +26,49 @@ import {
   VertexArray,
   type VertexAttribute,
 } from "./cesium-private.js";
+import { programText } from "./program-text.js";
+import { UniformValues } from "./uniform-values.js";
 
-/** Kinds of GPU objects that a layer makes. */
-export type GpuKind =
-  | "buffers"
-  | "vertexArrays"
-  | "textures"
-  | "framebuffers"
-  | "programs"
-  | "queries"
-  | "fences";
-
-/** How many GPU objects of each kind are alive. */
-export type GpuCounts = Readonly<Record<GpuKind, number>>;
-
-/** Nothing on the GPU. */
-export const NO_OBJECTS: GpuCounts = {
-  buffers: 0,
-  vertexArrays: 0,
-  textures: 0,
-  framebuffers: 0,
-  programs: 0,
-  queries: 0,
-  fences: 0,
-};
-
-/** What can be freed. */
-interface Destroyable {
-  destroy(): void;
+/** What drawing is given of Cesium's objects. */
+export interface CesiumTypes extends GpuTypes {
+  readonly buffer: Buffer;
+  readonly vertexArray: VertexArray;
+  readonly texture: Texture;
+  readonly program: ShaderProgram;
+  readonly uniforms: UniformValues;
 }
 
 /** What colours of a texture are stored as. */
 export type TexelType = "byte" | "halfFloat";
 
-/** A shader as text: GLSL ES 3.00 bodies in Cesium's terms, and where attributes go in. */
-export interface ProgramText {
-  readonly vertex: string;
-  readonly fragment: string;
-  readonly attributes: Readonly<Record<string, number>>;
-  readonly defines?: readonly string[];
+/** An object that is alive, and how often it was given. */
+interface Alive {
+  readonly kind: GpuKind;
+  readonly bytes: number;
+  uses: number;
 }
 
 /**
  * Makes all GPU objects of a layer in one context, and knows what is alive: nothing of the layer gets onto the GPU
  * but through here, so the counts are the truth and one call frees all.
  */
-export class GpuObjects {
+export class GpuObjects implements Gpu<CesiumTypes> {
+  readonly target = "cesium";
   readonly context: Context;
-  readonly #alive = new Map<Destroyable, { readonly kind: GpuKind; readonly bytes: number }>();
+  readonly #owner: object;
+  readonly #alive = new Map<Destroyable, Alive>();
   readonly #counts: Record<GpuKind, number> = { ...NO_OBJECTS };
   #bytes = 0;
   /** Cesium caches programs by their text; a program of a context that was lost must not be found again. */
   readonly #generation: string;
 
-  /** @param generation how often the context was lost before */
-  constructor(context: Context, generation = 0) {
+  /**
+   * @param owner the primitive
+   * @param generation how often the context was lost before
+   */
+  constructor(context: Context, owner: object, generation = 0) {
     this.context = context;
+    this.#owner = owner;
     this.#generation = `GROMA_CONTEXT_${generation}`;
   }
 
@@ -92,7 +92,8 @@ export class GpuObjects {
     return this.own("buffers", buffer, buffer.sizeInBytes);
   }
 
-  vertexArray(attributes: readonly VertexAttribute[]): VertexArray {
+  vertexArray(inputs: readonly VertexInput<Buffer>[]): VertexArray {
+    const attributes = inputs.map(vertexAttribute);
     return this.own("vertexArrays", new VertexArray({ context: this.context, attributes }));
   }
 
@@ -107,17 +108,24 @@ export class GpuObjects {
     return this.#texture(width, height, PixelFormat.DEPTH_COMPONENT, PixelDatatype.UNSIGNED_INT);
   }
 
-  /** RGBA texels, 8 bits or a float per channel, first row first. */
-  dataTexture(width: number, height: number, texels: Uint8Array | Float32Array): Texture {
+  dataTexture({ width, height, data }: Texels): Texture {
     const texture = new Texture({
       context: this.context,
-      source: { width, height, arrayBufferView: texels },
+      source: { width, height, arrayBufferView: data },
       pixelFormat: PixelFormat.RGBA,
-      pixelDatatype: texels instanceof Float32Array ? PixelDatatype.FLOAT : PixelDatatype.UNSIGNED_BYTE,
+      pixelDatatype: data instanceof Float32Array ? PixelDatatype.FLOAT : PixelDatatype.UNSIGNED_BYTE,
       sampler: Sampler.NEAREST,
       flipY: false,
     });
     return this.own("textures", texture, texture.sizeInBytes);
+  }
+
+  writeTexture(texture: Texture, { width, height, data }: Texels): void {
+    texture.copyFrom({ source: { width, height, arrayBufferView: data } });
+  }
+
+  uniforms(base: UniformValues): UniformValues {
+    return new UniformValues(base.map);
   }
 
   framebuffer(colours: readonly Texture[], depthTexture: Texture): Framebuffer {
@@ -130,7 +138,8 @@ export class GpuObjects {
     return this.own("framebuffers", framebuffer);
   }
 
-  program({ vertex, fragment, attributes, defines = [] }: ProgramText): ShaderProgram {
+  program(shader: PointShader, need: ProgramNeed): ShaderProgram {
+    const { vertex, fragment, attributes, defines } = programText(shader, need);
     const all = [this.#generation, ...defines];
     const program = ShaderProgram.fromCache({
       context: this.context,
@@ -141,39 +150,47 @@ export class GpuObjects {
     return this.own("programs", program);
   }
 
-  /**
-   * Has a program compiled and linked now, and not when it first draws.
-   * @param owner the primitive
-   * @param logarithmic whether Cesium derives a program with logarithmic depth and draws with that
-   */
-  link(program: ShaderProgram, owner: object, logarithmic: boolean): void {
-    const command = new DrawCommand({ owner, shaderProgram: program });
-    const drawn = logarithmic ? DerivedCommand.createLogDepthCommand(command, this.context).command : command;
+  link(program: ShaderProgram, { into, logarithmic }: ProgramNeed): void {
+    const command = new DrawCommand({ owner: this.#owner, shaderProgram: program });
+    const derived = into === "scene" && logarithmic;
+    const drawn = derived ? DerivedCommand.createLogDepthCommand(command, this.context).command : command;
+    // Asking waits for compiler and linker.
     void drawn.shaderProgram.numberOfVertexAttributes;
   }
 
-  /** Takes an object into the count that was made elsewhere. */
+  /**
+   * Takes an object into the count that was made elsewhere. Cesium gives the same program for the same text: it is
+   * counted once, and to be freed as often as it was given.
+   */
   own<T extends Destroyable>(kind: GpuKind, object: T, bytes = 0): T {
-    this.#alive.set(object, { kind, bytes });
+    const there = this.#alive.get(object);
+    if (there) {
+      there.uses++;
+      return object;
+    }
+    this.#alive.set(object, { kind, bytes, uses: 1 });
     this.#counts[kind]++;
     this.#bytes += bytes;
     return object;
   }
 
-  /** Frees an object; nothing happens where it is free already. */
-  free(object: Destroyable | undefined): undefined {
+  free(object: Destroyable | undefined): void {
     const entry = object && this.#alive.get(object);
-    if (!object || !entry) return undefined;
-    this.#alive.delete(object);
-    this.#counts[entry.kind]--;
-    this.#bytes -= entry.bytes;
+    if (!object || !entry) return;
+    entry.uses--;
+    if (entry.uses === 0) {
+      this.#alive.delete(object);
+      this.#counts[entry.kind]--;
+      this.#bytes -= entry.bytes;
+    }
     object.destroy();
-    return undefined;
   }
 
   /** Frees all. */
   destroy(): void {
-    for (const object of [...this.#alive.keys()]) this.free(object);
+    for (const object of [...this.#alive.keys()]) {
+      while (this.#alive.has(object)) this.free(object);
+    }
   }
 
   #texture(width: number, height: number, pixelFormat: number, pixelDatatype: number): Texture {
@@ -187,4 +204,26 @@ export class GpuObjects {
     });
     return this.own("textures", texture, texture.sizeInBytes);
   }
+}
+
+/** What Cesium is told of an attribute: numbers as they are stored. */
+export function vertexAttribute(input: VertexInput<Buffer>): VertexAttribute {
+  if ("value" in input) return { index: input.location, value: input.value };
+  const { location, buffer, data, components, normalized } = input;
+  return {
+    index: location,
+    vertexBuffer: buffer,
+    componentsPerAttribute: components,
+    componentDatatype: datatypeOf(data),
+    normalize: normalized,
+  };
+}
+
+function datatypeOf(data: ColumnData): number {
+  if (data instanceof Float32Array) return ComponentDatatype.FLOAT;
+  if (data instanceof Uint8Array) return ComponentDatatype.UNSIGNED_BYTE;
+  if (data instanceof Int8Array) return ComponentDatatype.BYTE;
+  if (data instanceof Uint16Array) return ComponentDatatype.UNSIGNED_SHORT;
+  if (data instanceof Int16Array) return ComponentDatatype.SHORT;
+  return data instanceof Uint32Array ? ComponentDatatype.UNSIGNED_INT : ComponentDatatype.INT;
 }

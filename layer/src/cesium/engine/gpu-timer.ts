@@ -13,6 +13,9 @@ const IN_FLIGHT = 4;
 /** Share of a new value in the running mean. */
 const SHARE = 0.2;
 
+/** Labels whose means are remembered: styles and filters come in numbers without end. */
+const REMEMBERED = 64;
+
 /** One measured stretch of the GPU's work. */
 interface Measurement {
   readonly label: string;
@@ -110,7 +113,11 @@ export class GpuTimer {
 
   #note(label: string, milliseconds: number): void {
     const mean = this.#means.get(label);
+    // The one measured last stands last.
+    this.#means.delete(label);
     this.#means.set(label, mean === undefined ? milliseconds : mean + SHARE * (milliseconds - mean));
+    const [oldest] = this.#means.keys();
+    if (this.#means.size > REMEMBERED && oldest !== undefined) this.#means.delete(oldest);
   }
 }
 

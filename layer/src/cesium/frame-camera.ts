@@ -1,9 +1,29 @@
-import { OrthographicFrustum, PerspectiveFrustum } from "cesium";
+import { type Camera, OrthographicFrustum, PerspectiveFrustum } from "cesium";
+import type { FrameCamera } from "../drawing/frame-camera.js";
 import type { View } from "../octree/index.js";
 import type { FrameState } from "./engine/cesium-private.js";
+import { isOrthographic } from "./point-frustum.js";
 
 /** Cesium's default vertical field of view, radians; for frusta that name none. */
 const DEFAULT_FIELD_OF_VIEW = Math.PI / 3;
+
+/** The camera of a frame. @param lift as {@link viewOfFrame} takes it */
+export function cameraOfFrame(frameState: FrameState, lift: readonly [number, number, number]): FrameCamera {
+  const { camera, context, pixelRatio, useLogDepth } = frameState;
+  return {
+    view: viewOfFrame(frameState, lift),
+    width: context.drawingBufferWidth,
+    pixelRatio,
+    near: camera.frustum.near,
+    depth: { own: !isOrthographic(camera.frustum), scene: useLogDepth },
+    pose: () => poseOf(camera),
+  };
+}
+
+/** Where a camera is and looks. */
+function poseOf({ positionWC, directionWC, upWC }: Camera): string {
+  return `${positionWC} ${directionWC} ${upWC}`;
+}
 
 /**
  * The camera of a frame in the plain numbers that the octree understands.

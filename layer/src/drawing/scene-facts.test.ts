@@ -1,18 +1,31 @@
-import { Cartesian3, PerspectiveFrustum } from "cesium";
 import { describe, expect, it } from "vitest";
 import { OctreeNode, type Selection, type VoxelKey } from "../octree/index.js";
-import type { FrameState } from "./engine/cesium-private.js";
-import { sceneFacts, type VerticesOf } from "./scene-facts.js";
+import type { FrameCamera } from "./frame-camera.js";
+import { sceneFacts } from "./scene-facts.js";
+import type { VerticesOf } from "./spacing-facts.js";
+
+const HALF = Math.SQRT1_2;
 
 /** A view along x from the origin, 90° wide, 100 × 100 pixels: 50 pixels per metre a metre away. */
-function frame(): FrameState {
-  const frustum = new PerspectiveFrustum({ fov: Math.PI / 2, aspectRatio: 1, near: 0.1, far: 1000 });
-  const positionWC = new Cartesian3();
-  const cullingVolume = frustum.computeCullingVolume(positionWC, Cartesian3.UNIT_X, Cartesian3.UNIT_Z);
-  const context = { drawingBufferWidth: 100, drawingBufferHeight: 100 };
-  const camera = { positionWC, frustum };
-  return { context, camera, cullingVolume, pixelRatio: 1 } as unknown as FrameState;
-}
+const camera: FrameCamera = {
+  view: {
+    position: [0, 0, 0],
+    direction: [1, 0, 0],
+    planes: [
+      ...[HALF, HALF, 0, 0, HALF, -HALF, 0, 0],
+      ...[HALF, 0, HALF, 0, HALF, 0, -HALF, 0],
+      ...[1, 0, 0, -0.1, -1, 0, 0, 1000],
+    ],
+    height: 100,
+    projection: { kind: "perspective", fieldOfView: Math.PI / 2 },
+    horizon: false,
+  },
+  width: 100,
+  pixelRatio: 1,
+  near: 0.1,
+  depth: { own: true, scene: true },
+  pose: () => "",
+};
 
 /** A node of 100 points at a place, as far apart as its level says. */
 function nodeAt(key: VoxelKey, [x, y, z]: readonly [number, number, number], radius: number): OctreeNode {
@@ -47,7 +60,7 @@ function factsOf(nodes: OctreeNode[], counts: number[], spacings: number[], of: 
     ...{ nodes, counts, spacings, pages: [], open: [], fringe: [], limited: false },
     points: counts.reduce((sum, count) => sum + count, 0),
   };
-  return sceneFacts(frame(), selection, of, layer);
+  return sceneFacts(camera, selection, of, layer);
 }
 
 describe("what is known of the spacing", () => {

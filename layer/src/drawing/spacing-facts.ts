@@ -1,31 +1,7 @@
-import { BoundingSphere, Cartesian3, Intersect, OrthographicFrustum, PerspectiveFrustum } from "cesium";
-import {
-  drawnSpacing,
-  footprint,
-  groundSpacing,
-  type Patch,
-  type PlacingFacts,
-  type PointFilter,
-  type SceneFacts,
-  type StyledAttribute,
-} from "../effects/index.js";
-import type { NodeBounds, OctreeNode, Selection } from "../octree/index.js";
+import { drawnSpacing, footprint, groundSpacing, type Patch } from "../effects/index.js";
+import { type NodeBounds, type OctreeNode, outsideFrustum, type Selection } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
-import type { FrameState } from "./engine/cesium-private.js";
-
-/** Bits of the depth buffers that Cesium and the layer draw with. */
-const DEPTH_BITS = 24;
-
-/** What a layer knows besides the frame. */
-export interface LayerFacts {
-  readonly attributes: readonly StyledAttribute[];
-  /** Volumes that cut, and volumes that highlight. */
-  readonly clips: number;
-  readonly highlights: number;
-  readonly filter: PointFilter | undefined;
-  readonly silhouettes: number | undefined;
-  readonly placing: PlacingFacts | undefined;
-}
+import type { FrameCamera } from "./frame-camera.js";
 
 /** Of a node's points: their box in the node's frame, metres, and the map from there to the node's cube. */
 type Extents = Readonly<Record<keyof Pick<NodeVertices, "box" | "toCube">, ArrayLike<number>>>;
@@ -33,43 +9,14 @@ type Extents = Readonly<Record<keyof Pick<NodeVertices, "box" | "toCube">, Array
 /** What is known of a node's points once they are here; undefined until then. */
 export type VerticesOf = (node: OctreeNode) => Extents | undefined;
 
-/** The numbers that the magnitudes of effects are computed from. */
-export function sceneFacts(
-  frameState: FrameState,
-  selection: Selection,
-  verticesOf: VerticesOf,
-  layer: LayerFacts,
-): SceneFacts {
-  const { context, pixelRatio, camera } = frameState;
-  const { nodes, points } = selection;
-  const distance = new Extent();
-  for (const { bounds } of nodes) {
-    if (!bounds) continue;
-    const away = Cartesian3.distance(camera.positionWC, bounds as unknown as Cartesian3);
-    distance.add(Math.max(camera.frustum.near, away - bounds.radius));
-    distance.add(away + bounds.radius);
-  }
-  return {
-    viewportHeight: context.drawingBufferHeight,
-    pixelRatio,
-    nodes: nodes.length,
-    points,
-    ...spacingFacts(frameState, selection, verticesOf),
-    ...depthFacts(frameState, distance.range),
-    ...layer,
-  };
-}
-
 /** How far apart the points lie where nothing finer is drawn over them. */
-function spacingFacts(
-  { context, cullingVolume }: FrameState,
+export function spacingFacts(
+  { view, width }: FrameCamera,
   { nodes, counts, spacings }: Selection,
   verticesOf: VerticesOf,
 ) {
-  const picture = context.drawingBufferWidth * context.drawingBufferHeight;
-  const inView = ({ x, y, z, radius }: NodeBounds) =>
-    cullingVolume.computeVisibility(new BoundingSphere(new Cartesian3(x, y, z), radius)) !==
-    Intersect.OUTSIDE;
+  const picture = width * view.height;
+  const inView = (bounds: NodeBounds) => !outsideFrustum(view, bounds);
   const wanted = new Set(nodes);
   const here = new Set(nodes.filter((node) => verticesOf(node)));
   const spacing = new Extent();
@@ -135,29 +82,8 @@ function octantsUnder({ box, toCube }: Extents): number {
   return Math.min(4, halves[0] * halves[1] * halves[2]);
 }
 
-/**
- * Steps of depth buffers at the far end of the points. Cesium's logarithmic depth, which points are shaded by, is
- * log(d)/log(f − n + 1) of d = z − n + 1, so that a step of 2⁻ᵇ is d·ln(f − n + 1)·2⁻ᵇ metres (`czm_writeLogDepth`);
- * an orthographic view's is linear, f − n metres over all steps. One that is linear in 1/z has z²/(n·2ᵇ) metres
- * (T. Akenine-Möller et al., "Real-Time Rendering", 4th ed., 4.7.2, with f ≫ n).
- */
-function depthFacts({ context, camera, useLogDepth }: FrameState, [near, far]: readonly [number, number]) {
-  const { frustum } = camera;
-  const orthographic = frustum instanceof OrthographicFrustum;
-  const depth = far - near;
-  const step = orthographic ? depth : (depth + 1) * Math.log(depth + 1);
-  const tangent = Math.tan(((frustum instanceof PerspectiveFrustum && frustum.fovy) || Math.PI / 3) / 2);
-  const linearStep = far ** 2 / (frustum.near * 2 ** DEPTH_BITS);
-  return {
-    depthStep: depth > 0 ? step / far / 2 ** DEPTH_BITS : 0,
-    ...(!orthographic &&
-      far > 0 && { depthStepPixels: (linearStep * context.drawingBufferHeight) / (2 * far * tangent) }),
-    logarithmicDepth: useLogDepth,
-  };
-}
-
 /** Least and greatest of what was added; 0 and 0 where nothing was. */
-class Extent {
+export class Extent {
   #least = Number.POSITIVE_INFINITY;
   #greatest = Number.NEGATIVE_INFINITY;
 

@@ -1,11 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { type DrawnNode, pointOf } from "./drawn-node.js";
+import { pointOf } from "./drawn-node.js";
 
 const nodes = [
   { firstId: 0, count: 3 },
   { firstId: 3, count: 1 },
   { firstId: 4, count: 10 },
-] as DrawnNode[];
+];
 
 describe("pointOf", () => {
   it.each([

@@ -1,13 +1,11 @@
 import { Cartesian2, Cartesian3, Cartesian4, Matrix4 } from "cesium";
-import type { UniformMap } from "./engine/cesium-private.js";
+import type { UniformNumbers, Uniforms } from "../../drawing/gpu.js";
+import type { Texture, UniformMap } from "./cesium-private.js";
 
-/** Values of uniforms as the effects give them; matrices are column-major. */
-export type PlainValues = Readonly<Record<string, number | readonly number[]>>;
-
-type EngineValue = number | Cartesian2 | Cartesian3 | Cartesian4 | Matrix4;
+type EngineValue = number | Cartesian2 | Cartesian3 | Cartesian4 | Matrix4 | Texture;
 
 /** Uniforms of a layer or of a node: plain numbers in, what Cesium asks for out. */
-export class UniformValues {
+export class UniformValues implements Uniforms<Texture> {
   /** Functions by name, for commands; grows with the names that are set. */
   readonly map: UniformMap;
   readonly #map: Record<string, () => unknown>;
@@ -20,12 +18,20 @@ export class UniformValues {
   }
 
   /** Takes new values; those not named stay. */
-  set(values: PlainValues): void {
+  set(values: UniformNumbers): void {
     for (const [name, value] of Object.entries(values)) {
       const there = this.#values.get(name);
-      this.#values.set(name, typeof value === "number" ? value : engineValue(value, there));
-      if (there === undefined) this.#map[name] = () => this.#values.get(name);
+      this.#put(name, typeof value === "number" ? value : engineValue(value, there));
     }
+  }
+
+  setTexture(name: string, texture: Texture): void {
+    this.#put(name, texture);
+  }
+
+  #put(name: string, value: EngineValue): void {
+    if (!this.#values.has(name)) this.#map[name] = () => this.#values.get(name);
+    this.#values.set(name, value);
   }
 }
 

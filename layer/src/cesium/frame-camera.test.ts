@@ -2,7 +2,7 @@ import { Cartesian3, Cartesian4, type CullingVolume, PerspectiveFrustum } from "
 import { describe, expect, it } from "vitest";
 import { outsideFrustum } from "../octree/index.js";
 import type { FrameState } from "./engine/cesium-private.js";
-import { viewOfFrame } from "./frame-view.js";
+import { viewOfFrame } from "./frame-camera.js";
 
 /** A camera at x = 100 that looks along −x and sees what lies between x = 0 and 100. */
 const frame = {

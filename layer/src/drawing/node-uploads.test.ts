@@ -1,9 +1,10 @@
 import { eastNorthUp, geodeticToEcef } from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { FrameAllowance } from "../drawing/frame-allowance.js";
 import { OctreeNode } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
-import type { GpuObjects } from "./engine/gpu-objects.js";
+import { FrameAllowance } from "./frame-allowance.js";
+import type { Gpu, GpuTypes } from "./gpu.js";
+import { NodeBuffers } from "./node-buffers.js";
 import { NodeUploads } from "./node-uploads.js";
 import { attributeSet } from "./vertex-attributes.js";
 
@@ -16,6 +17,10 @@ const read = (column: string, location: number, normalized = false) => ({
 const PLAIN = attributeSet([read("position", 0)]);
 const COLOURED = attributeSet([read("position", 0), read("color", 1, true)]);
 
+class Uploaded extends NodeBuffers<GpuTypes> {
+  lift(): void {}
+}
+
 /** GPU objects that are counted and nothing else. */
 function counted() {
   const alive = new Set<object>();
@@ -23,14 +28,15 @@ function counted() {
     alive.add(object);
     return object;
   };
-  const objects = {
+  const gpu = {
     vertexBuffer: (data: ArrayBufferView) => make({ kind: "buffer", sizeInBytes: data.byteLength }),
     vertexArray: () => make({ kind: "array" }),
     free: (object: object) => void alive.delete(object),
-  } as unknown as GpuObjects;
+  } as unknown as Gpu<GpuTypes>;
   const count = (kind: string) =>
     [...alive].filter((object) => (object as { kind: string }).kind === kind).length;
-  return { objects, count };
+  const uploads = new NodeUploads((vertices) => new Uploaded(gpu, vertices));
+  return { uploads, count };
 }
 
 /** Nodes of so many points that are here. */
@@ -54,33 +60,30 @@ function frame(steps: number): FrameAllowance {
 
 describe("NodeUploads", () => {
   it("uploads as many nodes as a frame allows, in their order, and says how many wait", () => {
-    const { objects, count } = counted();
+    const { uploads, count } = counted();
     const { nodes, of } = nodesOf(7, 10);
-    const uploads = new NodeUploads();
-    const waiting = [0, 3, 100].map((steps) => uploads.upload(objects, nodes, of, [PLAIN], frame(steps)));
+    const waiting = [0, 3, 100].map((steps) => uploads.upload(nodes, of, [PLAIN], frame(steps)));
     expect(waiting).toEqual([6, 3, 0]);
     expect(nodes.every((node) => uploads.ready(node, [PLAIN]))).toBe(true);
     expect([count("buffer"), count("array")]).toEqual([7, 7]);
   });
 
   it("uploads no more bytes in a frame than 4 MiB and what the last node is over", () => {
-    const { objects } = counted();
+    const { uploads } = counted();
     const { nodes, of } = nodesOf(5, 150_000);
-    const uploads = new NodeUploads();
     // 1.8 MB each.
-    expect(uploads.upload(objects, nodes, of, [PLAIN], frame(100))).toBe(2);
-    expect(uploads.upload(objects, nodes, of, [PLAIN], frame(100))).toBe(0);
+    expect(uploads.upload(nodes, of, [PLAIN], frame(100))).toBe(2);
+    expect(uploads.upload(nodes, of, [PLAIN], frame(100))).toBe(0);
   });
 
   it("draws a node in a former style while it waits for what a new one reads, and frees that at last", () => {
-    const { objects, count } = counted();
+    const { uploads, count } = counted();
     const { nodes, of } = nodesOf(3, 10);
-    const uploads = new NodeUploads();
-    uploads.upload(objects, nodes, of, [COLOURED], frame(100));
-    expect(uploads.upload(objects, nodes, of, [PLAIN], frame(0))).toBe(2);
+    uploads.upload(nodes, of, [COLOURED], frame(100));
+    expect(uploads.upload(nodes, of, [PLAIN], frame(0))).toBe(2);
     expect(nodes.map((node) => uploads.ready(node, [COLOURED]) !== undefined)).toEqual([true, true, true]);
     expect(nodes.map((node) => uploads.ready(node, [PLAIN]) !== undefined)).toEqual([true, false, false]);
-    uploads.upload(objects, nodes, of, [PLAIN], frame(100));
+    uploads.upload(nodes, of, [PLAIN], frame(100));
     expect(count("buffer")).toBe(6);
     uploads.keep([PLAIN]);
     expect([count("buffer"), count("array")]).toEqual([3, 3]);

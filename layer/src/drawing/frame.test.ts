@@ -1,0 +1,90 @@
+import { describe, expect, it } from "vitest";
+import { Clip, ClipSet } from "../clips/index.js";
+import type { PointCloud } from "../cloud/index.js";
+import { defaultStyle } from "../effects/index.js";
+import { type FrameReport, LayerFrames, type LayerSettings } from "./frame.js";
+import { cameraOver, POINTS, TestRenderer, type TestView, testCloud } from "./view.fixture.js";
+
+const turn = () => new Promise((resolve) => setTimeout(resolve));
+
+function settingsOf(parts: Partial<LayerSettings> = {}): LayerSettings {
+  return {
+    ...{ maximumScreenSpaceError: 2, pointBudget: 1e6, budget: undefined, clips: new ClipSet() },
+    ...{ style: defaultStyle(false), filter: undefined, forced: {} },
+    ...parts,
+  };
+}
+
+async function setUp() {
+  const cloud = await testCloud();
+  const frames = new LayerFrames<TestView>(cloud, {});
+  const renderer = new TestRenderer();
+  const frame = (settings: LayerSettings) => frames.draw(settings, cameraOver(cloud, 100), () => renderer);
+  /** Frames until one shows all, with time for what is loaded in between. */
+  const settle = async (settings: LayerSettings) => {
+    for (let left = 200; left > 0; left--) {
+      const report = frame(settings);
+      if (typeof report !== "string" && report.done) return report;
+      await turn();
+    }
+    throw new Error("does not settle");
+  };
+  return { cloud, frames, renderer, frame, settle };
+}
+
+describe("LayerFrames, in a view of no library at all", () => {
+  it("ends the first frames after the first run of each part, then draws what is here", async () => {
+    const { frame, settle, renderer, frames } = await setUp();
+    const settings = settingsOf();
+    expect([frame(settings), frame(settings), frame(settings)]).toEqual(Array(3).fill("unfinished"));
+    expect(renderer.drawn).toEqual([]);
+    const report: FrameReport = await settle(settings);
+    expect(report.progress).toEqual({ wanted: 1, ready: 1, failed: 0, pending: 0 });
+    expect(renderer.drawn.at(-1)).toBe(POINTS);
+    expect([frames.settled(true), frames.limited]).toEqual([true, false]);
+    expect(frames.ledger(renderer.content.material?.plan.active).some(({ active }) => active)).toBe(true);
+  });
+
+  it("draws what volumes leave, and rests where the first ones cannot be prepared", async () => {
+    const { cloud, frame, settle, renderer, frames } = await setUp();
+    await settle(settingsOf());
+    const cut = new ClipSet([boxAt(cloud, "outside")]);
+    await settle(settingsOf({ clips: cut }));
+    expect(renderer.drawn.at(-1)).toBe(0);
+    const placeless = new ClipSet([Clip.box({ center: { source: [1e300, 1e300, 1e300] }, size: [1, 1, 1] })]);
+    expect(frame(settingsOf({ clips: placeless }))).not.toBe("blocked");
+    expect(frames.takeFailure()).toMatchObject({ code: "STYLE_CLIP" });
+    const others = new LayerFrames<TestView>(cloud, {});
+    const blocked = settingsOf({ clips: placeless });
+    expect(others.draw(blocked, cameraOver(cloud, 100), () => renderer)).toBe("blocked");
+  });
+
+  it("keeps a bounded number of GPU objects whatever was shown, and frees all", async () => {
+    const { settle, renderer } = await setUp();
+    for (let at = 0; at < 100; at++) {
+      const ranges = { [["elevation", "intensity"][at % 2]]: [at, 1e6] } as const;
+      const style = { ...defaultStyle(false), gamma: at % 3 ? 1 : 1.5, pointSize: 1 + (at % 7) };
+      await settle(settingsOf({ style, filter: at % 5 ? { ranges } : undefined }));
+    }
+    const { buffers, vertexArrays, programs } = renderer.gpu.counts;
+    expect([buffers, vertexArrays]).toEqual([1, 1]);
+    expect(programs).toBeLessThan(30);
+    renderer.content.destroy();
+    expect(Object.values(renderer.gpu.counts).every((count) => count === 0)).toBe(true);
+  });
+
+  it("wants nothing any more once it rests", async () => {
+    const { cloud, settle, renderer, frames } = await setUp();
+    await settle(settingsOf());
+    renderer.content.rest();
+    frames.rest(false);
+    expect([frames.progress.wanted, frames.limited, frames.settled(false)]).toEqual([0, false, true]);
+    expect(cloud.stream.active).toBe(0);
+  });
+});
+
+function boxAt({ bounds: { x, y, z } }: PointCloud, mode: "inside" | "outside"): Clip {
+  const height = Math.hypot(x, y);
+  const place = { longitude: Math.atan2(y, x), latitude: Math.atan2(z, 0.9933056 * height), height: 0 };
+  return Clip.box({ center: place, size: [1e5, 1e5, 1e5], mode });
+}

@@ -1,0 +1,243 @@
+import type { ClipSet } from "../clips/index.js";
+import type { PointCloud, StreamProgress } from "../cloud/index.js";
+import {
+  asksForSilhouettes,
+  type CloudPlacing,
+  cloudPlacing,
+  type EffectName,
+  type EffectPlan,
+  type Forced,
+  type LedgerRow,
+  type PointCloudStyle,
+  type PointFilter,
+  placingFacts,
+  planEffects,
+  type SceneFacts,
+} from "../effects/index.js";
+import type { NodeBounds, OctreeNode, Selection, SharedBudget } from "../octree/index.js";
+import { ClipAnswers } from "./clip-answers.js";
+import { Completion, type FrameChange } from "./completion.js";
+import { CostMeter } from "./cost-meter.js";
+import type { ViewTypes } from "./drawn-node.js";
+import { FrameAllowance } from "./frame-allowance.js";
+import type { FrameCamera } from "./frame-camera.js";
+import type { ContentRequest, LayerContent } from "./layer-content.js";
+import { sceneFacts } from "./scene-facts.js";
+
+/** What a layer is asked to show, as its properties stand at a frame. */
+export interface LayerSettings {
+  readonly maximumScreenSpaceError: number;
+  readonly pointBudget: number;
+  readonly budget: SharedBudget | undefined;
+  readonly clips: ClipSet;
+  readonly style: PointCloudStyle;
+  readonly filter: PointFilter | undefined;
+  readonly forced: Forced;
+}
+
+/** GPU milliseconds, running means of the set of effects that is shown; undefined where the browser does not say. */
+export interface GpuMilliseconds {
+  /** Drawing the points. */
+  readonly points: number | undefined;
+  /** Putting their picture into the scene, where they are drawn into one of their own. */
+  readonly picture: number | undefined;
+}
+
+/** What draws a layer in one context of a view. */
+export interface LayerRenderer<V extends ViewTypes> {
+  readonly content: LayerContent<V>;
+  /** Whether half-float colours can be drawn into, which weighted sums of colours need. */
+  readonly blends: boolean;
+  /** Share of the pixels that show points whose depth steps by 1 % or more; undefined where it was not measured. */
+  readonly silhouettes: number | undefined;
+  readonly gpuMilliseconds: GpuMilliseconds;
+  /** Whether the browser says how long the GPU takes. */
+  readonly measuresGpu: boolean;
+  /** Draws what the content has prepared. */
+  draw(): void;
+  /**
+   * Measures the silhouettes of the frame that was just drawn, or no more.
+   * @returns whether an answer is awaited
+   */
+  probe(asked: boolean, request: ContentRequest): boolean;
+}
+
+/** What a view tells its users of a frame. */
+export interface FrameReport extends FrameChange {
+  readonly progress: StreamProgress;
+}
+
+/** Milliseconds; what lies further apart are frames on demand, whose distance says nothing. */
+const LONGEST_FRAME = 1000;
+
+/** A part of a frame whose first run ends the frame. */
+type Part = "selection" | "facts" | "plan";
+
+/**
+ * The frames of one layer in one view, whatever library draws them. The order of a frame: the volumes are followed, the
+ * octree selects nodes, facts of the scene are gathered, effects are planned by them, content is prepared and drawn, and
+ * what waits for a later frame is counted.
+ */
+export class LayerFrames<V extends ViewTypes> {
+  readonly #cloud: PointCloud;
+  readonly #owner: object;
+  readonly #placing: CloudPlacing;
+  readonly #completion = new Completion();
+  readonly #costs = new CostMeter();
+  readonly #clips = new ClipAnswers();
+  /** Parts that have run before. */
+  readonly #begun = new Set<Part>();
+  #selection: Selection | undefined;
+  #ledger: readonly LedgerRow[] = [];
+  /** Effects that the last frame called for. */
+  #active: ReadonlySet<EffectName> = new Set();
+  #frameStart = 0;
+
+  /** @param owner the layer, by which stream and budgets know it */
+  constructor(cloud: PointCloud, owner: object) {
+    this.#cloud = cloud;
+    this.#owner = owner;
+    this.#placing = cloudPlacing(cloud);
+  }
+
+  /** Nodes that the last frame's view wants, and how far they are. */
+  get progress(): StreamProgress {
+    return this.#completion.progress;
+  }
+
+  /** Whether the point budget, not the screen-space error, ended the last frame's refinement. */
+  get limited(): boolean {
+    return this.#selection?.limited ?? false;
+  }
+
+  /**
+   * Every effect that the last frame could have had, with what it costs as far as that was measured.
+   * @param active effects that are shown
+   */
+  ledger(active: ReadonlySet<EffectName> = new Set()): readonly LedgerRow[] {
+    return this.#costs.complete({ active, ledger: this.#ledger });
+  }
+
+  /** Whether the last frame showed all that can be had of what it was to show, and its camera stands where it stood. */
+  settled(show: boolean): boolean {
+    return this.#completion.settled(show);
+  }
+
+  /** Why volumes could not be prepared or held against a node; each failure is given once. */
+  takeFailure(): unknown {
+    return this.#clips.takeFailure();
+  }
+
+  /** Nothing is drawn: the layer wants no nodes until the next frame. */
+  rest(show: boolean): void {
+    if (this.#selection) this.#cloud.stream.detach(this.#owner);
+    this.#selection = undefined;
+    this.#clips.rest();
+    this.#completion.rest(show);
+  }
+
+  /**
+   * Draws a frame.
+   * @returns `unfinished` where the frame ended early, for another one to go on; `blocked` where there is nothing that may
+   *   be drawn before the volumes are other ones, and the layer is to rest
+   */
+  draw(
+    settings: LayerSettings,
+    camera: FrameCamera,
+    rendererOf: () => LayerRenderer<V>,
+  ): FrameReport | "unfinished" | "blocked" {
+    const { stream } = this.#cloud;
+    const { budget, style, clips: volumes } = settings;
+    const allowance = new FrameAllowance();
+    const clips = this.#clips;
+    clips.follow(volumes, this.#cloud, allowance);
+    if (clips.blocked) return "blocked";
+    const selection = this.#select(settings, camera, allowance);
+    if (this.#isFirst("selection")) return "unfinished";
+    const renderer = rendererOf();
+    const facts = this.#facts(settings, camera, selection, renderer.silhouettes);
+    if (this.#isFirst("facts")) return "unfinished";
+    const forced = renderer.blends ? settings.forced : { ...settings.forced, splats: false };
+    const plan = this.#plan(style, facts, forced);
+    if (this.#isFirst("plan")) return "unfinished";
+    const request = {
+      ...{ selection, cloud: this.#cloud, plan, style, facts, clips, allowance },
+      depth: camera.depth,
+    };
+    const { content } = renderer;
+    const waiting = content.prepare(request);
+    renderer.draw();
+    const probing = renderer.probe(asksForSilhouettes(style, forced), request);
+    if (budget) content.keepWithin(budget.gpu, this.#owner);
+    this.#measure(renderer);
+    const progress = stream.progress(this.#owner);
+    const change = this.#completion.note({
+      progress,
+      drawn: waiting === 0 && !clips.pending && !probing && (budget?.balanced ?? true),
+      idle: stream.active === 0,
+      pose: camera.pose,
+    });
+    return { progress, ...change };
+  }
+
+  #select(settings: LayerSettings, { view }: FrameCamera, allowance: FrameAllowance): Selection {
+    const { maximumScreenSpaceError, pointBudget, budget } = settings;
+    const rejects = (bounds: NodeBounds) => this.#clips.rejects(bounds, allowance);
+    const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
+    this.#selection = this.#cloud.stream.update(this.#owner, view, options);
+    return this.#selection;
+  }
+
+  #facts(
+    { filter }: LayerSettings,
+    camera: FrameCamera,
+    selection: Selection,
+    silhouettes: number | undefined,
+  ): SceneFacts {
+    const { attributes, stream } = this.#cloud;
+    const { volumes } = this.#clips;
+    const verticesOf = (node: OctreeNode) => stream.vertices(node);
+    const here = selection.nodes.flatMap((node) => verticesOf(node) ?? []);
+    return sceneFacts(camera, selection, verticesOf, {
+      attributes,
+      clips: volumes?.cutting ?? 0,
+      highlights: volumes?.highlighting ?? 0,
+      filter,
+      silhouettes,
+      placing: placingFacts(this.#placing, here),
+    });
+  }
+
+  #plan(style: PointCloudStyle, facts: SceneFacts, forced: Forced): EffectPlan {
+    const plan = planEffects(style, facts, forced, this.#active);
+    this.#active = plan.active;
+    this.#ledger = plan.ledger;
+    return plan;
+  }
+
+  /**
+   * True the first time that a part of a frame runs. The browser compiles its code then, which takes many times as long as
+   * a later run: the frame ends after it, so that no frame has two such parts. The next frame begins from the start.
+   */
+  #isFirst(part: Part): boolean {
+    if (this.#begun.has(part)) return false;
+    this.#begun.add(part);
+    return true;
+  }
+
+  /** Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other. */
+  #measure({ content, measuresGpu, gpuMilliseconds }: LayerRenderer<V>): void {
+    const now = performance.now();
+    const interval = now - this.#frameStart;
+    this.#frameStart = now;
+    const { points: drawing, picture = 0 } = gpuMilliseconds;
+    const plan = content.material?.plan;
+    if (!plan) return;
+    const points = content.nodes.reduce((sum, { count }) => sum + count, 0);
+    if (drawing !== undefined) {
+      this.#costs.note({ plan, points, milliseconds: drawing + picture, by: "timer query" });
+    } else if (!measuresGpu && interval < LONGEST_FRAME) {
+      this.#costs.note({ plan, points, milliseconds: interval, by: "frame difference" });
+    }
+  }
+}

@@ -1,0 +1,196 @@
+import type { PointCloud } from "../cloud/index.js";
+import {
+  type EffectPlan,
+  nodeUniforms,
+  type PointCloudStyle,
+  type SceneFacts,
+  withoutClips,
+} from "../effects/index.js";
+import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
+import type { NodeVertices } from "../workers/index.js";
+import type { ClipAnswers } from "./clip-answers.js";
+import type { DrawnNode, ViewTypes } from "./drawn-node.js";
+import type { FrameAllowance } from "./frame-allowance.js";
+import type { Gpu } from "./gpu.js";
+import type { Material } from "./material.js";
+import { Materials } from "./materials.js";
+import { NodeUploads } from "./node-uploads.js";
+import { type LogarithmicDepth, pointProgramsOf, programsOf } from "./program-needs.js";
+import { Programs } from "./programs.js";
+import type { AttributeSet } from "./vertex-attributes.js";
+
+/** What a frame is to show. */
+export interface ContentRequest {
+  readonly selection: Selection;
+  readonly cloud: PointCloud;
+  readonly plan: EffectPlan;
+  readonly style: PointCloudStyle;
+  readonly facts: SceneFacts;
+  readonly clips: ClipAnswers;
+  readonly depth: LogarithmicDepth;
+  /** What of it may be prepared in this frame. */
+  readonly allowance: FrameAllowance;
+}
+
+/** What a layer has on the GPU of one context, and what of it the last frame shows. */
+export class LayerContent<V extends ViewTypes> {
+  readonly programs: Programs<V>;
+  readonly #gpu: Gpu<V>;
+  readonly #materials: Materials<V>;
+  readonly #uploads: NodeUploads<V["node"]>;
+  #depth: LogarithmicDepth = { own: false, scene: false };
+  #nodes: DrawnNode<V>[] = [];
+
+  /**
+   * @param base uniforms that the view itself fills
+   * @param makeNode a node of which nothing is on the GPU yet, so many metres above its place
+   */
+  constructor(
+    gpu: Gpu<V>,
+    base: V["uniforms"],
+    makeNode: (vertices: NodeVertices, heightOffset: number) => V["node"],
+  ) {
+    this.#gpu = gpu;
+    this.programs = new Programs(gpu);
+    this.#materials = new Materials(gpu, base);
+    this.#uploads = new NodeUploads(makeNode);
+  }
+
+  /** Nodes of the last frame, as they are drawn, by rising `firstId`. */
+  get nodes(): readonly DrawnNode<V>[] {
+    return this.#nodes;
+  }
+
+  /** What the last frame's nodes are drawn with. */
+  get material(): Material<V> | undefined {
+    return this.#materials.shown;
+  }
+
+  /** Where depth was logarithmic in the last frame. */
+  get depth(): LogarithmicDepth {
+    return this.#depth;
+  }
+
+  /** Greatest width of a point, CSS pixels. */
+  get widestPoint(): number {
+    const style = this.material?.style;
+    return style?.size === "fixed" ? style.pointSize : (style?.maximumSize ?? 0);
+  }
+
+  /** Metres above their places at which nodes are drawn. */
+  get heightOffset(): number {
+    return this.#uploads.heightOffset;
+  }
+
+  lift(heightOffset: number): void {
+    this.#uploads.lift(heightOffset);
+  }
+
+  /**
+   * Prepares what a frame shows, as far as it may. A new material and new volumes show once all that they need is there;
+   * until then the former ones are drawn.
+   * @returns steps that wait for a later frame: nodes to be uploaded or held against volumes, and a new material
+   */
+  prepare(request: ContentRequest): number {
+    const { selection, cloud, plan, style, facts, clips, depth, allowance } = request;
+    this.#depth = depth;
+    this.programs.nextFrame();
+    const materials = this.#materials;
+    const material = materials.want(plan);
+    const linked = this.programs.prepare(programsOf(material.plan, depth), allowance);
+    const vertices = (node: OctreeNode) => cloud.stream.vertices(node);
+    const unformed = clips.form(
+      selection.nodes.flatMap((node) => vertices(node) ?? []),
+      allowance,
+    );
+    const drawn = linked ? material : materials.shown;
+    const waiting = drawn
+      ? this.#uploads.upload(selection.nodes, vertices, this.#reads(drawn), allowance)
+      : 0;
+    const ready = materials.next && linked && unformed === 0 && (waiting === 0 || !materials.shown);
+    // The first frame of a material makes what it draws into.
+    if (ready && allowance.grants()) this.#change();
+    if (unformed === 0 && materials.shown?.plan.key === plan.key) clips.advance();
+    const { shown } = materials;
+    if (shown === material) shown.update(plan, style, facts);
+    this.#nodes = shown ? this.#collect(shown, request) : [];
+    return waiting + unformed + (materials.next ? 1 : 0);
+  }
+
+  /** Nothing of the layer is in the next frame. */
+  rest(): void {
+    this.#nodes = [];
+  }
+
+  /** Frees what a node has on the GPU. */
+  free(node: OctreeNode): void {
+    this.#uploads.free(node);
+    this.#nodes = this.#nodes.filter((drawn) => drawn.node !== node);
+  }
+
+  /** Frees what the last frame did not show until the layers that share a budget keep it. */
+  keepWithin(budget: ByteLedger, owner: object): void {
+    const shown = new Set(this.#nodes.map(({ node }) => node));
+    budget.report(owner, this.#gpu.bytes);
+    for (const node of budget.excess > 0 ? this.#uploads.idle(shown) : []) {
+      this.#uploads.free(node);
+      budget.report(owner, this.#gpu.bytes);
+      if (budget.excess === 0) return;
+    }
+  }
+
+  /** Frees all. */
+  destroy(): void {
+    this.#nodes = [];
+    this.#uploads.destroy();
+    this.#materials.destroy();
+    this.programs.destroy();
+  }
+
+  /** Draws the material that was prepared from now on, and frees what only the former one read. */
+  #change(): void {
+    this.#materials.change();
+    const { shown } = this.#materials;
+    if (shown) this.#uploads.keep(this.#reads(shown));
+  }
+
+  /** What the programs of a material read of a node. */
+  #reads({ plan }: Material<V>): AttributeSet[] {
+    return this.programs.reads(pointProgramsOf(plan, this.#depth));
+  }
+
+  #collect(
+    material: Material<V>,
+    { selection, style, facts, clips: answers }: ContentRequest,
+  ): DrawnNode<V>[] {
+    const reads = this.#reads(material);
+    const plain = withoutClips(material.plan);
+    const drawn: DrawnNode<V>[] = [];
+    let firstId = 0;
+    selection.nodes.forEach((node, index) => {
+      const uploaded = this.#uploads.ready(node, reads);
+      const clips = uploaded && answers.of(uploaded.vertices);
+      if (!uploaded || !clips || clips.state === "out") return;
+      const count = Math.min(selection.counts[index], uploaded.vertices.count);
+      const plan = clips.state === "in" ? plain : material.plan;
+      drawn.push({ node, uploaded, count, firstId, uniforms: material.uniformsOf(node), clips, plan });
+      firstId += count;
+    });
+    const octreeIndices = material.showOctree(drawn);
+    const clipRecords = material.showClips(drawn);
+    drawn.forEach(({ node, uploaded, firstId, uniforms }, index) => {
+      const { columns, toCube } = uploaded.vertices;
+      const values = nodeUniforms(material.plan, material.style ?? style, facts, {
+        columns: { get: (name) => columns[name] },
+        firstId,
+        level: node.key.depth,
+        spacing: node.bounds?.spacing ?? 0,
+        octreeIndex: octreeIndices?.[index] ?? 0,
+        toCube,
+        clips: clipRecords[index] ?? [0, 0],
+      });
+      uniforms.set(values);
+    });
+    return drawn;
+  }
+}

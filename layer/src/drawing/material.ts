@@ -1,0 +1,143 @@
+import { clipTexture, type NodeClips } from "../clips/index.js";
+import {
+  type EffectPlan,
+  encodeVisibleOctree,
+  layerUniforms,
+  type PointCloudStyle,
+  type PointFilter,
+  type SceneFacts,
+  styleTextures,
+} from "../effects/index.js";
+import type { OctreeNode } from "../octree/index.js";
+import type { DrawnNode, ViewTypes } from "./drawn-node.js";
+import type { Gpu, Texels } from "./gpu.js";
+
+/** First texel and number of records of a node in the texture of clips. */
+type ClipRecords = readonly (readonly [first: number, count: number])[];
+
+/** A style as it is drawn: its set of effects, the values of their uniforms and the textures that they read. */
+export class Material<V extends ViewTypes> {
+  readonly #gpu: Gpu<V>;
+  readonly #uniforms: V["uniforms"];
+  readonly #textures = new Map<string, V["texture"]>();
+  readonly #nodes = new WeakMap<OctreeNode, V["uniforms"]>();
+  #plan: EffectPlan;
+  #style: PointCloudStyle | undefined;
+  #filter: PointFilter | undefined;
+  /** Nodes and counts that the octree's texture shows. */
+  #octree: { readonly drawn: readonly DrawnNode<V>[]; readonly indices: Uint32Array } | undefined;
+  /** What the texture of clips holds, and where. */
+  #clips: { readonly drawn: readonly NodeClips[]; readonly records: ClipRecords } | undefined;
+
+  /** @param base uniforms that the view itself fills */
+  constructor(gpu: Gpu<V>, plan: EffectPlan, base: V["uniforms"]) {
+    this.#gpu = gpu;
+    this.#plan = plan;
+    this.#uniforms = gpu.uniforms(base);
+  }
+
+  /** The set of effects; its key stays the same. */
+  get plan(): EffectPlan {
+    return this.#plan;
+  }
+
+  /** The style that is shown; undefined before the first {@link update}. */
+  get style(): PointCloudStyle | undefined {
+    return this.#style;
+  }
+
+  /** Uniforms of all nodes. */
+  get uniforms(): V["uniforms"] {
+    return this.#uniforms;
+  }
+
+  /** Uniforms of one node, and of all. */
+  uniformsOf(node: OctreeNode): V["uniforms"] {
+    let uniforms = this.#nodes.get(node);
+    if (!uniforms) {
+      uniforms = this.#gpu.uniforms(this.#uniforms);
+      this.#nodes.set(node, uniforms);
+    }
+    return uniforms;
+  }
+
+  /**
+   * Takes the values of a frame.
+   * @param plan one with the same key
+   */
+  update(plan: EffectPlan, style: PointCloudStyle, facts: SceneFacts): void {
+    this.#plan = plan;
+    this.#uniforms.set(layerUniforms(plan, style, facts));
+    const { filter } = plan.filters;
+    if (style === this.#style && filter === this.#filter) return;
+    this.#style = style;
+    this.#filter = filter;
+    for (const { name, ...texels } of styleTextures(plan, style)) this.#setTexture(name, texels);
+  }
+
+  /**
+   * Encodes the octree of the drawn nodes in a texture, where an effect reads it.
+   * @returns the texel of each node; undefined where none does
+   */
+  showOctree(drawn: readonly DrawnNode<V>[]): Uint32Array | undefined {
+    const { active } = this.#plan;
+    if (!active.has("adaptiveSize") && !active.has("levelOfDetail")) return undefined;
+    if (this.#octree && sameNodes(this.#octree.drawn, drawn)) return this.#octree.indices;
+    const { texture, width, height, indices } = encodeVisibleOctree(
+      drawn.map(({ node, uploaded: { vertices }, count }) => ({
+        key: node.key,
+        points: vertices.count,
+        count,
+        leaf: !node.children?.some((child) => child !== undefined),
+        spacing: node.bounds?.spacing ?? 0,
+        box: vertices.box,
+      })),
+    );
+    this.#setTexture("u_octree", { width, height, data: texture });
+    this.#octree = { drawn, indices };
+    return indices;
+  }
+
+  /**
+   * Lays the records of the drawn nodes' volumes into a texture, where an effect reads it.
+   * @returns those of each node; none where no effect does
+   */
+  showClips(drawn: readonly DrawnNode<V>[]): ClipRecords {
+    const { active } = this.#plan;
+    if (!active.has("clip") && !active.has("highlight")) return [];
+    const there = this.#clips;
+    const same =
+      there?.drawn.length === drawn.length && drawn.every(({ clips }, at) => clips === there.drawn[at]);
+    if (there && same) return there.records;
+    const clips = drawn.map((node) => node.clips);
+    const { records, ...texels } = clipTexture(clips);
+    this.#setTexture("u_clips", texels);
+    this.#clips = { drawn: clips, records };
+    return records;
+  }
+
+  /** Frees the textures. */
+  destroy(): void {
+    for (const texture of this.#textures.values()) this.#gpu.free(texture);
+    this.#textures.clear();
+  }
+
+  /** Gives a texture by name other texels; it is made anew only where its size changes. */
+  #setTexture(name: string, texels: Texels): void {
+    const there = this.#textures.get(name);
+    if (there && there.width === texels.width && there.height === texels.height) {
+      this.#gpu.writeTexture(there, texels);
+      return;
+    }
+    this.#gpu.free(there);
+    const texture = this.#gpu.dataTexture(texels);
+    this.#textures.set(name, texture);
+    this.#uniforms.setTexture(name, texture);
+  }
+}
+
+function sameNodes(a: readonly DrawnNode[], b: readonly DrawnNode[]): boolean {
+  return (
+    a.length === b.length && a.every(({ node, count }, at) => node === b[at].node && count === b[at].count)
+  );
+}

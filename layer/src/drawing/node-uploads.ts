@@ -1,0 +1,105 @@
+import type { OctreeNode } from "../octree/index.js";
+import type { NodeVertices } from "../workers/index.js";
+import type { FrameAllowance } from "./frame-allowance.js";
+import type { AttributeSet } from "./vertex-attributes.js";
+
+/** Bytes that a frame uploads at most, besides its allowance of time; one node always goes through. */
+const BYTES = 4 * 1024 * 1024;
+
+/** A node on the GPU, as a view draws it. */
+export interface UploadedNode {
+  readonly vertices: NodeVertices;
+  /** Bytes on the GPU. */
+  readonly bytes: number;
+  /** Whether programs that read these attributes can draw it. */
+  has(set: AttributeSet): boolean;
+  /** Puts on the GPU what programs with these attributes need. */
+  upload(set: AttributeSet): void;
+  /** Frees what programs with other attributes than these read. */
+  keep(sets: readonly AttributeSet[]): void;
+  /** Draws it so many metres above its place from now on. */
+  lift(heightOffset: number): void;
+  destroy(): void;
+}
+
+/** The nodes of a layer that are on the GPU. */
+export class NodeUploads<Node extends UploadedNode> {
+  readonly #nodes = new Map<OctreeNode, Node>();
+  readonly #make: (vertices: NodeVertices, heightOffset: number) => Node;
+  #heightOffset = 0;
+
+  /** @param make a node of which nothing is on the GPU yet, so many metres above its place */
+  constructor(make: (vertices: NodeVertices, heightOffset: number) => Node) {
+    this.#make = make;
+  }
+
+  /** Metres above their places at which nodes are drawn. */
+  get heightOffset(): number {
+    return this.#heightOffset;
+  }
+
+  /** The node, where all that programs with these attributes need is on the GPU. */
+  ready(node: OctreeNode, sets: readonly AttributeSet[]): Node | undefined {
+    const uploaded = this.#nodes.get(node);
+    return uploaded && sets.every((set) => uploaded.has(set)) ? uploaded : undefined;
+  }
+
+  /**
+   * Uploads what is here and not on the GPU yet, in the order given, as far as the frame allows.
+   * @returns nodes that are here but have to wait for a later frame
+   */
+  upload(
+    nodes: Iterable<OctreeNode>,
+    vertices: (node: OctreeNode) => NodeVertices | undefined,
+    sets: readonly AttributeSet[],
+    allowance: FrameAllowance,
+  ): number {
+    let left = BYTES;
+    let waiting = 0;
+    for (const node of nodes) {
+      if (this.ready(node, sets)) continue;
+      const there = this.#nodes.get(node);
+      const content = there?.vertices ?? vertices(node);
+      if (!content) continue;
+      if (waiting > 0 || left <= 0 || !allowance.grants()) {
+        waiting++;
+        continue;
+      }
+      const uploaded = there ?? this.#make(content, this.#heightOffset);
+      this.#nodes.set(node, uploaded);
+      const before = uploaded.bytes;
+      for (const set of sets) uploaded.upload(set);
+      left -= uploaded.bytes - before;
+    }
+    return waiting;
+  }
+
+  /** Frees of all nodes what programs with other attributes than these read. */
+  keep(sets: readonly AttributeSet[]): void {
+    for (const uploaded of this.#nodes.values()) uploaded.keep(sets);
+  }
+
+  /** Draws all nodes so many metres above their places, those to come as well. */
+  lift(heightOffset: number): void {
+    if (heightOffset === this.#heightOffset) return;
+    this.#heightOffset = heightOffset;
+    for (const uploaded of this.#nodes.values()) uploaded.lift(heightOffset);
+  }
+
+  /** Nodes that are not among those shown, the one uploaded longest ago first. */
+  idle(shown: ReadonlySet<OctreeNode>): OctreeNode[] {
+    return [...this.#nodes.keys()].filter((node) => !shown.has(node));
+  }
+
+  /** Frees what a node has on the GPU. */
+  free(node: OctreeNode): void {
+    this.#nodes.get(node)?.destroy();
+    this.#nodes.delete(node);
+  }
+
+  /** Frees all. */
+  destroy(): void {
+    for (const uploaded of this.#nodes.values()) uploaded.destroy();
+    this.#nodes.clear();
+  }
+}

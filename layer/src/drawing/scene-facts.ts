@@ -1,0 +1,68 @@
+import type { PlacingFacts, PointFilter, SceneFacts, StyledAttribute } from "../effects/index.js";
+import type { Selection } from "../octree/index.js";
+import type { FrameCamera } from "./frame-camera.js";
+import { Extent, spacingFacts, type VerticesOf } from "./spacing-facts.js";
+
+/** Bits of the depth buffers that are drawn with. */
+const DEPTH_BITS = 24;
+
+/** What a layer knows besides the frame. */
+export interface LayerFacts {
+  readonly attributes: readonly StyledAttribute[];
+  /** Volumes that cut, and volumes that highlight. */
+  readonly clips: number;
+  readonly highlights: number;
+  readonly filter: PointFilter | undefined;
+  readonly silhouettes: number | undefined;
+  readonly placing: PlacingFacts | undefined;
+}
+
+/** The numbers that the magnitudes of effects are computed from. */
+export function sceneFacts(
+  camera: FrameCamera,
+  selection: Selection,
+  verticesOf: VerticesOf,
+  layer: LayerFacts,
+): SceneFacts {
+  const { view, pixelRatio, near } = camera;
+  const [cx, cy, cz] = Array.from(view.position);
+  const { nodes, points } = selection;
+  const distance = new Extent();
+  for (const { bounds } of nodes) {
+    if (!bounds) continue;
+    const away = Math.hypot(bounds.x - cx, bounds.y - cy, bounds.z - cz);
+    distance.add(Math.max(near, away - bounds.radius));
+    distance.add(away + bounds.radius);
+  }
+  return {
+    viewportHeight: view.height,
+    pixelRatio,
+    nodes: nodes.length,
+    points,
+    ...spacingFacts(camera, selection, verticesOf),
+    ...depthFacts(camera, distance.range),
+    ...layer,
+  };
+}
+
+/**
+ * Steps of depth buffers at the far end of the points. Cesium's logarithmic depth, which points are shaded by, is
+ * log(d)/log(f − n + 1) of d = z − n + 1, so that a step of 2⁻ᵇ is d·ln(f − n + 1)·2⁻ᵇ metres (`czm_writeLogDepth`);
+ * an orthographic view's is linear, f − n metres over all steps. One that is linear in 1/z has z²/(n·2ᵇ) metres
+ * (T. Akenine-Möller et al., "Real-Time Rendering", 4th ed., 4.7.2, with f ≫ n).
+ */
+function depthFacts(
+  { view: { projection, height }, near: nearPlane, depth: { scene } }: FrameCamera,
+  [near, far]: readonly [number, number],
+) {
+  const depth = far - near;
+  const perspective = projection.kind === "perspective";
+  const step = perspective ? (depth + 1) * Math.log(depth + 1) : depth;
+  const linearStep = far ** 2 / (nearPlane * 2 ** DEPTH_BITS);
+  const tangent = perspective ? Math.tan(projection.fieldOfView / 2) : 1;
+  return {
+    depthStep: depth > 0 ? step / far / 2 ** DEPTH_BITS : 0,
+    ...(perspective && far > 0 && { depthStepPixels: (linearStep * height) / (2 * far * tangent) }),
+    logarithmicDepth: scene,
+  };
+}

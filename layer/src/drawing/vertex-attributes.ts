@@ -1,0 +1,40 @@
+import type { AttributeDeclaration } from "../effects/index.js";
+import type { Column } from "../workers/index.js";
+
+/** The column that places are in; all others are those of `NodeVertices.columns`. */
+export const POSITION = "position";
+
+/**
+ * The value of a vertex attribute that is the same for all points of a node, as where they share one class: it takes no
+ * memory.
+ * @param column undefined where the data set has no such attribute, which then is 0
+ */
+export function constantValue(
+  { normalized, components }: Pick<AttributeDeclaration, "normalized" | "components">,
+  column: Column | undefined,
+): number[] {
+  const { constant = [], scale = 1, offset = 0 } = column ?? {};
+  // What the shader would read from a buffer: the number stored, not the value that it stands for.
+  const stored = (value: number) => (normalized ? value / 255 : (value - offset) / scale);
+  // No value at all is NaN, which not every GPU can be given.
+  return Array.from({ length: components }, (_, at) => stored(constant[at] ?? 0) || 0);
+}
+
+/** What a program reads of each point: programs with the same signature share vertex arrays. */
+export interface AttributeSet {
+  readonly attributes: readonly AttributeDeclaration[];
+  /** The columns behind them. */
+  readonly columns: readonly string[];
+  readonly signature: string;
+}
+
+export function attributeSet(attributes: readonly AttributeDeclaration[]): AttributeSet {
+  return { attributes, columns: attributes.map(({ column }) => column), signature: signatureOf(attributes) };
+}
+
+/** What tells two sets of attributes apart. */
+export function signatureOf(attributes: readonly AttributeDeclaration[]): string {
+  return attributes
+    .map(({ column, location, normalized }) => `${location}${normalized ? "n" : ""}${column}`)
+    .join();
+}
