@@ -1,14 +1,20 @@
-// `npm run bench [-- name …]`: figures, not tests. Ratios within one run count; absolute times depend on the machine.
+// `npm run bench [-- name … --minutes N]`: figures, not tests. Ratios within one run count; absolute times depend on the
+// machine. The soak takes two hours, or as many minutes as are asked for.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { cpus } from "node:os";
 import { join } from "node:path";
+import { parseArgs } from "node:util";
 import { root, setup } from "../../.ci/setup/main.mjs";
 import { forTest } from "../../.ci/setup/steps.mjs";
 
-const benches = ["placing", "converters", "page", "frames", "streaming"];
+const benches = ["placing", "converters", "page", "frames", "streaming", "soak"];
 
 await setup(forTest);
-const asked = process.argv.slice(2);
+const { positionals: asked, values } = parseArgs({
+  allowPositionals: true,
+  options: { minutes: { type: "string" } },
+});
+const options = values.minutes === undefined ? {} : { minutes: positive(values.minutes) };
 const report = {
   date: new Date().toISOString(),
   node: process.version,
@@ -19,9 +25,15 @@ const report = {
 for (const name of asked.length > 0 ? asked : benches) {
   console.log(`\n── ${name}`);
   const { bench } = await import(`./${name}.bench.mjs`);
-  const rows = await bench(root);
+  const rows = await bench(root, options);
   console.table(rows);
   report.results[name] = rows;
 }
 mkdirSync(join(root, "tests/artifacts"), { recursive: true });
 writeFileSync(join(root, "tests/artifacts/bench.json"), `${JSON.stringify(report, null, 2)}\n`);
+
+function positive(minutes) {
+  const number = Number(minutes);
+  if (number > 0 && Number.isFinite(number)) return number;
+  throw new Error(`--minutes ${minutes}: give a number greater than 0`);
+}
