@@ -8,11 +8,17 @@ export {
 } from "./clips/index.js";
 export {
   type AttributeInfo,
+  type BoxRelation,
   guessHeights,
   type HeightData,
+  type PointBatch,
+  type PointBracket,
   PointCloud,
   type PointCloudOptions,
+  type PointQuery,
   type PointRecord,
+  type QueryOptions,
+  type QueryVolume,
   type RecordValue,
   type StreamLimits,
 } from "./cloud/index.js";
@@ -32,6 +38,7 @@ export {
   type LazPerf,
   LocalExecutor,
   type NodeExecutor,
+  type NodeRecords,
   type NodeVertices,
   type PoolOptions,
   WorkerPool,

@@ -4,3 +4,11 @@ export type { HeightData } from "./height-data.js";
 export { guessHeights } from "./height-guess.js";
 export { NodeStream, type StreamLimits, type StreamListener, type StreamProgress } from "./node-stream.js";
 export { PointCloud, type PointCloudOptions } from "./point-cloud.js";
+export type {
+  BoxRelation,
+  PointBatch,
+  PointBracket,
+  PointQuery,
+  QueryOptions,
+  QueryVolume,
+} from "./query.js";

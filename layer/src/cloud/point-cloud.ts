@@ -37,6 +37,7 @@ import { NodeLoader, noNode } from "./node-loader.js";
 import { NodeStream, type StreamLimits } from "./node-stream.js";
 import { openPage } from "./open-page.js";
 import { pointRecord } from "./point-record.js";
+import { PointQuery, type QueryOptions, type QueryParts } from "./query.js";
 
 /** How a data set is opened. */
 export interface PointCloudOptions extends GeoreferenceOptions, OpenOptions {
@@ -210,7 +211,7 @@ export class PointCloud {
    */
   async loadNode(key: VoxelKey | string, options: { signal?: AbortSignal } = {}): Promise<NodeVertices> {
     const signal = options.signal ?? new AbortController().signal;
-    return this.#withNode(key, signal, (node) => this.#loader.vertices(node, signal));
+    return this.#withPoints(key, signal, (node) => this.#loader.vertices(node, signal));
   }
 
   /**
@@ -228,7 +229,7 @@ export class PointCloud {
     const signal = options.signal ?? new AbortController().signal;
     // A node may have left the octree since it was drawn: its key tells which one takes its place.
     const key = from instanceof OctreeNode ? from.key : from;
-    const { name, records } = await this.#withNode(key, signal, async (node) => {
+    const { name, records } = await this.#withPoints(key, signal, async (node) => {
       return { name: node.name, records: await this.#loader.records(node, signal) };
     });
     const index = typeof point === "number" ? records.order[point] : point.record;
@@ -239,11 +240,27 @@ export class PointCloud {
   }
 
   /**
+   * The recorded points of a part of the data set, complete and by whole nodes, whatever views show of it.
+   * @throws RangeError where the spacing is not a number from 0 on
+   */
+  query(options: QueryOptions = {}): PointQuery {
+    const parts: QueryParts = {
+      withNode: (key, signal, work) => this.#withNode(key, signal, work),
+      records: (node, signal) => this.#loader.records(node, signal),
+      box: (key, out) => this.#geometry.pointBox(key, this.scale, out),
+      spacing: this.bounds.spacing,
+      scale: this.scale,
+      offset: this.#source.offset,
+    };
+    return new PointQuery(parts, options);
+  }
+
+  /**
    * Works with the node with points that a key names, which stays in the octree meanwhile; reads hierarchy pages on
    * the way to it.
    * @throws FormatError FORMAT_NODE where the octree has no such node
    */
-  async #withNode<T>(
+  async #withPoints<T>(
     key: VoxelKey | string,
     signal: AbortSignal,
     work: (node: OctreeNode) => Promise<T>,
@@ -251,18 +268,31 @@ export class PointCloud {
     const file = this.#source.name;
     const wanted = typeof key === "string" ? parseKey(key) : key;
     if (!wanted) throw noNode(String(key), file);
+    return this.#withNode(wanted, signal, (node) => {
+      if (node.pointCount === 0) throw noNode(node.name, file);
+      return work(node);
+    });
+  }
+
+  /** The same with a node that need not have points. @throws FormatError FORMAT_NODE where the octree has no such node */
+  async #withNode<T>(
+    key: VoxelKey,
+    signal: AbortSignal,
+    work: (node: OctreeNode) => T | Promise<T>,
+  ): Promise<T> {
     for (;;) {
-      const node = this.#store.closest(wanted);
+      signal.throwIfAborted();
+      const node = this.#store.closest(key);
       const opening = this.#opening.get(node);
       if (opening) await opening.catch(() => undefined);
       else if (node.state === "page" || node.pageFailed) await this.#openAgain(node, signal);
-      else if (!sameKey(node.key, wanted) || node.pointCount === 0) throw noNode(keyName(wanted), file);
+      else if (!sameKey(node.key, key)) throw noNode(keyName(key), this.#source.name);
       else return this.#holding(node, work);
     }
   }
 
   /** Keeps a node in the octree, and its page from being the next to go, while work is done with it. */
-  async #holding<T>(node: OctreeNode, work: (node: OctreeNode) => Promise<T>): Promise<T> {
+  async #holding<T>(node: OctreeNode, work: (node: OctreeNode) => T | Promise<T>): Promise<T> {
     const { page } = node;
     page?.hold();
     try {

@@ -93,13 +93,19 @@ function sourceBox(box: Int32Array, { scale, offset }: DataSetSpec): Domain {
 }
 
 /**
- * Damaged chunks often decode, to points all over the place. A node's points lie in its cube; a hundredth of
- * its edge is left to writers that round differently.
+ * How far a point may lie outside its node's cube, source units: a hundredth of the edge is left to writers that round
+ * differently.
+ * @param scale source units per step of the recorded integers
  */
+export function cubeSlack(edge: number, scale: number): number {
+  return 0.01 * edge + 2 * scale;
+}
+
+/** Damaged chunks often decode, to points all over the place, whereas a node's points lie in its cube. */
 function checkInCube(domain: Domain, job: ChunkJob, spec: DataSetSpec): void {
   const [x, y, z, edge] = job.cube;
   const outside = (least: number, greatest: number, from: number, axis: number) => {
-    const slack = 0.01 * edge + 2 * spec.scale[axis];
+    const slack = cubeSlack(edge, spec.scale[axis]);
     return least < from - slack || greatest > from + edge + slack;
   };
   if (

@@ -1,0 +1,237 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { keyName, type NodeStore, type OctreeNode, type VoxelKey } from "../octree/index.js";
+import type { NodeRecords } from "../workers/index.js";
+import { openPage } from "./open-page.js";
+import { EDGE, type PagedOctree, pagedOctree, storeOf } from "./paged-octree.fixture.js";
+import { type PointBatch, PointQuery, type QueryOptions, type QueryParts } from "./query.js";
+
+/** Lets all that is waiting go on, as a request does. */
+const turnOfTheLoop = () => new Promise((resolve) => setImmediate(resolve));
+
+/** Spacing of the root, metres. */
+const SPACING = 128;
+
+/** Seed of an octree whose root has points. */
+const ROOTED = 2;
+
+/** Points of a node of the flat octree: spread over its square, at integer metres. */
+function pointsOf({ depth, x, y }: VoxelKey, count: number): Int32Array {
+  const edge = EDGE / 2 ** depth;
+  const xyz = new Int32Array(3 * count);
+  for (let point = 0; point < count; point++) {
+    xyz[3 * point] = Math.floor(x * edge + ((point * 7919) % edge));
+    xyz[3 * point + 1] = Math.floor(y * edge + ((point * 104729) % edge));
+  }
+  return xyz;
+}
+
+/** What a query of an octree in memory works with, and what it asked for. */
+function partsOf(octree: PagedOctree, store: NodeStore = storeOf(octree)) {
+  const asked = { pages: 0, chunks: 0, atOnce: 0, most: 0 };
+  const opening = new Map<OctreeNode, Promise<void>>();
+  const source = {
+    page: async (address: unknown) => {
+      asked.pages++;
+      for (let turn = 0; turn < asked.pages % 3; turn++) await turnOfTheLoop();
+      return octree.pages.get(address)!;
+    },
+  };
+  const parts: QueryParts = {
+    async withNode(key, signal, work) {
+      for (;;) {
+        const node = store.closest(key);
+        if (node.state === "page") {
+          node.become("opening");
+          opening.set(node, openPage(source, store, node, signal));
+        }
+        if (node.state !== "opening") return work(node);
+        await opening.get(node);
+      }
+    },
+    async records(node) {
+      asked.chunks++;
+      asked.atOnce++;
+      asked.most = Math.max(asked.most, asked.atOnce);
+      for (let turn = 0; turn < 1 + (asked.chunks % 2); turn++) await turnOfTheLoop();
+      asked.atOnce--;
+      const xyz = pointsOf(node.key, node.pointCount);
+      const order = new Uint16Array(node.pointCount);
+      return { xyz, count: node.pointCount, attributes: [], order } satisfies NodeRecords;
+    },
+    box({ depth, x, y }, out) {
+      const edge = EDGE / 2 ** depth;
+      out.set([x * edge, y * edge, 0, (x + 1) * edge, (y + 1) * edge, 0]);
+      return out;
+    },
+    spacing: SPACING,
+    scale: [1, 1, 1],
+    offset: [0, 0, 0],
+  };
+  return { parts, asked };
+}
+
+/** A disc, for which boxes are judged conservatively. */
+function disc(centreX: number, centreY: number, radius: number): NonNullable<QueryOptions["volume"]> {
+  return {
+    toBox(box) {
+      const reach = (axis: number, centre: number) =>
+        Math.max(Math.abs(box[axis] - centre), Math.abs(box[axis + 3] - centre));
+      if (Math.hypot(reach(0, centreX), reach(1, centreY)) <= radius) return "in";
+      const gap = (axis: number, centre: number) => Math.max(0, box[axis] - centre, centre - box[axis + 3]);
+      return Math.hypot(gap(0, centreX), gap(1, centreY)) > radius ? "out" : "crossing";
+    },
+    contains: (x, y) => Math.hypot(x - centreX, y - centreY) <= radius,
+  };
+}
+
+/** All nodes with points that the pages list, straight from their entries. */
+function listed(octree: PagedOctree): VoxelKey[] {
+  return [...octree.pages.values()].flat().filter(({ pointCount }) => pointCount > 0);
+}
+
+async function all(query: PointQuery): Promise<PointBatch[]> {
+  const batches: PointBatch[] = [];
+  for await (const batch of query.batches()) batches.push(batch);
+  return batches;
+}
+
+const total = (batches: readonly PointBatch[]) => batches.reduce((sum, { inside }) => sum + inside.length, 0);
+
+describe("PointQuery", () => {
+  it("brings each node once, coarser levels first, and every point", async () => {
+    for (let seed = 0; seed < 8; seed++) {
+      const octree = pagedOctree(seed);
+      const batches = await all(new PointQuery(partsOf(octree).parts, {}));
+      expect(new Set(batches.map(({ node }) => node)).size).toBe(batches.length);
+      expect(batches.map(({ node }) => node).sort()).toEqual(listed(octree).map(keyName).sort());
+      const depths = batches.map(({ key }) => key.depth);
+      expect(depths).toEqual([...depths].sort((a, b) => a - b));
+      expect(total(batches)).toBe(octree.points);
+      for (const { inside, records } of batches) {
+        expect([...inside]).toEqual(Array.from({ length: records.count }, (_, index) => index));
+      }
+    }
+  });
+
+  it("brings just the points in a volume, and brackets their number beforehand", async () => {
+    const place = fc.integer({ min: -200, max: EDGE + 200 });
+    const volumes = fc.record({ x: place, y: place, radius: fc.integer({ min: 0, max: 900 }) });
+    await fc.assert(
+      fc.asyncProperty(fc.integer(), volumes, async (seed, { x, y, radius }) => {
+        const octree = pagedOctree(seed);
+        const volume = disc(x, y, radius);
+        const expected = listed(octree).flatMap((key) => {
+          const xyz = pointsOf(key, 50);
+          const inside = Array.from(xyz.filter((_, at) => at % 3 === 0).keys()).filter((point) =>
+            volume.contains(xyz[3 * point], xyz[3 * point + 1], 0),
+          );
+          return inside.map((point) => `${keyName(key)} ${point}`);
+        });
+        const { parts, asked } = partsOf(octree);
+        const query = new PointQuery(parts, { volume });
+        const { least, most, nodes } = await query.bracket();
+        expect(asked.chunks).toBe(0);
+        const batches = await all(query);
+        const found = batches.flatMap(({ node, inside }) => [...inside].map((point) => `${node} ${point}`));
+        expect(found.sort()).toEqual(expected.sort());
+        expect(least).toBeLessThanOrEqual(found.length);
+        expect(most).toBeGreaterThanOrEqual(found.length);
+        expect(asked.chunks).toBe(nodes);
+      }),
+      { numRuns: 30 },
+    );
+  });
+
+  it("counts exactly where no node crosses the volume, and reads no page that the volume misses", async () => {
+    const octree = pagedOctree(3);
+    const whole = await new PointQuery(partsOf(octree).parts, {}).bracket();
+    expect([whole.least, whole.most]).toEqual([octree.points, octree.points]);
+    const { parts, asked } = partsOf(octree);
+    const missed = await new PointQuery(parts, { volume: disc(-1e6, 0, 1) }).bracket();
+    expect(missed).toEqual({ least: 0, most: 0, nodes: 0 });
+    expect(asked.pages).toBe(0);
+  });
+
+  it.each([
+    [SPACING, 0],
+    [SPACING / 2, 1],
+    [SPACING / 3, 2],
+    [SPACING / 4, 2],
+    [10 * SPACING, 0],
+    [0, 5],
+  ])("stops at the first level as dense as %d m: %d", async (spacing, deepest) => {
+    const octree = pagedOctree(ROOTED);
+    const batches = await all(new PointQuery(partsOf(octree).parts, { spacing }));
+    const wanted = listed(octree).filter(({ depth }) => depth <= deepest);
+    expect(batches.map(({ node }) => node).sort()).toEqual(wanted.map(keyName).sort());
+    expect(Math.max(...batches.map(({ key }) => key.depth))).toBe(deepest);
+  });
+
+  it("reads a few nodes ahead and no more while nobody takes them", async () => {
+    const { parts, asked } = partsOf(pagedOctree(5));
+    const batches = new PointQuery(parts, {}).batches();
+    for (let taken = 0; taken < 3; taken++) await batches.next();
+    await new Promise((resolve) => setTimeout(resolve, 50));
+    expect(asked.chunks).toBeLessThanOrEqual(9);
+    await batches.return();
+    expect(asked.most).toBeGreaterThan(1);
+    expect(asked.most).toBeLessThanOrEqual(6);
+  });
+
+  it("hands out the same batches again, while another goes on", async () => {
+    const query = new PointQuery(partsOf(pagedOctree(7)).parts, { volume: disc(400, 400, 300) });
+    const [one, other, { most }] = await Promise.all([all(query), all(query), query.bracket()]);
+    expect(one.map(({ node }) => node)).toEqual(other.map(({ node }) => node));
+    expect(total(one)).toBe(total(other));
+    expect(total(one)).toBeGreaterThan(0);
+    expect(most).toBeGreaterThanOrEqual(total(one));
+  });
+
+  it("fails as a whole where a node or a page fails, and may be asked again", async () => {
+    const octree = pagedOctree(9);
+    const { parts } = partsOf(octree);
+    let broken = true;
+    const failing: QueryParts = {
+      ...parts,
+      records: (node, signal) =>
+        broken && node.key.depth === 3 ? Promise.reject(new Error("damaged")) : parts.records(node, signal),
+    };
+    const query = new PointQuery(failing, {});
+    await expect(all(query)).rejects.toThrow("damaged");
+    broken = false;
+    expect(total(await all(query))).toBe(octree.points);
+    let pages = 0;
+    const hidden: QueryParts = {
+      ...parts,
+      withNode: (key, signal, work) =>
+        key.depth === 2 && pages++ === 0
+          ? Promise.reject(new Error("no page"))
+          : parts.withNode(key, signal, work),
+    };
+    const other = new PointQuery(hidden, {});
+    await expect(other.bracket()).rejects.toThrow("no page");
+    expect((await other.bracket()).most).toBe(octree.points);
+  });
+
+  it("stops with the signal's reason", async () => {
+    const { parts, asked } = partsOf(pagedOctree(5));
+    const query = new PointQuery(parts, {});
+    const control = new AbortController();
+    const batches = query.batches({ signal: control.signal });
+    await batches.next();
+    control.abort(new Error("enough"));
+    await expect(
+      (async () => {
+        for await (const _ of batches);
+      })(),
+    ).rejects.toThrow("enough");
+    const { chunks } = asked;
+    await expect(query.bracket({ signal: AbortSignal.abort(new Error("no")) })).rejects.toThrow("no");
+    expect(asked.chunks).toBe(chunks);
+  });
+
+  it.each([Number.NaN, -1])("refuses a spacing of %d", (spacing) => {
+    expect(() => new PointQuery(partsOf(pagedOctree(1)).parts, { spacing })).toThrow(RangeError);
+  });
+});

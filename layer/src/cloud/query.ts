@@ -1,0 +1,245 @@
+import { keyName, type OctreeNode, ROOT_KEY, type VoxelKey } from "../octree/index.js";
+import type { NodeRecords } from "../workers/index.js";
+import { Pace } from "./pace.js";
+
+/** How a box lies to a volume: within it, apart from it, or partly in it (or it may be). */
+export type BoxRelation = "in" | "out" | "crossing";
+
+/**
+ * A part of space in source coordinates and their units. Both answers must agree: of a box that is `in` every point is
+ * contained, of one that is `out` none.
+ */
+export interface QueryVolume {
+  /** How a box lies to the volume: least x, y, z, greatest x, y, z. Bounds belong to the box. */
+  toBox(box: Float64Array): BoxRelation;
+  /** Whether a point lies in the volume; asked of each point of the nodes that cross it. */
+  contains(x: number, y: number, z: number): boolean;
+}
+
+/** What is asked for. */
+export interface QueryOptions {
+  /** Where points are wanted. Default: everywhere. */
+  readonly volume?: QueryVolume | undefined;
+  /**
+   * Distance between neighbouring points that suffices, metres on the ground: levels below the first one that is as
+   * dense are left out. Default: 0, all levels, and so every point.
+   */
+  readonly spacing?: number | undefined;
+}
+
+/** Points of one node, whole records. */
+export interface PointBatch {
+  /** Node, `depth-x-y-z`. */
+  readonly node: string;
+  readonly key: VoxelKey;
+  /** All points of the node as they are recorded, in the order of the file. */
+  readonly records: NodeRecords;
+  /** Which of them the volume contains: indices of records, rising. */
+  readonly inside: Uint32Array;
+}
+
+/** How many points a query finds, as far as the hierarchy tells: between these two, both possible. */
+export interface PointBracket {
+  /** Points of the nodes that lie within the volume. */
+  readonly least: number;
+  /** Those and the points of the nodes that cross it. */
+  readonly most: number;
+  /** Nodes that are read. */
+  readonly nodes: number;
+}
+
+/** A node that is read, known before any of its points is. */
+interface WantedNode {
+  readonly key: VoxelKey;
+  readonly pointCount: number;
+  /** Whether it lies within the volume, so that none of its points needs to be asked. */
+  readonly within: boolean;
+}
+
+/** What a query works with. */
+export interface QueryParts {
+  /** Does work with the node of a key, whose hierarchy page is read before where need be. */
+  withNode<T>(key: VoxelKey, signal: AbortSignal, work: (node: OctreeNode) => T | Promise<T>): Promise<T>;
+  /** A node's points as recorded. */
+  records(node: OctreeNode, signal: AbortSignal): Promise<NodeRecords>;
+  /** Box that all points of a node lie in, source coordinates: least x, y, z, greatest x, y, z. */
+  box(key: VoxelKey, out: Float64Array): Float64Array;
+  /** Distance between points of the root, metres on the ground; halved at each level. */
+  readonly spacing: number;
+  /** Source units per step of the recorded integers, per axis. */
+  readonly scale: readonly [number, number, number];
+  /** Source units, per axis. */
+  readonly offset: readonly [number, number, number];
+}
+
+/** Nodes that are read ahead of the one that is waited for: enough for the workers of most machines. */
+const AHEAD = 6;
+
+/** Nodes whose pages are asked for at a time. */
+const PAGES_AT_ONCE = 8;
+
+/** Points between two looks at the clock. */
+const SLICE = 2048;
+
+/**
+ * The points of a data set in a volume, by whole nodes: each node once, coarser levels before finer ones, whatever a
+ * view shows or has loaded. Either all of it comes or the failure is thrown: no part is left out silently.
+ *
+ * Nodes are read a few at a time, and only as batches are taken: whoever stops taking them pauses the query, and memory
+ * is bounded by those few nodes.
+ */
+export class PointQuery {
+  readonly #parts: QueryParts;
+  readonly #volume: QueryVolume | undefined;
+  /** The last level that is read. */
+  readonly #deepest: number;
+  /** Nodes to be read, as far as the hierarchy was followed, coarser ones first. */
+  readonly #wanted: WantedNode[] = [];
+  /** Nodes of the next level that may be wanted, with whether the node above lies within the volume. */
+  #frontier: { readonly key: VoxelKey; readonly within: boolean }[] = [{ key: ROOT_KEY, within: false }];
+  #following: Promise<void> | undefined;
+
+  /** @throws RangeError where the spacing is not a number from 0 on */
+  constructor(parts: QueryParts, { volume, spacing = 0 }: QueryOptions) {
+    if (!(spacing >= 0)) throw new RangeError(`spacing needs metres from 0 on, not ${spacing}`);
+    this.#parts = parts;
+    this.#volume = volume;
+    this.#deepest = Math.max(0, Math.ceil(Math.log2(parts.spacing / spacing)));
+  }
+
+  /**
+   * Counts the points to come by the hierarchy alone, of which it reads the pages that the volume meets.
+   * @throws SourceError, FormatError; the signal's reason when aborted
+   */
+  async bracket({ signal = never() }: { signal?: AbortSignal } = {}): Promise<PointBracket> {
+    while (this.#frontier.length > 0) await this.#follow(signal);
+    let [least, most] = [0, 0];
+    for (const { pointCount, within } of this.#wanted) {
+      most += pointCount;
+      if (within) least += pointCount;
+    }
+    return { least, most, nodes: this.#wanted.length };
+  }
+
+  /**
+   * Reads the points. Batches come in a fixed order, whatever the network does; batches without points are left out.
+   * May be called several times: each goes through all points.
+   * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted
+   */
+  async *batches({ signal = never() }: { signal?: AbortSignal } = {}): AsyncGenerator<PointBatch, void> {
+    const stop = new AbortController();
+    const either = AbortSignal.any([signal, stop.signal]);
+    const ahead: Promise<PointBatch>[] = [];
+    let next = 0;
+    try {
+      for (;;) {
+        while (ahead.length < AHEAD && next < this.#wanted.length) {
+          ahead.push(handled(this.#read(this.#wanted[next++], either)));
+        }
+        // The hierarchy is followed while points are on their way.
+        const more = next === this.#wanted.length && this.#frontier.length > 0;
+        const following = more ? handled(this.#follow(either)) : undefined;
+        const first = ahead.shift();
+        const batch = await first;
+        if (batch && batch.inside.length > 0) yield batch;
+        await following;
+        if (!first && !more) return;
+      }
+    } finally {
+      stop.abort();
+    }
+  }
+
+  /** Goes one level down. Whoever comes while that is done waits for it, and looks again. */
+  async #follow(signal: AbortSignal): Promise<void> {
+    signal.throwIfAborted();
+    if (this.#following) {
+      await this.#following.catch(() => undefined);
+      return;
+    }
+    this.#following = this.#followLevel(signal);
+    try {
+      await this.#following;
+    } finally {
+      this.#following = undefined;
+    }
+  }
+
+  /** Takes in the level of the frontier whole, or leaves everything as it is. */
+  async #followLevel(signal: AbortSignal): Promise<void> {
+    const { withNode } = this.#parts;
+    const pace = new Pace(signal);
+    const wanted: WantedNode[] = [];
+    const below: { key: VoxelKey; within: boolean }[] = [];
+    const met = this.#frontier.flatMap(({ key, within }) => {
+      const relation = within ? "in" : this.#relation(key);
+      return relation === "out" ? [] : { key, within: relation === "in" };
+    });
+    for (let from = 0; from < met.length; from += PAGES_AT_ONCE) {
+      const visits = met.slice(from, from + PAGES_AT_ONCE).map(({ key, within }) =>
+        withNode(key, signal, ({ pointCount, children }) => {
+          const keys = (children ?? []).flatMap((child) => child?.key ?? []);
+          return { key, within, pointCount, keys };
+        }),
+      );
+      for (const { keys, ...node } of await Promise.all(visits)) {
+        if (node.pointCount > 0) wanted.push(node);
+        if (node.key.depth < this.#deepest) {
+          for (const key of keys) below.push({ key, within: node.within });
+        }
+      }
+      await pace.rest();
+    }
+    this.#frontier = below;
+    this.#wanted.push(...wanted);
+  }
+
+  #relation(key: VoxelKey): BoxRelation {
+    return this.#volume?.toBox(this.#parts.box(key, new Float64Array(6))) ?? "in";
+  }
+
+  async #read({ key, within }: WantedNode, signal: AbortSignal): Promise<PointBatch> {
+    const { withNode, records } = this.#parts;
+    const found = await withNode(key, signal, (node) => records(node, signal));
+    const inside = within ? everyRecord(found.count) : await this.#select(found, signal);
+    return { node: keyName(key), key, records: found, inside };
+  }
+
+  /** Asks the volume for each point, with pauses. */
+  async #select({ xyz, count }: NodeRecords, signal: AbortSignal): Promise<Uint32Array> {
+    const volume = this.#volume!;
+    const [scaleX, scaleY, scaleZ] = this.#parts.scale;
+    const [offsetX, offsetY, offsetZ] = this.#parts.offset;
+    const inside = new Uint32Array(count);
+    const pace = new Pace(signal);
+    let found = 0;
+    for (let from = 0; from < count; from += SLICE) {
+      const to = Math.min(count, from + SLICE);
+      for (let point = from, at = 3 * from; point < to; point++, at += 3) {
+        const x = xyz[at] * scaleX + offsetX;
+        const y = xyz[at + 1] * scaleY + offsetY;
+        const z = xyz[at + 2] * scaleZ + offsetZ;
+        if (volume.contains(x, y, z)) inside[found++] = point;
+      }
+      await pace.rest();
+    }
+    return inside.slice(0, found);
+  }
+}
+
+function everyRecord(count: number): Uint32Array {
+  const indices = new Uint32Array(count);
+  for (let index = 0; index < count; index++) indices[index] = index;
+  return indices;
+}
+
+/** A promise whose failure is noticed by whoever awaits it, however late. */
+function handled<T>(promise: Promise<T>): Promise<T> {
+  promise.catch(() => undefined);
+  return promise;
+}
+
+/** A signal that is never aborted. */
+function never(): AbortSignal {
+  return new AbortController().signal;
+}
