@@ -1,3 +1,4 @@
+import type { Fault } from "@groma/georef";
 import { coreFailed, runCore } from "./core-process.js";
 
 export { CoreError, coreProgram } from "./core-process.js";
@@ -28,6 +29,10 @@ export interface Scan {
   readonly geoTiff?: { readonly directory: number[]; readonly doubles: number[]; readonly ascii: string };
   /** The records of user id `groma`: base64 of georeference and transformation, the statistics as they are. */
   readonly groma?: { readonly "1"?: string; readonly "2"?: ScanStatistics; readonly "3"?: string };
+  /** How the checksums of the nodes were made; null where there are none. */
+  readonly checksums: "CRC-32C" | null;
+  /** Why a conversion would refuse the file, as far as that shows without reading its points. */
+  readonly problem: Fault | null;
   readonly warnings: readonly string[];
 }
 
@@ -38,6 +43,15 @@ export interface ScanStatistics {
   readonly attributes: readonly { name: string; min: number; max: number; mean: number }[];
   readonly classes: Readonly<Record<string, number>>;
   readonly returns: Readonly<Record<string, number>>;
+}
+
+/** What was found in a file whose points are all as they were written. */
+export interface Verified {
+  readonly points: number;
+  /** Chunks, or blocks of uncompressed points. */
+  readonly parts: number;
+  /** Whether each was held against its checksum; otherwise its points were decoded. */
+  readonly checksums: boolean;
 }
 
 /** What a conversion tells while it runs. */
@@ -110,6 +124,23 @@ export async function scanFile(file: string, signal?: AbortSignal): Promise<Scan
   await runCore(["scan", file], onLine, signal);
   if (scan === undefined) throw coreFailed("it said nothing of the file");
   return scan;
+}
+
+/**
+ * Reads all points of a LAS or LAZ file and holds its chunks against their checksums.
+ *
+ * @throws CoreError INPUT_CHECKSUM where the file has checksums and a chunk another one, INPUT_CORRUPT where points
+ * cannot be decoded, other INPUT_* codes as for a conversion
+ */
+export async function verifyFile(file: string, signal?: AbortSignal): Promise<Verified> {
+  let verified: Verified | undefined;
+  const onLine = (line: Verified & { readonly event?: string }) => {
+    verified = line;
+    return undefined;
+  };
+  await runCore(["verify", file], onLine, signal);
+  if (verified === undefined) throw coreFailed("it ended without a result");
+  return verified;
 }
 
 /**

@@ -106,6 +106,7 @@ const convert = program
   .option("--json", "with --dry-run: for machines")
   .addOption(progress())
   .option("--overwrite", "replace an output that is there already")
+  .option("--strict", "refuse an empty or damaged input instead of converting what can be read")
   .action(async (paths: string[], options, command: Command) => {
     const least = options.pipeline === undefined ? 2 : 1;
     if (paths.length < least) command.error("error: inputs and an output are needed");
@@ -121,6 +122,7 @@ program
   .description("tell what a LAS, LAZ or COPC file is, what is in it, where it is, and what that is worth")
   .argument("<file>")
   .option("--json", "for machines")
+  .option("--verify", "read all points and hold them against their checksums")
   .action(async (file: string, options) => (await import("./commands/info.js")).runInfo(file, options));
 
 program

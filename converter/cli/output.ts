@@ -1,3 +1,5 @@
+import type { Fault } from "@groma/georef";
+
 /** What every error of Groma has; told by its members, so that nothing has to be loaded to tell it. */
 interface Told {
   readonly code: string;
@@ -44,4 +46,9 @@ export function size(bytes: number): string {
   const units = ["B", "kB", "MB", "GB", "TB"];
   const power = Math.min(units.length - 1, Math.max(0, Math.floor(Math.log10(bytes) / 3)));
   return `${Number((bytes / 1000 ** power).toPrecision(3))} ${units[power]}`;
+}
+
+/** The line of an input that a conversion does without. */
+export function skippedRow({ file, code, cause }: Fault): [label: string, text: string] {
+  return ["skipped", `${file}: ${cause} (${code})`];
 }

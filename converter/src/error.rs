@@ -26,6 +26,8 @@ pub enum Error {
     Truncated(Detail),
     /// The input contradicts itself, or its compressed data cannot be decoded.
     Corrupt(Detail),
+    /// A chunk of the input is not the one whose checksum its writer has stored.
+    Checksum(Detail),
     /// The input holds no point.
     Empty(Detail),
     /// A version or point data record format that the LAS 1.4 standard does not know.
@@ -34,6 +36,8 @@ pub enum Error {
     Mixed(Detail),
     /// The output is there already, and overwriting was not asked for.
     OutputExists(Detail),
+    /// The output's name says that it is something else than LAZ.
+    OutputName(Detail),
     /// The output cannot be written.
     OutputWrite(Detail),
     /// The folder for scratch files has too little room.
@@ -63,10 +67,12 @@ constructors! {
     magic => Magic,
     truncated => Truncated,
     corrupt => Corrupt,
+    checksum => Checksum,
     empty => Empty,
     format => Format,
     mixed => Mixed,
     output_exists => OutputExists,
+    output_name => OutputName,
     output_write => OutputWrite,
     temp_space => TempSpace,
     temp_file => TempFile,
@@ -111,10 +117,12 @@ impl Error {
             Self::Magic(_) => "INPUT_MAGIC".into(),
             Self::Truncated(_) => "INPUT_TRUNCATED".into(),
             Self::Corrupt(_) => "INPUT_CORRUPT".into(),
+            Self::Checksum(_) => "INPUT_CHECKSUM".into(),
             Self::Empty(_) => "INPUT_EMPTY".into(),
             Self::Format(_) => "INPUT_FORMAT".into(),
             Self::Mixed(_) => "INPUT_MIXED".into(),
             Self::OutputExists(_) => "OUTPUT_EXISTS".into(),
+            Self::OutputName(_) => "OUTPUT_NAME".into(),
             Self::OutputWrite(_) => "OUTPUT_WRITE".into(),
             Self::TempSpace(_) => "TEMP_SPACE".into(),
             Self::TempFile(_) => "TEMP_FILE".into(),
@@ -130,10 +138,12 @@ impl Error {
             | Self::Magic(d)
             | Self::Truncated(d)
             | Self::Corrupt(d)
+            | Self::Checksum(d)
             | Self::Empty(d)
             | Self::Format(d)
             | Self::Mixed(d)
             | Self::OutputExists(d)
+            | Self::OutputName(d)
             | Self::OutputWrite(d)
             | Self::TempSpace(d)
             | Self::TempFile(d)
@@ -141,6 +151,11 @@ impl Error {
             | Self::Interrupted(d)
             | Self::Internal(d) => d,
         }
+    }
+
+    /// What was found, as a clause without a closing stop.
+    pub fn cause(&self) -> &str {
+        &self.detail().cause
     }
 
     /// What to do about it, as a clause without a closing stop.
@@ -152,10 +167,12 @@ impl Error {
             Self::Corrupt(_) => {
                 "Get the file again from its source, or repair it with the software that wrote it"
             }
+            Self::Checksum(_) => "Copy or download the file again, or convert the scan again",
             Self::Empty(_) => "Give a file that holds points",
             Self::Format(_) => "Write the file as LAS 1.0 to 1.4 with a point format from 0 to 10",
             Self::Mixed(_) => "Convert the files one by one, or bring them to one form first",
             Self::OutputExists(_) => "Choose another name or pass --overwrite",
+            Self::OutputName(_) => "Give the output a name that ends in .copc.laz",
             Self::OutputWrite(_) => "Check that the folder is there, writable and has room",
             Self::TempSpace(_) => "Make room, choose another folder with --temp-dir, or allow more --memory",
             Self::TempFile(_) => "Check the folder for scratch files, or choose another with --temp-dir",
@@ -176,8 +193,27 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Detail { file, cause } = self.detail();
-        write!(f, "{}: {file}: {cause}. {}.", self.code(), self.fix())
+        write!(f, "{}: {}: {}. {}.", self.code(), shown(file), shown(cause), self.fix())
     }
+}
+
+/// Text of a file or a name as a terminal may show it: what would steer it or turn the direction of writing is
+/// escaped, such as `\u{1b}`.
+pub fn shown(text: &str) -> String {
+    let escape = |character: char| {
+        if steers(character) { character.escape_unicode().to_string() } else { character.to_string() }
+    };
+    text.chars().map(escape).collect()
+}
+
+/// Whether a character is a control (line breaks among them) or an invisible mark that says in which direction to write.
+pub fn steers(character: char) -> bool {
+    let marks = ['\u{61c}', '\u{200b}', '\u{feff}'];
+    character.is_control()
+        || marks.contains(&character)
+        || ('\u{200e}'..='\u{200f}').contains(&character)
+        || ('\u{2028}'..='\u{202e}').contains(&character)
+        || ('\u{2060}'..='\u{206f}').contains(&character)
 }
 
 /// An error as a JSON line.
@@ -201,6 +237,17 @@ mod tests {
             error.to_string(),
             "INPUT_EMPTY: a.las: the header announces 0 points. Give a file that holds points."
         );
+    }
+
+    #[test]
+    fn foreign_text_cannot_steer_a_terminal() {
+        let error = Error::corrupt(Path::new("a\u{1b}[2J\n.las"), "the name \u{202e}sal\u{9b}m");
+        let text = error.to_string();
+        assert!(
+            text.starts_with("INPUT_CORRUPT: a\\u{1b}[2J\\u{a}.las: the name \\u{202e}sal\\u{9b}m. Get"),
+            "{text}"
+        );
+        assert_eq!(shown("Höhe, 高度, \u{1f600}, العربية"), "Höhe, 高度, \u{1f600}, العربية");
     }
 
     #[test]

@@ -18,3 +18,4 @@ pub mod sampling;
 pub mod scan;
 pub mod statistics;
 pub mod temporary;
+pub mod verify;

@@ -2,7 +2,9 @@
 
 use clap::{Args, Parser, Subcommand};
 use groma_core::build::Rules;
-use groma_core::error::{Error, Result};
+use groma_core::copc::checksums::{self, Stored};
+use groma_core::error::{Error, Result, Wire};
+use groma_core::input::Source;
 use groma_core::input::contain::is_contained;
 use groma_core::memory;
 use groma_core::pipeline::options::Options;
@@ -10,7 +12,9 @@ use groma_core::pipeline::{Pipeline, Summary};
 use groma_core::progress::JsonLines;
 use groma_core::sampling::Strategy;
 use groma_core::scan::Scan;
+use groma_core::scan::describe::Description;
 use groma_core::temporary::folder;
+use groma_core::verify;
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -31,6 +35,8 @@ struct Cli {
 enum Command {
     /// Print what stands before and after the points of a LAS or LAZ file, as one JSON object
     Scan { file: PathBuf },
+    /// Read all points of a LAS or LAZ file, hold its chunks against their checksums, and print what was found
+    Verify { file: PathBuf },
     /// Convert LAS or LAZ files into one COPC file; prints JSON lines
     Convert(Convert),
 }
@@ -59,6 +65,9 @@ struct Convert {
     /// Replace an output that is there already
     #[arg(long)]
     overwrite: bool,
+    /// Refuse a damaged input whose points can be read in part, or only by other ways than its own tables
+    #[arg(long)]
+    strict: bool,
     /// How a node's points are chosen
     #[arg(long, default_value = "poisson")]
     sampling: Strategy,
@@ -97,6 +106,7 @@ fn main() -> ExitCode {
     }));
     let outcome = match Cli::try_parse() {
         Ok(Cli { command: Command::Scan { file } }) => scan(&file),
+        Ok(Cli { command: Command::Verify { file } }) => verify(&file),
         Ok(Cli { command: Command::Convert(arguments) }) => convert(arguments),
         Err(error) if error.use_stderr() => Err(usage(&error)),
         Err(help) => help.exit(),
@@ -111,8 +121,28 @@ fn main() -> ExitCode {
     }
 }
 
+/// What `groma-core scan` prints.
+#[derive(Serialize)]
+struct Scanned {
+    #[serde(flatten)]
+    description: Description,
+    /// How the checksums of the nodes were made; `null` where there are none.
+    checksums: Option<&'static str>,
+    /// Why a conversion would refuse the file, as far as that shows without reading its points.
+    problem: Option<Wire>,
+}
+
 fn scan(file: &Path) -> Result<()> {
-    JsonLines::print(&Scan::read(file)?.describe());
+    let scan = Scan::read(file)?;
+    let description = scan.describe();
+    let checksums = matches!(checksums::stored(&scan), Stored::Yes { .. }).then_some("CRC-32C");
+    let problem = Source::plan(scan).err().map(|error| error.wire());
+    JsonLines::print(&Scanned { description, checksums, problem });
+    Ok(())
+}
+
+fn verify(file: &Path) -> Result<()> {
+    JsonLines::print(&verify::verify(Source::plan(Scan::read(file)?)?)?);
     Ok(())
 }
 
@@ -162,6 +192,7 @@ fn options(arguments: Convert) -> Result<Options> {
         wait_for_record: arguments.wait_for_record,
         wkt: arguments.wkt,
         overwrite: arguments.overwrite,
+        strict: arguments.strict,
         rules: Rules { sampling: arguments.sampling, average_colors: arguments.average_colors },
         threads: arguments.threads.map(NonZeroUsize::get),
         memory,

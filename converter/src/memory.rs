@@ -90,6 +90,12 @@ impl Budget {
         self.0
     }
 
+    /// What a run takes whose stages take so many bytes, no more than it may.
+    pub fn needed(self, bytes: u64) -> u64 {
+        let free = BASE.saturating_add(bytes);
+        free.saturating_add(free / (KEPT - 1)).min(self.0)
+    }
+
     /// Divides the memory among at most `threads` workers of `each` bytes and a store. Workers together get half
     /// at most, but one works in any case.
     pub fn divide(self, threads: usize, each: u64) -> Division {
@@ -195,6 +201,14 @@ mod tests {
             }
             Allocator.dealloc(block, layout(size));
         }
+    }
+
+    #[test]
+    fn a_run_needs_what_its_stages_take_and_no_more_than_it_may() {
+        let budget = Budget::new(Some(1000 * MIB));
+        assert_eq!(budget.needed(6 * MIB), 60 * MIB);
+        assert_eq!(budget.needed(900 * MIB), 1000 * MIB);
+        assert_eq!(budget.needed(u64::MAX), 1000 * MIB);
     }
 
     #[test]

@@ -61,7 +61,7 @@ pub fn parent(target: &Path) -> &Path {
     target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Refuses an output that must not or cannot be written, before any work.
+/// Refuses an output that must not or cannot be written, before any work: `OUTPUT_EXISTS`, `OUTPUT_NAME`, `OUTPUT_WRITE`.
 pub fn check_target(target: &Path, overwrite: bool) -> Result<()> {
     if target.file_name().is_none() || target.is_dir() {
         return Err(Error::output_write(target, "this is a folder"));
@@ -69,6 +69,10 @@ pub fn check_target(target: &Path, overwrite: bool) -> Result<()> {
     if !parent(target).is_dir() {
         let cause = format!("there is no folder {}", parent(target).display());
         return Err(Error::output_write(target, cause));
+    }
+    // Readers go by the name: what is called .las is taken for uncompressed points.
+    if !target.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("laz")) {
+        return Err(Error::output_name(target, "a COPC file has a name that ends in .laz"));
     }
     if !overwrite && target.symlink_metadata().is_ok() {
         return Err(Error::output_exists(target, "the file is there already"));
@@ -112,6 +116,24 @@ mod tests {
         drop(output);
         assert_eq!(names(folder.path()), ["a.laz"]);
         assert_eq!(fs::read(&target).unwrap(), b"old");
+    }
+
+    #[test]
+    fn a_name_says_that_it_is_laz() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, code) in
+            [("a.las", Some("OUTPUT_NAME")), ("a.LAS", Some("OUTPUT_NAME")), ("a", Some("OUTPUT_NAME"))]
+                .into_iter()
+                .chain([
+                    ("a.copc.laz", None),
+                    ("a.laz", None),
+                    ("A.LAZ", None),
+                    (".laz", Some("OUTPUT_NAME")),
+                ])
+        {
+            let found = check_target(&folder.path().join(name), false).err().map(|error| error.code());
+            assert_eq!(found.as_deref(), code, "{name}");
+        }
     }
 
     #[test]

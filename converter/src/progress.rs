@@ -1,5 +1,6 @@
 //! Where a run tells how far it is.
 
+use crate::error::steers;
 use serde::Serialize;
 use std::io::Write;
 use std::sync::Mutex;
@@ -48,10 +49,31 @@ pub struct JsonLines;
 impl JsonLines {
     /// Prints one event. A closed pipe is not an error of the run, so a failed write is dropped.
     pub fn print(event: &impl Serialize) {
-        let line = serde_json::to_string(event).unwrap_or_default();
+        let line = escaped(serde_json::to_string(event).unwrap_or_default());
         let mut out = std::io::stdout().lock();
         let _ = writeln!(out, "{line}").and_then(|()| out.flush());
     }
+}
+
+/// JSON that a terminal may show: the same to whoever parses it, but with escapes for what would steer a terminal.
+/// Outside of strings JSON has no such characters.
+fn escaped(json: String) -> String {
+    if !json.chars().any(steers) {
+        return json;
+    }
+    let mut out = String::with_capacity(json.len() + 16);
+    for character in json.chars() {
+        if steers(character) {
+            let mut units = [0; 2];
+            character
+                .encode_utf16(&mut units)
+                .iter()
+                .for_each(|unit| out.push_str(&format!("\\u{unit:04x}")));
+        } else {
+            out.push(character);
+        }
+    }
+    out
 }
 
 impl Progress for JsonLines {
@@ -100,5 +122,18 @@ impl<'a> Meter<'a> {
 
     pub fn finish(self) {
         self.sink.advance(self.stage, self.total, self.total);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_show_nothing_that_steers_and_mean_the_same() {
+        let text = "a\u{1b}[31m\n\u{7f}\u{9b}\u{202e}\u{feff}ö\u{1f600}";
+        let line = escaped(serde_json::to_string(&Line::Warning { text }).unwrap());
+        assert!(!line.chars().any(steers), "{line}");
+        assert_eq!(serde_json::from_str::<serde_json::Value>(&line).unwrap()["text"], text);
     }
 }

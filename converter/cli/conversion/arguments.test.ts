@@ -17,10 +17,16 @@ it("passes on what was said, and nothing else", async () => {
     tempDir: "t",
   } as const;
   expect(
-    await coreArguments(["-a.las", "b.las"], "o.laz", { ...options, overwrite: true }, scratch, "w"),
+    await coreArguments(
+      ["-a.las", "b.las"],
+      "o.laz",
+      { ...options, overwrite: true, strict: true },
+      scratch,
+      "w",
+    ),
   ).toEqual([
     ...["--wkt", "w", "--sampling", "poisson", "--threads", "3", "--memory", "1GB", "--temp-dir", "t"],
-    ...["--average-colors", "--overwrite", "--", "-a.las", "b.las", "o.laz"],
+    ...["--average-colors", "--strict", "--overwrite", "--", "-a.las", "b.las", "o.laz"],
   ]);
 });
 

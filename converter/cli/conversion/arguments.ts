@@ -28,6 +28,7 @@ export async function coreArguments(
   add("--memory", options.memory);
   add("--temp-dir", options.tempDir);
   if (options.averageColors) args.push("--average-colors");
+  if (options.strict) args.push("--strict");
   if (options.overwrite) args.push("--overwrite");
   const onLine = inputs.length <= FEW || inputs.some((input) => input.includes("\n"));
   if (onLine) return [...args, "--", ...inputs, output];

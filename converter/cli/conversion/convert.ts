@@ -1,6 +1,7 @@
 import { writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
+import type { Fault } from "@groma/georef";
 import { type Conversion, type CoreEvent, convertFiles, type RecordMaker, scanFile } from "../core.js";
 import { type Georeferenced, wktOf } from "../georeference.js";
 import type { Planned } from "../pdal/bring.js";
@@ -19,6 +20,8 @@ export interface Converted extends Conversion {
   /** 8 where no colour exceeds 255 in its 16-bit field, null where there is no colour. */
   readonly rgbBits: 8 | 16 | null;
   readonly pdal: readonly PdalReport[];
+  /** Inputs that are empty or cannot be read, of which nothing is in the output. */
+  readonly skipped: readonly Fault[];
 }
 
 /**
@@ -71,7 +74,8 @@ async function convertPrepared(
   if (!records) throw new Error("the converter core has not asked for the records");
   const { groma } = await scanFile(output);
   const pdal = plannedOf(preparation).map((planned) => pdalReport(preparation.pdal!, planned));
-  return { ...conversion, output, georeferenced, records, rgbBits: groma?.["2"]?.rgbBits ?? null, pdal };
+  const rgbBits = groma?.["2"]?.rgbBits ?? null;
+  return { ...conversion, output, georeferenced, records, rgbBits, pdal, skipped: preparation.skipped };
 }
 
 /** What the core reads: the inputs themselves, and files of PDAL in place of the others. */

@@ -11,6 +11,7 @@ const crs: Georeferenced["crs"] = {
 const core = {
   ...{
     inputs: 3,
+    skipped: [],
     points: 10_653_336,
     recordLength: 36,
     levels: 6,
@@ -21,7 +22,15 @@ const core = {
   ...{ tempDir: "/scratch", tempFree: 79e9, outputBytes: 66e6, sampling: "poisson" },
 };
 const planned: DryRun = {
-  ...{ output: "o.copc.laz", inputs: 3, points: 10_653_336, core, pdal: [], pdalTemp: undefined },
+  ...{
+    output: "o.copc.laz",
+    inputs: 3,
+    skipped: [],
+    points: 10_653_336,
+    core,
+    pdal: [],
+    pdalTemp: undefined,
+  },
   georeferenced: { crs, basis: "WKT" },
 };
 

@@ -1,9 +1,10 @@
 import { tmpdir } from "node:os";
 import { dirname, resolve } from "node:path";
+import type { Fault } from "@groma/georef";
 import { type CoreEvent, type Plan, planFiles } from "../core.js";
 import { crsInWords, heightInWords } from "../describe.js";
 import type { Georeferenced } from "../georeference.js";
-import { count, size } from "../output.js";
+import { count, size, skippedRow } from "../output.js";
 import { type PdalReport, pdalInWords, pdalReport } from "../pdal/report.js";
 import { freeBytes, withScratch } from "../scratch.js";
 import { coreArguments } from "./arguments.js";
@@ -15,6 +16,8 @@ export interface DryRun {
   readonly output: string;
   /** Number of files and jobs of PDAL. */
   readonly inputs: number;
+  /** Inputs that are empty or cannot be read, which are not counted. */
+  readonly skipped: readonly Fault[];
   readonly points: number;
   readonly georeferenced: Georeferenced;
   /** What the core would do; undefined where inputs have to go through PDAL first. */
@@ -39,7 +42,7 @@ export async function dryRun(
   const preparation = await prepare(args, output, options, onEvent, signal);
   const { inputs, georeferenced } = preparation;
   const files = inputs.flatMap((input) => (input.reader === "core" ? [input.file] : []));
-  const points = inputs.reduce(
+  const announced = inputs.reduce(
     (sum, input) => sum + (input.reader === "core" ? input.scan.points : input.planned.probe.points),
     0,
   );
@@ -56,7 +59,11 @@ export async function dryRun(
     : await withScratch(tmpdir(), async (scratch) =>
         planFiles(await coreArguments(files, output, options, scratch), onEvent, signal),
       );
-  return { output, inputs: inputs.length, points, georeferenced, core, pdal, pdalTemp };
+  const { skipped } = preparation;
+  return {
+    ...{ output, inputs: inputs.length, skipped, georeferenced, core, pdal, pdalTemp },
+    points: core?.points ?? announced,
+  };
 }
 
 /** The plan as one JSON object. */
@@ -73,10 +80,12 @@ export function planForMachines({ georeferenced, core, ...rest }: DryRun) {
 }
 
 /** The plan, a line for each thing. */
-export function planInWords({ output, inputs, points, georeferenced, core, pdal, pdalTemp }: DryRun): string {
+export function planInWords(plan: DryRun): string {
+  const { output, inputs, skipped, points, georeferenced, core, pdal, pdalTemp } = plan;
   const { crs, basis } = georeferenced;
   const rows: [string, string][] = [
     ["inputs", `${count(inputs)}, ${count(points)} points`],
+    ...skipped.map(skippedRow),
     ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
     ["place", `${crsInWords(crs)} (${basis})`],
     ["height", heightInWords(crs)],

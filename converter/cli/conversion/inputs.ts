@@ -3,7 +3,7 @@ import { isAbsolute, resolve } from "node:path";
 import { GromaError } from "@groma/georef";
 
 /** Inputs cannot be found. Codes: INPUT_NOT_FOUND, INPUT_NONE. */
-class InputError extends GromaError {}
+export class InputError extends GromaError {}
 
 /** What a folder is searched for; scans in other formats have to be named. */
 const IN_FOLDERS = "**/*.{las,laz,e57,bpf,pcd,ply,pts}";

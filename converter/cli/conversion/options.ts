@@ -10,6 +10,8 @@ export interface ConvertOptions extends Given, EngineChoice {
   readonly memory?: string;
   readonly tempDir?: string;
   readonly overwrite?: boolean;
+  /** Refuses inputs that are empty or damaged, of which otherwise as much is read as can be. */
+  readonly strict?: boolean;
   /** File of a PDAL pipeline that the inputs go through. */
   readonly pipeline?: string;
   /** Program of PDAL, or its folder. */

@@ -1,17 +1,17 @@
 import { existsSync, statSync } from "node:fs";
 import { dirname } from "node:path";
-import { GromaError } from "@groma/georef";
+import { type Fault, GromaError } from "@groma/georef";
 import type { CoreEvent, Scan } from "../core.js";
 import { commonGeoreference, type Georeferenced, type Named } from "../georeference.js";
 import type { Planned } from "../pdal/bring.js";
 import type { Pdal } from "../pdal/find.js";
 import type { Job } from "../pdal/pipeline.js";
 import { chosenProj } from "../place/engine.js";
-import { expandInputs } from "./inputs.js";
+import { expandInputs, InputError } from "./inputs.js";
 import type { ConvertOptions } from "./options.js";
 import { scanAll, sourcesOf } from "./sources.js";
 
-/** The output cannot be written. Codes: OUTPUT_EXISTS, OUTPUT_WRITE, as the core has them. */
+/** The output cannot be written. Codes: OUTPUT_EXISTS, OUTPUT_NAME, OUTPUT_WRITE, as the core has them. */
 class OutputError extends GromaError {}
 
 /** An input, and what is known of it before its points are converted. */
@@ -23,6 +23,8 @@ export type Prepared =
 export interface Preparation {
   /** At least one. */
   readonly inputs: readonly Prepared[];
+  /** Inputs that are empty or cannot be read, which the conversion does without. */
+  readonly skipped: readonly Fault[];
   readonly georeferenced: Georeferenced;
   /** Whether an input says its own coordinate reference system as WKT. */
   readonly hasWkt: boolean;
@@ -44,15 +46,17 @@ export async function prepare(
   onEvent: (event: CoreEvent) => void,
   signal?: AbortSignal,
 ): Promise<Preparation> {
-  const sources = await sourcesOf(await expandInputs(args, output), options.pipeline);
-  const files = sources.flatMap((source) => (source.reader === "core" ? [source.file] : []));
-  const jobs = sources.flatMap((source) => (source.reader === "pdal" ? [source.job] : []));
+  const found = await sourcesOf(await expandInputs(args, output), options.pipeline);
+  const files = found.flatMap((source) => (source.reader === "core" ? [source.file] : []));
+  const jobs = found.flatMap((source) => (source.reader === "pdal" ? [source.job] : []));
   // PDAL may take an hour; what the core would refuse after it is refused now.
   if (jobs.length > 0) requireTarget(output, options.overwrite ?? false);
-  const scans = await scanAll(files, signal);
+  const { scanOf, skipped } = await scanAll(files, found.length === 1 || (options.strict ?? false), signal);
+  for (const { file, cause } of skipped) onEvent({ event: "warning", text: `${file}: skipped: ${cause}` });
+  const sources = found.filter((source) => source.reader === "pdal" || scanOf.has(source.file));
+  if (sources.length === 0) throw noneLeft(skipped);
   const read = jobs.length > 0 ? await throughPdal(jobs, options, onEvent, signal) : undefined;
 
-  const scanOf = new Map(files.map((file, index) => [file, scans[index]!]));
   const named = sources.map((source): Named => {
     if (source.reader === "core") return scanOf.get(source.file)!;
     const { wkt } = read!.probes[jobs.indexOf(source.job)]!;
@@ -68,7 +72,19 @@ export async function prepare(
     return { reader: "pdal", planned: planned![jobs.indexOf(source.job)]! };
   });
   const hasWkt = named.some(({ wkt }) => wkt);
-  return { inputs, georeferenced, hasWkt, ...(read && { pdal: read.pdal }) };
+  return { inputs, skipped, georeferenced, hasWkt, ...(read && { pdal: read.pdal }) };
+}
+
+/** The error for inputs of which none can be read. */
+function noneLeft(skipped: readonly Fault[]): InputError {
+  const [first] = skipped;
+  const more = skipped.length > 1 ? `; and ${skipped.length - 1} more` : "";
+  return new InputError({
+    code: "INPUT_NONE",
+    file: first!.file,
+    cause: `none of the ${skipped.length} inputs can be read: ${first!.code}: ${first!.cause}${more}`,
+    fix: first!.fix,
+  });
 }
 
 /** PDAL, what it finds in the jobs, and what settles how that is written; loaded only where it is needed. */
@@ -97,5 +113,13 @@ function requireTarget(output: string, overwrite: boolean): void {
   }
   if (existsSync(output) && !overwrite) {
     throw refuse("OUTPUT_EXISTS", "the file is there already", "give --overwrite, or another name");
+  }
+  // As in the core, `output.rs`.
+  if (!/\.laz$/i.test(output)) {
+    throw refuse(
+      "OUTPUT_NAME",
+      "a COPC file has a name that ends in .laz",
+      "name it so, best with .copc.laz",
+    );
   }
 }

@@ -1,6 +1,8 @@
+import { existsSync } from "node:fs";
 import { open } from "node:fs/promises";
 import { availableParallelism } from "node:os";
-import { type Scan, scanFile } from "../core.js";
+import type { Fault } from "@groma/georef";
+import { CoreError, type Scan, scanFile } from "../core.js";
 import type { Job } from "../pdal/pipeline.js";
 import { isAddress } from "./inputs.js";
 
@@ -47,24 +49,58 @@ export async function isLas(input: string): Promise<boolean> {
   }
 }
 
+/** Inputs that can be converted, in their order, and those that cannot. */
+export interface Scans {
+  readonly scanOf: ReadonlyMap<string, Scan>;
+  readonly skipped: readonly Fault[];
+}
+
 /**
- * Headers and records of many files, as many at a time as the machine has cores.
+ * Headers and records of many files, as many at a time as the machine has cores. One of several that is empty or cannot
+ * be read is skipped; a file that is not there is not, for its name may be misspelt.
  *
+ * @param keepAll refuses every file that cannot be read; so does a single one
  * @throws CoreError INPUT_*
  */
-export async function scanAll(files: readonly string[], signal?: AbortSignal): Promise<Scan[]> {
-  const scans: Scan[] = new Array(files.length);
+export async function scanAll(
+  files: readonly string[],
+  keepAll: boolean,
+  signal?: AbortSignal,
+): Promise<Scans> {
+  const answers: (Scan | CoreError)[] = new Array(files.length);
   let next = 0;
   const worker = async () => {
-    try {
-      for (let index = next++; index < files.length; index = next++) {
-        scans[index] = await scanFile(files[index]!, signal);
+    for (let index = next++; index < files.length; index = next++) {
+      try {
+        answers[index] = await scanOrFault(files[index]!, keepAll, signal);
+      } catch (error) {
+        next = files.length;
+        throw error;
       }
-    } catch (error) {
-      next = files.length;
-      throw error;
     }
   };
   await Promise.all(Array.from({ length: Math.min(files.length, availableParallelism()) }, worker));
-  return scans;
+  const scanOf = new Map<string, Scan>();
+  const skipped: Fault[] = [];
+  for (const [index, answer] of answers.entries()) {
+    if (answer instanceof CoreError) {
+      const { code, file, cause, fix } = answer;
+      skipped.push({ code, file, cause, fix });
+    } else scanOf.set(files[index]!, answer);
+  }
+  return { scanOf, skipped };
+}
+
+/** The scan of a file, or why it can be skipped. */
+async function scanOrFault(file: string, keepAll: boolean, signal?: AbortSignal): Promise<Scan | CoreError> {
+  try {
+    const scan = await scanFile(file, signal);
+    if (keepAll || scan.problem === null) return scan;
+    return new CoreError(scan.problem);
+  } catch (error) {
+    if (keepAll || !(error instanceof CoreError) || !error.code.startsWith("INPUT_") || !existsSync(file)) {
+      throw error;
+    }
+    return error;
+  }
 }

@@ -1,7 +1,7 @@
 import { basename } from "node:path";
 import { statedAccuracy } from "@groma/georef";
 import { placeInWords, remarks } from "../describe.js";
-import { count, counted, length, size } from "../output.js";
+import { count, counted, length, size, skippedRow } from "../output.js";
 import { pdalInWords } from "../pdal/report.js";
 import type { Converted } from "./convert.js";
 
@@ -31,7 +31,7 @@ export function summaryInWords(converted: Converted): string {
 }
 
 /** Where the points are, what that is worth, and what has to be known of it, a line each. */
-export function placeSummary({ georeferenced, records, rgbBits, pdal }: Converted): string {
+export function placeSummary({ georeferenced, records, rgbBits, pdal, skipped }: Converted): string {
   const { crs, engine, operation, accuracy } = records.georeference;
   const lines: [string, string][] = [
     ["place", placeInWords({ crs, engine, operation, accuracy, fitBound: records.fitBound })],
@@ -45,6 +45,7 @@ export function placeSummary({ georeferenced, records, rgbBits, pdal }: Converte
   if (rgbBits === 8) {
     lines.push(["colours", "8 bits in fields of 16: kept as they are, and recorded so that viewers see it"]);
   }
+  lines.push(...skipped.map(skippedRow));
   return lines.map(([label, text]) => `${label.padEnd(8)} ${text}\n`).join("");
 }
 

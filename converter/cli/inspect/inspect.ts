@@ -1,5 +1,5 @@
 import { type AccuracyPart, CrsError } from "@groma/georef";
-import { type Scan, type ScanStatistics, scanFile } from "../core.js";
+import { type Scan, type ScanStatistics, scanFile, type Verified, verifyFile } from "../core.js";
 import { type GeodeticBounds, geodeticBounds } from "../describe.js";
 import { type Placed, placed } from "../placed.js";
 import { FileSource } from "./file-source.js";
@@ -24,6 +24,8 @@ export interface Inspection {
   readonly gps: GpsSpan | undefined;
   /** Undefined for a file without octree, and for one whose octree is damaged. */
   readonly octree: Octree | undefined;
+  /** What reading all points has shown; undefined where that was not asked for. */
+  readonly verified: Verified | undefined;
   /** What is wrong with the octree. */
   readonly octreeProblem: string | undefined;
 }
@@ -32,10 +34,12 @@ export interface Inspection {
  * Reads header, records, octree and, where the file has no statistics of its own, some of the points: a bounded amount,
  * whatever the size of the file.
  *
+ * @param verify reads all points besides
  * @throws CoreError INPUT_*; RecordError
  */
-export async function inspect(file: string): Promise<Inspection> {
+export async function inspect(file: string, verify = false): Promise<Inspection> {
   const scan = await scanFile(file);
+  const verified = verify ? await verifyFile(file) : undefined;
   const source = await FileSource.open(file);
   try {
     const header = await headerDetails(source);
@@ -45,7 +49,7 @@ export async function inspect(file: string): Promise<Inspection> {
     const statistics = whole ?? taken?.statistics;
     const time = statistics?.attributes.find(({ name }) => name === "gpsTime");
     return {
-      ...{ scan, header, octree, octreeProblem, statistics, sampled: taken?.of },
+      ...{ scan, verified, header, octree, octreeProblem, statistics, sampled: taken?.of },
       gps: gpsSpan(header.gpsTime, time),
       ...(await placeOf(scan)),
     };

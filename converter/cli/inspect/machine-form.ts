@@ -27,6 +27,7 @@ export function machineForm(inspection: Inspection) {
     records: header.records.map(({ begin: _begin, ...record }) => record),
     recordBytes: { georeference: bytes(groma?.["1"]), transformation: bytes(groma?.["3"]) },
     octree: octree ? { levels: octree.levels, whole: octree.whole } : null,
+    verified: inspection.verified ?? null,
     octreeProblem: inspection.octreeProblem ?? null,
     statistics: statistics ?? null,
     statisticsOf: statistics ? (sampled ?? "all points") : null,

@@ -20,6 +20,7 @@ export function personForm(inspection: Inspection): string {
     ...contentRows(scan, header, statistics, sampled),
     ...(gps ? [["gps time", gpsSpanInWords(gps)] as const] : []),
     ...(octree ? octreeRows(octree, scan.points) : []),
+    ...(scan.copc || inspection.verified ? [["checksums", checksumsInWords(inspection)] as const] : []),
     ...(octreeProblem ? [["octree", octreeProblem] as const] : []),
     ...headed("records", header.records.map(recordInWords)),
     ...scan.warnings.map((text) => ["warning", text] as const),
@@ -149,6 +150,13 @@ function short(value: number, digits = 12): string {
 
 function countsInWords(counts: readonly (readonly [number, number])[]): string {
   return counts.map(([key, points]) => `${key}: ${count(points)}`).join("   ");
+}
+
+function checksumsInWords({ scan, verified }: Inspection): string {
+  if (!verified)
+    return scan.checksums ? `${scan.checksums} of each node; --verify checks them` : "none stored";
+  const what = `${counted(verified.parts, "part")} with ${counted(verified.points, "point")}`;
+  return verified.checksums ? `${what}, each as its checksum says` : `none stored; ${what} decode`;
 }
 
 function octreeRows({ levels, whole }: Octree, expected: number): Row[] {

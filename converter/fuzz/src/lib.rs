@@ -46,7 +46,7 @@ pub fn convert(data: &[u8]) {
         if Scan::read(&input).map_or(true, |scan| scan.points > MOST_POINTS) {
             return;
         }
-        let (once, twice) = (scratch.path("once"), scratch.path("twice"));
+        let (once, twice) = (scratch.path("once.laz"), scratch.path("twice.laz"));
         match run(&input, &once) {
             Ok(summary) => {
                 let again = run(&once, &twice).unwrap_or_else(|e| panic!("the output is refused: {e}"));

@@ -22,40 +22,99 @@ pub struct Chunk {
     pub offset: u64,
     pub bytes: i32,
     pub points: i32,
+    /// See [`super::checksums`].
+    pub checksum: u32,
 }
 
-/// Encodes the hierarchy to stand at `start` in the file. The root page comes first; the second value is its
-/// number of bytes. `chunks` holds every node once, parents before children.
-pub fn encode(chunks: &[Chunk], start: u64) -> (Vec<u8>, u64) {
-    let tree = Tree::of(chunks);
-    let mut pages = Vec::new();
-    let mut open = VecDeque::from([Key::ROOT]);
-    while let Some(root) = open.pop_front() {
-        let page = tree.page(root);
-        open.extend(page.iter().filter_map(|slot| match slot {
-            Slot::Page(key) => Some(*key),
-            Slot::Node(_) => None,
-        }));
-        pages.push((root, page));
+/// An entry as it is read: its numbers may be anything.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entry {
+    /// Level, x, y, z.
+    pub key: [u32; 4],
+    pub offset: u64,
+    pub bytes: i32,
+    /// -1 for a reference to a page.
+    pub points: i32,
+}
+
+impl Entry {
+    /// Takes an entry from the front of `bytes`; `None` where a whole one is not there.
+    pub fn parse(bytes: &[u8]) -> Option<Self> {
+        let bytes: &[u8; ENTRY] = bytes.first_chunk()?;
+        let (words, _) = bytes.as_chunks::<4>();
+        let word = |index: usize| u32::from_le_bytes(words[index]);
+        Some(Self {
+            key: std::array::from_fn(word),
+            offset: u64::from(word(4)) | u64::from(word(5)) << 32,
+            bytes: word(6) as i32,
+            points: word(7) as i32,
+        })
     }
-    let mut places = HashMap::new();
-    let mut at = start;
-    for (root, page) in &pages {
-        let bytes = page.len() * ENTRY;
-        places.insert(*root, (at, bytes));
-        at += bytes as u64;
+}
+
+/// Which entries stand in which page, known before the chunks have their places.
+pub struct Pages(Vec<(Key, Vec<Slot>)>);
+
+/// The hierarchy as it stands in the file.
+pub struct Encoded {
+    /// All pages, the root page first.
+    pub bytes: Vec<u8>,
+    /// Bytes of the root page.
+    pub root_bytes: u64,
+    /// The checksum of each entry's chunk; 0 for a node without points and for a reference to a page.
+    pub checksums: Vec<u32>,
+}
+
+impl Pages {
+    /// The pages for the nodes given, each once, parents before children.
+    pub fn of(keys: impl Iterator<Item = Key>) -> Self {
+        let tree = Tree::of(keys);
+        let mut pages = Vec::new();
+        let mut open = VecDeque::from([Key::ROOT]);
+        while let Some(root) = open.pop_front() {
+            let page = tree.page(root);
+            open.extend(page.iter().filter_map(|slot| match slot {
+                Slot::Page(key) => Some(*key),
+                Slot::Node(_) => None,
+            }));
+            pages.push((root, page));
+        }
+        Self(pages)
     }
-    let mut out = Vec::with_capacity((at - start) as usize);
-    for slot in pages.iter().flat_map(|(_, page)| page) {
-        match slot {
-            Slot::Node(chunk) => push(&mut out, chunk.key, chunk.offset, chunk.bytes, chunk.points),
-            Slot::Page(key) => {
-                let (offset, bytes) = places[key];
-                push(&mut out, *key, offset, bytes as i32, PAGE_MARK);
+
+    /// Number of entries of all pages.
+    pub fn entries(&self) -> usize {
+        self.0.iter().map(|(_, page)| page.len()).sum()
+    }
+
+    /// Encodes the pages to stand at byte `start` of the file. `chunks` has every node that the pages were made for.
+    pub fn encode(&self, chunks: &[Chunk], start: u64) -> Encoded {
+        let mut places = HashMap::new();
+        let mut at = start;
+        for (root, page) in &self.0 {
+            let bytes = page.len() * ENTRY;
+            places.insert(*root, (at, bytes));
+            at += bytes as u64;
+        }
+        let chunks: HashMap<Key, &Chunk> = chunks.iter().map(|chunk| (chunk.key, chunk)).collect();
+        let mut bytes = Vec::with_capacity((at - start) as usize);
+        let mut checksums = Vec::with_capacity(self.entries());
+        for slot in self.0.iter().flat_map(|(_, page)| page) {
+            match slot {
+                Slot::Node(key) => {
+                    let chunk = chunks[key];
+                    push(&mut bytes, *key, chunk.offset, chunk.bytes, chunk.points);
+                    checksums.push(chunk.checksum);
+                }
+                Slot::Page(key) => {
+                    let (offset, length) = places[key];
+                    push(&mut bytes, *key, offset, length as i32, PAGE_MARK);
+                    checksums.push(0);
+                }
             }
         }
+        Encoded { bytes, root_bytes: places[&Key::ROOT].1 as u64, checksums }
     }
-    (out, places[&Key::ROOT].1 as u64)
 }
 
 fn push(out: &mut Vec<u8>, key: Key, offset: u64, bytes: i32, points: i32) {
@@ -68,25 +127,22 @@ fn push(out: &mut Vec<u8>, key: Key, offset: u64, bytes: i32, points: i32) {
 }
 
 enum Slot {
-    Node(Chunk),
+    Node(Key),
     Page(Key),
 }
 
-struct Tree {
-    chunks: HashMap<Key, Chunk>,
-    /// Number of nodes from a node down, itself counted.
-    sizes: HashMap<Key, usize>,
-}
+/// Number of nodes from each node down, itself counted.
+struct Tree(HashMap<Key, usize>);
 
 impl Tree {
-    fn of(chunks: &[Chunk]) -> Self {
-        let mut sizes: HashMap<_, _> = chunks.iter().map(|c| (c.key, 1)).collect();
-        for key in chunks.iter().rev().map(|c| c.key).filter(|key| key.level > 0) {
-            let size = sizes[&key];
-            let parent = Key { level: key.level - 1, x: key.x >> 1, y: key.y >> 1, z: key.z >> 1 };
-            *sizes.entry(parent).or_insert(0) += size;
+    fn of(keys: impl Iterator<Item = Key>) -> Self {
+        let keys: Vec<_> = keys.collect();
+        let mut sizes: HashMap<_, _> = keys.iter().map(|key| (*key, 1)).collect();
+        for key in keys.iter().rev().filter(|key| key.level > 0) {
+            let size = sizes[key];
+            *sizes.entry(key.parent()).or_insert(0) += size;
         }
-        Self { chunks: chunks.iter().map(|c| (c.key, *c)).collect(), sizes }
+        Self(sizes)
     }
 
     /// The entries of the page that begins with a node, level by level.
@@ -94,12 +150,12 @@ impl Tree {
         let mut slots = Vec::new();
         let mut open = VecDeque::from([root]);
         while let Some(key) = open.pop_front() {
-            let Some(chunk) = self.chunks.get(&key) else { continue };
-            if key.level == root.level + PAGE_LEVELS && self.sizes[&key] >= SMALLEST_PAGE {
+            let Some(size) = self.0.get(&key) else { continue };
+            if key.level == root.level + PAGE_LEVELS && *size >= SMALLEST_PAGE {
                 slots.push(Slot::Page(key));
                 continue;
             }
-            slots.push(Slot::Node(*chunk));
+            slots.push(Slot::Node(key));
             open.extend((0..8).map(|octant| key.child(octant)));
         }
         slots
@@ -119,6 +175,7 @@ mod tests {
                 offset: i as u64,
                 bytes: 10,
                 points: 1 + i as i32,
+                checksum: 7 * i as u32,
             };
             chunks.extend(level.iter().enumerate().map(chunk));
             level = level.iter().flat_map(|key| (0..4).map(|octant| key.child(octant))).collect();
@@ -126,31 +183,34 @@ mod tests {
         chunks
     }
 
-    /// Reads the pages as a COPC reader does.
-    fn read(bytes: &[u8], start: u64, page: (u64, u64), nodes: &mut Vec<Chunk>, pages: &mut usize) {
+    /// Reads the pages as a COPC reader does, and the checksum of each entry where docs/record.md has it.
+    fn read(encoded: &Encoded, start: u64, page: (u64, u64), nodes: &mut Vec<Chunk>, pages: &mut usize) {
         *pages += 1;
-        let from = (page.0 - start) as usize;
-        for entry in bytes[from..from + page.1 as usize].chunks_exact(ENTRY) {
-            let int = |at: usize| i32::from_le_bytes(entry[at..at + 4].try_into().unwrap());
-            let key = Key { level: int(0) as u32, x: int(4) as u32, y: int(8) as u32, z: int(12) as u32 };
-            let offset = u64::from_le_bytes(entry[16..24].try_into().unwrap());
-            match int(28) {
-                PAGE_MARK => read(bytes, start, (offset, int(24) as u64), nodes, pages),
-                points => nodes.push(Chunk { key, offset, bytes: int(24), points }),
+        let first = (page.0 - start) as usize / ENTRY;
+        for index in first..first + page.1 as usize / ENTRY {
+            let entry = Entry::parse(&encoded.bytes[index * ENTRY..]).unwrap();
+            let Entry { key: [level, x, y, z], offset, bytes, points } = entry;
+            let checksum = encoded.checksums[index];
+            let key = Key { level, x, y, z };
+            match points {
+                PAGE_MARK => read(encoded, start, (offset, bytes as u64), nodes, pages),
+                points => nodes.push(Chunk { key, offset, bytes, points, checksum }),
             }
         }
     }
 
     fn round_trip(chunks: &[Chunk]) -> usize {
-        let (bytes, root) = encode(chunks, 5000);
+        let layout = Pages::of(chunks.iter().map(|chunk| chunk.key));
+        let encoded = layout.encode(chunks, 5000);
         let (mut nodes, mut pages) = (Vec::new(), 0);
-        read(&bytes, 5000, (5000, root), &mut nodes, &mut pages);
+        read(&encoded, 5000, (5000, encoded.root_bytes), &mut nodes, &mut pages);
         let order = |c: &Chunk| (c.key.level, c.key.morton());
         let mut expected = chunks.to_vec();
         expected.sort_by_key(order);
         nodes.sort_by_key(order);
         assert_eq!(nodes, expected);
-        assert_eq!(bytes.len(), (chunks.len() + pages - 1) * ENTRY);
+        assert_eq!(encoded.bytes.len(), (chunks.len() + pages - 1) * ENTRY);
+        assert_eq!([layout.entries(), encoded.checksums.len()], [chunks.len() + pages - 1; 2]);
         pages
     }
 

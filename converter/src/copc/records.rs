@@ -58,7 +58,7 @@ pub fn collect(scan: &Scan, laz: &LazVlr, additions: &Additions) -> std::io::Res
     if let Some(bytes) = &additions.transformation {
         front.push(VariableRecord::new(GROMA, GROMA_TRANSFORMATION, "transformation", bytes.clone()));
     }
-    let extra_bytes = scan.extra_bytes_data();
+    let extra_bytes = scan.extra_bytes.descriptors.clone();
     if !extra_bytes.is_empty() {
         front.push(VariableRecord::new(SPECIFICATION, EXTRA_BYTES, "Extra Bytes Record", extra_bytes));
     }

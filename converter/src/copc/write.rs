@@ -1,7 +1,8 @@
 //! Writing the file: header and records, nodes, chunk table, hierarchy and other extended records.
 
+use super::checksums;
 use super::header::{self, Layout, Points};
-use super::hierarchy::{self, Chunk};
+use super::hierarchy::{Chunk, Encoded, Pages};
 use super::info::{self, Info};
 use super::records::Records;
 use crate::build::Node;
@@ -17,6 +18,9 @@ use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::Path;
+
+/// Bytes that readers of COPC ask for first. What stands before the points is kept within them where it can be.
+const FIRST_REQUEST: usize = 1 << 16;
 
 /// Everything that the file is made of.
 pub struct Content<'a> {
@@ -56,26 +60,35 @@ pub fn write(file: &mut File, content: &Content, output: &Path, meter: &Meter) -
     let failed = |e: io::Error| Error::output_write(output, e);
 
     let mut out = BufWriter::with_capacity(1 << 20, file);
-    let Content { input, points, info, laz: _, records, nodes: _, store: _ } = content;
+    let Content { input, points, info, laz: _, records, nodes, store: _ } = content;
+    let pages = Pages::of(nodes.iter().map(|node| node.key));
     let front: usize = records.plain.iter().map(|record| HEADER + record.data.len()).sum();
-    let points_at = usize::from(header::LENGTH) + HEADER + info::LENGTH + front;
+    let front = usize::from(header::LENGTH) + HEADER + info::LENGTH + front;
+    let checksum_bytes = checksums::length(pages.entries());
+    let in_front = front + HEADER + checksum_bytes <= FIRST_REQUEST;
+    let points_at = if in_front { front + HEADER + checksum_bytes } else { front };
     let points_at = u32::try_from(points_at)
         .map_err(|_| failed(invalid("the variable length records take over 4 GiB")))?;
 
     // The front is written last, when it is known what stands in it.
     out.seek(SeekFrom::Start(points_at.into())).map_err(failed)?;
     let (chunks, table_end) = write_points(&mut out, content, points_at.into(), output, meter)?;
-    let page_at = table_end + EXTENDED_HEADER as u64;
-    let (pages, root_bytes) = hierarchy::encode(&chunks, page_at);
+    let before_pages = if in_front { 0 } else { EXTENDED_HEADER + checksum_bytes };
+    let page_at = table_end + (before_pages + EXTENDED_HEADER) as u64;
+    let Encoded { bytes: pages, root_bytes, checksums } = pages.encode(&chunks, page_at);
+    let checksums = checksums::record(&checksums, page_at);
     let mut end = page_at + pages.len() as u64;
     let layout = Layout {
-        plain_records: 1 + records.plain.len() as u32,
+        plain_records: 1 + records.plain.len() as u32 + u32::from(in_front),
         points_at,
-        extended_records: 1 + records.extended.len() as u32,
+        extended_records: 1 + records.extended.len() as u32 + u32::from(!in_front),
         extended_at: table_end,
     };
     let info = Info { root_page: (page_at, root_bytes), ..(*info).clone() };
     let finish = || {
+        if !in_front {
+            checksums.write_extended(&mut out)?;
+        }
         VariableRecord::new(COPC, COPC_HIERARCHY, "EPT hierarchy", pages).write_extended(&mut out)?;
         for record in &records.extended {
             record.write_extended(&mut out)?;
@@ -86,6 +99,9 @@ pub fn write(file: &mut File, content: &Content, output: &Path, meter: &Meter) -
         info.record().write(&mut out)?;
         for record in &records.plain {
             record.write(&mut out)?;
+        }
+        if in_front {
+            checksums.write(&mut out)?;
         }
         out.flush()
     };
@@ -110,12 +126,13 @@ fn write_points(
     let mut table = ChunkTable::with_capacity(nodes.len());
     let mut written = 0;
     for Node { key, points, chunk } in nodes {
-        let mut chunk_of = Chunk { key: *key, offset: 0, bytes: 0, points: 0 };
+        let mut chunk_of = Chunk { key: *key, offset: 0, bytes: 0, points: 0, checksum: 0 };
         if *points > 0 {
             chunk_of.points =
                 i32::try_from(*points).map_err(|_| failed(invalid("a node has over 2^31 points")))?;
             let (held, bytes) = content.store.with(chunk, |bytes| {
                 let held = super::chunk::points(bytes, usize::from(content.points.record_length));
+                chunk_of.checksum = checksums::of(bytes);
                 (held, out.write_all(bytes).map(|()| bytes.len()))
             })?;
             let bytes = bytes.map_err(failed)?;

@@ -9,6 +9,7 @@ use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, Sequential
 use laz::{LasZipDecompressor, LazItemRecordBuilder, LazItemType, LazVlr};
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::ops::Range;
 use std::path::Path;
 
 /// Bytes of the position of the chunk table, with which the point data begins.
@@ -38,9 +39,16 @@ pub fn parameters(scan: &Scan) -> Result<LazVlr> {
     Ok(vlr)
 }
 
+/// The chunks of a file, one after the other.
+pub struct Chunks {
+    pub blocks: Vec<Block>,
+    /// What is wrong with the chunk table, how the chunks were found all the same, and what is lost.
+    pub rescued: Option<String>,
+}
+
 /// The chunks by the chunk table or by what each says of itself, or `None` if neither is there and the file must be
 /// read from start to end.
-pub fn chunks(scan: &Scan, vlr: &LazVlr) -> Result<Option<Vec<Block>>> {
+pub fn chunks(scan: &Scan, vlr: &LazVlr) -> Result<Option<Chunks>> {
     let path = &scan.path;
     if !has_chunks(scan) {
         return Ok(None);
@@ -50,7 +58,8 @@ pub fn chunks(scan: &Scan, vlr: &LazVlr) -> Result<Option<Vec<Block>>> {
     let table_at = table_position(&mut file, start, scan.file_size).map_err(|e| Error::reading(path, &e))?;
     let Some(table_at) = table_at else {
         if is_layered(vlr) {
-            return walk(&mut file, scan, vlr).map(Some);
+            let blocks = walk(&mut file, scan, vlr)?;
+            return Ok(Some(Chunks { blocks, rescued: None }));
         }
         if vlr.uses_variable_size_chunks() {
             return Err(Error::corrupt(
@@ -79,23 +88,82 @@ pub fn chunks(scan: &Scan, vlr: &LazVlr) -> Result<Option<Vec<Block>>> {
             return Err(Error::corrupt(path, "the chunk table describes more data than the file has"));
         };
         if points > 0 {
-            blocks.push(Block { at, bytes: entry.byte_count, points });
+            blocks.push(Block { at, bytes: entry.byte_count, points, expected: None });
         } else if entry.byte_count > 0 {
             return Err(Error::corrupt(path, "the file has more chunks than its announced points fill"));
         }
         (at, found) = (end, sum);
     }
     match found.cmp(&scan.points) {
-        std::cmp::Ordering::Equal => Ok(Some(blocks)),
-        std::cmp::Ordering::Less => Err(Error::truncated(
-            path,
-            format!("{} points are announced, the chunks hold {found}", scan.points),
-        )),
+        std::cmp::Ordering::Equal => Ok(Some(Chunks { blocks, rescued: None })),
+        std::cmp::Ordering::Less => rescue(&mut file, scan, vlr, blocks, first..table_at).map(Some),
         std::cmp::Ordering::Greater => Err(Error::corrupt(
             path,
             format!("{} points are announced, the chunks hold {found}", scan.points),
         )),
     }
+}
+
+/// The chunks of a file whose chunk table leads to fewer points than its header announces, though the file is whole:
+/// `area` is where chunks may stand. Layered ones are found by their heads, whatever the table says; of others, only
+/// a last one that the table lacks.
+fn rescue(
+    file: &mut BufReader<File>,
+    scan: &Scan,
+    vlr: &LazVlr,
+    mut listed: Vec<Block>,
+    area: Range<u64>,
+) -> Result<Chunks> {
+    let known: u64 = listed.iter().map(|block| block.points).sum();
+    let end_of = |blocks: &[Block]| blocks.last().map_or(0, |block| block.at + block.bytes);
+    let short = format!("{} points are announced, the chunk table leads to {known}", scan.points);
+    if is_layered(vlr) {
+        let blocks = by_heads(file, vlr, area, scan.points).map_err(|e| Error::reading(&scan.path, &e))?;
+        let found: u64 = blocks.iter().map(|block| block.points).sum();
+        if end_of(&blocks) < end_of(&listed) || blocks.is_empty() {
+            return Err(Error::corrupt(&scan.path, short));
+        }
+        let rest = match scan.points - found {
+            0 => "the chunks themselves tell where all of them are".to_string(),
+            lost => format!("the chunks themselves tell where {found} are, and {lost} are not in the file"),
+        };
+        return Ok(Chunks { blocks, rescued: Some(format!("{short}; {rest}")) });
+    }
+    let at = end_of(&listed).max(area.start);
+    let missing = scan.points - known;
+    let most = if vlr.uses_variable_size_chunks() { u64::MAX } else { u64::from(vlr.chunk_size()) };
+    if at == area.end || missing > most {
+        return Err(Error::corrupt(&scan.path, short));
+    }
+    listed.push(Block { at, bytes: area.end - at, points: missing, expected: None });
+    Ok(Chunks {
+        blocks: listed,
+        rescued: Some(format!(
+            "{short}; the others are taken to be the chunk behind the last one that it lists"
+        )),
+    })
+}
+
+/// Layered chunks that follow each other from the start of `area`, up to the first that cannot be one.
+fn by_heads(
+    file: &mut (impl Read + Seek),
+    vlr: &LazVlr,
+    area: Range<u64>,
+    most_points: u64,
+) -> std::io::Result<Vec<Block>> {
+    let (mut at, mut found, mut blocks) = (area.start, 0, Vec::new());
+    while at < area.end {
+        file.seek(SeekFrom::Start(at))?;
+        let head = ChunkHead::read(file, vlr)?;
+        let (points, bytes) = (u64::from(head.points), head.bytes());
+        found += points;
+        if points == 0 || found > most_points || bytes > area.end - at {
+            break;
+        }
+        blocks.push(Block { at, bytes, points, expected: None });
+        at += bytes;
+    }
+    Ok(blocks)
 }
 
 /// The oldest LAZ files are one stream without chunks, compressor 1.
@@ -139,7 +207,7 @@ fn walk(file: &mut (impl Read + Seek), scan: &Scan, vlr: &LazVlr) -> Result<Vec<
             let cause = format!("{} points are announced, the chunks hold {found}", scan.points);
             return Err(Error::corrupt(path, cause));
         }
-        blocks.push(Block { at, bytes, points });
+        blocks.push(Block { at, bytes, points, expected: None });
         at += bytes;
     }
     Ok(blocks)
@@ -318,7 +386,7 @@ mod tests {
 
     fn decoded(bytes: &[u8], vlr: &LazVlr, out: &mut [u8]) -> std::result::Result<(), String> {
         let mut source = Cursor::new(bytes);
-        let block = Block { at: 0, bytes: bytes.len() as u64, points: out.len() as u64 / 36 };
+        let block = Block { at: 0, bytes: bytes.len() as u64, points: out.len() as u64 / 36, expected: None };
         check_head(&mut source, &block, vlr)?;
         contained(|| {
             let mut decoder = LayeredPointRecordDecompressor::new(source);

@@ -88,7 +88,8 @@ fn difference(first: &Source, other: &Source) -> Option<&'static str> {
     if first.mapping.target() != other.mapping.target() {
         return Some("the fields of the point format");
     }
-    if first.mapping.extra() != other.mapping.extra() || a.extra_bytes() != b.extra_bytes() {
+    if first.mapping.extra() != other.mapping.extra() || a.extra_bytes.attributes != b.extra_bytes.attributes
+    {
         return Some("the extra bytes");
     }
     let timed = has_gps_time(a.point_format) && has_gps_time(b.point_format);

@@ -5,6 +5,7 @@ pub mod contain;
 mod laz;
 pub mod merge;
 
+use crate::copc::checksums::{self, Expected};
 use crate::error::{Error, Result};
 use crate::record::exact::ExactChange;
 use crate::record::mapping::Mapping;
@@ -35,6 +36,8 @@ struct Block {
     at: u64,
     bytes: u64,
     points: u64,
+    /// What its bytes must be, where the file says so.
+    expected: Option<Expected>,
 }
 
 /// How the points of a file are stored.
@@ -54,13 +57,15 @@ pub struct Source {
     pub mapping: Mapping,
     /// Set where the output's scale and offset are not this file's.
     pub change: Option<ExactChange>,
+    /// How points were found that the file's own table does not lead to, and what is lost.
+    pub rescued: Option<String>,
     storage: Storage,
     blocks: Vec<Block>,
 }
 
 impl Source {
-    /// Errors: `INPUT_FORMAT`, `INPUT_EMPTY`, `INPUT_TRUNCATED`, `INPUT_CORRUPT`.
-    pub fn plan(scan: Scan) -> Result<Self> {
+    /// Errors: `INPUT_FORMAT`, `INPUT_EMPTY`, `INPUT_TRUNCATED`, `INPUT_CORRUPT`, `INPUT_CHECKSUM`.
+    pub fn plan(mut scan: Scan) -> Result<Self> {
         let path = scan.path.clone();
         let length = scan.header.point_data_record_length;
         if scan.point_format > 10 {
@@ -76,16 +81,22 @@ impl Source {
         if scan.points == 0 {
             return Err(Error::empty(&path, "the header announces 0 points"));
         }
+        let mut rescued = None;
         let (storage, blocks) = if scan.compressed {
             let vlr = laz::parameters(&scan)?;
             match laz::chunks(&scan, &vlr)? {
-                Some(blocks) => (Storage::Chunks(vlr), blocks),
+                Some(laz::Chunks { mut blocks, rescued: how }) => {
+                    expect(&mut blocks, &scan)?;
+                    scan.points = blocks.iter().map(|block| block.points).sum();
+                    rescued = how;
+                    (Storage::Chunks(vlr), blocks)
+                }
                 None => (Storage::Stream(vlr), Vec::new()),
             }
         } else {
             (Storage::Plain, plain_blocks(&scan)?)
         };
-        Ok(Self { scan, mapping, change: None, storage, blocks })
+        Ok(Self { scan, mapping, change: None, rescued, storage, blocks })
     }
 
     /// Gives up the variable length records, which reading points does not need.
@@ -111,8 +122,8 @@ impl Source {
     /// Decodes a part, and hands on its records in the output's form, piece by piece and in order. `pieces` are
     /// buffers that may serve again.
     ///
-    /// Errors: `INPUT_CORRUPT`, `INPUT_TRUNCATED`, `INPUT_MIXED` (a coordinate that the output's scale and offset
-    /// cannot hold exactly), and those of `each`.
+    /// Errors: `INPUT_CHECKSUM`, `INPUT_CORRUPT`, `INPUT_TRUNCATED`, `INPUT_MIXED` (a coordinate that the output's scale
+    /// and offset cannot hold exactly), and those of `each`.
     pub fn read(
         &self,
         part: usize,
@@ -127,8 +138,7 @@ impl Source {
             Storage::Chunks(vlr) => vlr,
         };
         let block = &self.blocks[part];
-        let mut file = File::open(path).map_err(|e| Error::reading(path, &e))?;
-        file.seek(SeekFrom::Start(block.at)).map_err(|e| Error::reading(path, &e))?;
+        let mut file = self.checked(block)?;
         let mut sink = self.sink(pieces, each);
         if block.bytes > LARGE_CHUNK {
             return laz::decode_chunk(BufReader::with_capacity(1 << 18, file), block, path, vlr, &mut sink);
@@ -136,6 +146,41 @@ impl Source {
         let mut bytes = vec![0; block.bytes as usize];
         file.read_exact(&mut bytes).map_err(|e| Error::reading(path, &e))?;
         laz::decode_chunk(Cursor::new(bytes), block, path, vlr, &mut sink)
+    }
+
+    /// Reads a part without keeping anything: its bytes are held against their checksum or, where there is none,
+    /// decoded.
+    ///
+    /// Errors: as [`Self::read`].
+    pub fn verify(&self, part: usize, pieces: &mut Pieces) -> Result<()> {
+        match self.blocks.get(part) {
+            Some(block) if block.expected.is_some() => self.checked(block).map(drop),
+            _ => self.read(part, pieces, |_| Ok(())),
+        }
+    }
+
+    /// Whether the parts have checksums.
+    pub fn has_checksums(&self) -> bool {
+        self.blocks.iter().any(|block| block.expected.is_some())
+    }
+
+    /// The file, standing at a block whose bytes are what they must be, as far as that is known.
+    fn checked(&self, block: &Block) -> Result<File> {
+        let path = &self.scan.path;
+        let reading = |e| Error::reading(path, &e);
+        let mut file = File::open(path).map_err(reading)?;
+        file.seek(SeekFrom::Start(block.at)).map_err(reading)?;
+        if let Some(Expected { node, checksum }) = block.expected {
+            let found = checksums::of_source(&mut file, block.bytes).map_err(reading)?;
+            if found != checksum {
+                let cause = format!(
+                    "the points of node {node} are damaged: their checksum is {found:08x}, {checksum:08x} is stored"
+                );
+                return Err(Error::checksum(path, cause));
+            }
+            file.seek(SeekFrom::Start(block.at)).map_err(reading)?;
+        }
+        Ok(file)
     }
 
     fn read_plain(&self, block: &Block, sink: &mut Sink) -> Result<()> {
@@ -219,6 +264,19 @@ fn check_scale(scan: &Scan) -> Result<()> {
     Err(Error::corrupt(&scan.path, cause))
 }
 
+/// Tells the chunks of a file what they must be, where it has checksums.
+fn expect(blocks: &mut [Block], scan: &Scan) -> Result<()> {
+    let Some(expected) = checksums::expected(scan)? else { return Ok(()) };
+    for block in blocks {
+        block.expected = expected.get(&block.at).copied();
+        if block.expected.is_none() {
+            let cause = format!("its octree has no node for the points at byte {}", block.at);
+            return Err(Error::checksum(&scan.path, cause));
+        }
+    }
+    Ok(())
+}
+
 fn plain_blocks(scan: &Scan) -> Result<Vec<Block>> {
     let length = u64::from(scan.header.point_data_record_length);
     let start = u64::from(scan.header.offset_to_point_data);
@@ -230,7 +288,7 @@ fn plain_blocks(scan: &Scan) -> Result<Vec<Block>> {
     let blocks = (0..scan.points.div_ceil(BLOCK_POINTS)).map(|index| {
         let first = index * BLOCK_POINTS;
         let points = BLOCK_POINTS.min(scan.points - first);
-        Block { at: start + first * length, bytes: points * length, points }
+        Block { at: start + first * length, bytes: points * length, points, expected: None }
     });
     Ok(blocks.collect())
 }

@@ -9,6 +9,7 @@ pub mod plan;
 
 use crate::build::{self, Node};
 use crate::copc;
+use crate::copc::checksums::{self, Stored};
 use crate::copc::header::Points;
 use crate::copc::info::Info;
 use crate::copc::records::{self, Additions};
@@ -86,10 +87,10 @@ pub struct Summary {
 impl<'a> Pipeline<'a, Scanned> {
     /// Reads the headers of all inputs. Refuses first an output that must not be written.
     pub fn scan(options: &'a Options, progress: &'a dyn Progress) -> Result<Self> {
-        output::check_target(&options.output, options.overwrite)?;
         if options.inputs.iter().any(|input| is_same_file(input, &options.output)) {
             return Err(Error::output_exists(&options.output, "the output is one of the inputs"));
         }
+        output::check_target(&options.output, options.overwrite)?;
         let scans = options.inputs.iter().map(|path| Scan::read(path)).collect::<Result<_>>()?;
         Ok(Self { options, progress, stage: Scanned(scans) })
     }
@@ -97,10 +98,13 @@ impl<'a> Pipeline<'a, Scanned> {
     /// Checks what can be checked without decoding points.
     pub fn validate(self) -> Result<Pipeline<'a, Validated>> {
         let Self { options, progress, stage: Scanned(scans) } = self;
-        for scan in &scans {
-            warn(scan, progress);
-        }
         let mut sources = scans.into_iter().map(Source::plan).collect::<Result<Vec<_>>>()?;
+        for source in &sources {
+            if let Some(text) = source.rescued.as_ref().filter(|_| options.strict) {
+                return Err(Error::corrupt(&source.scan.path, text));
+            }
+            warn(source, progress);
+        }
         merge::unify(&mut sources)?;
         let inputs = inputs(sources)?;
         let budget = Budget::new(options.memory);
@@ -222,7 +226,8 @@ fn inputs(mut sources: Vec<Source>) -> Result<Inputs> {
         return Err(Error::corrupt(&first.scan.path, cause));
     }
     let frame = Frame { scale: first.scan.scale(), offset: first.scan.offset() };
-    let mut fields = fields::fields(target, frame.scale, frame.offset, &first.scan.extra_bytes(), length);
+    let mut fields =
+        fields::fields(target, frame.scale, frame.offset, &first.scan.extra_bytes.attributes, length);
     if sources.iter().all(|source| !has_gps_time(source.scan.point_format)) {
         fields.retain(|field| field.name != "gpsTime");
     }
@@ -243,19 +248,19 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
 }
 
 /// Tells what in an input is not as it should be, or will not be in the output.
-fn warn(scan: &Scan, progress: &dyn Progress) {
+fn warn(source: &Source, progress: &dyn Progress) {
+    let scan = &source.scan;
     let tell = |text: &str| progress.warn(&format!("{}: {text}", scan.path.display()));
-    scan.warnings.iter().for_each(|text| tell(text));
+    scan.warnings.iter().chain(&source.rescued).for_each(|text| tell(text));
+    if checksums::stored(scan) == Stored::Foreign {
+        tell(
+            "the checksums of its nodes are those of another file, or of a newer program: they are not checked",
+        );
+    }
     for record in scan.records().filter(|record| !record.is_named()) {
         tell(&format!("record {} is left out: its user id is not text", record.record_id));
     }
     if has_waveform(scan.point_format) {
         tell("the waveforms are left out: COPC has no point format for them");
-    }
-    let described: usize = scan.extra_bytes().iter().map(|attribute| attribute.size).sum();
-    let base = crate::record::LENGTHS.get(usize::from(scan.point_format)).copied().unwrap_or(u16::MAX);
-    let there = usize::from(scan.header.point_data_record_length.saturating_sub(base));
-    if described != there {
-        tell(&format!("{there} extra bytes per point are there, {described} are described; all are kept"));
     }
 }

@@ -23,6 +23,8 @@ pub struct Options {
     /// File with the WKT that the output carries instead of the input's.
     pub wkt: Option<PathBuf>,
     pub overwrite: bool,
+    /// Refuses an input whose points can only be read in part, or by other ways than its own tables.
+    pub strict: bool,
     /// How a node's points are chosen.
     pub rules: Rules,
     /// Most threads to work with; default: all that there are.
@@ -44,6 +46,7 @@ impl Options {
             wait_for_record: false,
             wkt: None,
             overwrite: false,
+            strict: false,
             rules: Rules::default(),
             threads: None,
             memory: None,

@@ -3,6 +3,7 @@
 use crate::build::{COMPRESSOR_BYTES, Workforce, job_bytes};
 use crate::distribute::{Inputs, pass};
 use crate::error::{Error, Result};
+use crate::input::Source;
 use crate::memory::{Budget, FLOOR};
 use crate::octree::limits::Limits;
 use crate::sampling::Strategy;
@@ -87,6 +88,17 @@ pub fn temp_bytes(inputs: &Inputs, shares: &Shares) -> u64 {
     if raw * BESIDES <= shares.store as f64 { 0 } else { (raw * WORST_TEMP) as u64 }
 }
 
+/// What the stages take at most, with all points in memory that have room there.
+fn working_bytes(inputs: &Inputs, shares: &Shares) -> u64 {
+    let parts: usize = inputs.sources.iter().map(Source::parts).sum();
+    let reading = (shares.readers.min(parts) as u64).saturating_mul(pass::worker_bytes(inputs));
+    let building = shares.force.work.min(job_bytes(inputs.points, inputs.length));
+    let is_leaf = inputs.points <= Limits::of(inputs.length).leaf;
+    let compressing = if is_leaf { 1 } else { shares.force.workers as u64 } * COMPRESSOR_BYTES;
+    let points = (inputs.points as f64 * inputs.length as f64 * BESIDES) as u64;
+    reading.max(building + compressing).saturating_add(points)
+}
+
 /// Refuses a folder with too little room: `TEMP_SPACE`.
 pub fn check_space(folder: &Path, needed: u64) -> Result<()> {
     match free(folder) {
@@ -112,7 +124,7 @@ pub fn plan(inputs: &Inputs, shares: &Shares, budget: Budget, temp_dir: &Path, s
     while inputs.points >> (2 * (levels - 1)) > limits.leaf {
         levels += 1;
     }
-    let compressed = |source: &crate::input::Source| {
+    let compressed = |source: &Source| {
         let scan = &source.scan;
         if scan.compressed {
             (scan.file_size - u64::from(scan.header.offset_to_point_data)) as f64
@@ -127,7 +139,7 @@ pub fn plan(inputs: &Inputs, shares: &Shares, budget: Budget, temp_dir: &Path, s
         record_length: inputs.length,
         levels,
         cells: 1 << (2 * first_level),
-        memory: budget.bytes(),
+        memory: budget.needed(working_bytes(inputs, shares)),
         temp_bytes: temp_bytes(inputs, shares),
         temp_dir: temp_dir.to_path_buf(),
         temp_free: free(temp_dir),

@@ -1,11 +1,10 @@
 //! A scan as the JSON object that `groma-core scan` prints.
 
 use super::Scan;
-use super::extra_bytes::{self, ExtraBytes};
+use super::extra_bytes::ExtraBytes;
 use super::variable_record::{
-    COPC, COPC_INFO, EXTRA_BYTES, GEOTIFF_ASCII, GEOTIFF_DIRECTORY, GEOTIFF_DOUBLES, GROMA,
-    GROMA_GEOREFERENCE, GROMA_STATISTICS, GROMA_TRANSFORMATION, PROJECTION, SPECIFICATION, VariableRecord,
-    WKT, text,
+    COPC, COPC_INFO, GEOTIFF_ASCII, GEOTIFF_DIRECTORY, GEOTIFF_DOUBLES, GROMA, GROMA_GEOREFERENCE,
+    GROMA_STATISTICS, GROMA_TRANSFORMATION, PROJECTION, VariableRecord, WKT, latin1, text,
 };
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -68,19 +67,8 @@ impl Scan {
         (!wkt.is_empty()).then_some(wkt)
     }
 
-    /// The attributes that the extra bytes of a record hold, as far as they are described.
-    pub fn extra_bytes(&self) -> Vec<ExtraBytes> {
-        extra_bytes::parse(&self.extra_bytes_data())
-    }
-
-    /// The descriptors of the extra bytes as they stand in the file: some writers give each its own record.
-    pub fn extra_bytes_data(&self) -> Vec<u8> {
-        let records = self.records().filter(|record| record.is(SPECIFICATION, EXTRA_BYTES));
-        records.flat_map(|record| record.data.iter().copied()).collect()
-    }
-
     /// COPC 1.0: the information record is the first, directly after the header.
-    fn is_copc(&self) -> bool {
+    pub fn is_copc(&self) -> bool {
         self.vlrs.first().is_some_and(|record| record.is(COPC, COPC_INFO))
     }
 
@@ -102,7 +90,7 @@ impl Scan {
             system_identifier: text(&h.system_identifier),
             generating_software: text(&h.generating_software),
             creation: date(h.file_creation_year, h.file_creation_day_of_year),
-            extra_bytes: self.extra_bytes(),
+            extra_bytes: self.extra_bytes.attributes.clone(),
             wkt: self.wkt(),
             geo_tiff: self.geo_tiff(),
             groma: self.groma(),
@@ -118,7 +106,7 @@ impl Scan {
         Some(GeoTiff {
             directory: shorts.iter().map(|b| u16::from_le_bytes(*b)).collect(),
             doubles: doubles.iter().map(|b| f64::from_le_bytes(*b)).collect(),
-            ascii: latin1(data(GEOTIFF_ASCII)),
+            ascii: key_texts(data(GEOTIFF_ASCII)),
         })
     }
 
@@ -134,10 +122,9 @@ impl Scan {
     }
 }
 
-/// The keys address characters by their byte, so each byte becomes one character.
-fn latin1(bytes: &[u8]) -> String {
-    let text: String = bytes.iter().copied().map(char::from).collect();
-    text.trim_end_matches('\0').to_string()
+/// The texts of GeoTIFF keys, which address characters by their byte, so that each byte becomes one character.
+fn key_texts(bytes: &[u8]) -> String {
+    latin1(bytes).trim_end_matches('\0').to_string()
 }
 
 /// The ISO date of the `day`th day (1 is January 1) of a year.

@@ -6,11 +6,12 @@ pub mod extra_bytes;
 pub mod variable_record;
 
 use crate::error::{Error, Result};
+use extra_bytes::Described;
 use las::raw::Header;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use variable_record::VariableRecord;
+use variable_record::{EXTRA_BYTES, SPECIFICATION, VariableRecord};
 
 /// Bytes of a LAS 1.0 to 1.2 header, the shortest there is.
 const SHORTEST_HEADER: u64 = 227;
@@ -30,6 +31,8 @@ pub struct Scan {
     pub vlrs: Vec<VariableRecord>,
     /// Extended records, without waveform data and COPC hierarchy.
     pub evlrs: Vec<VariableRecord>,
+    /// What the extra bytes of a record hold.
+    pub extra_bytes: Described,
     /// What was found wrong and passed over.
     pub warnings: Vec<String>,
 }
@@ -59,6 +62,7 @@ impl Scan {
         let evlrs = read_evlrs(&mut reader, &header, file_size, path, &mut warnings)?;
         let format = header.point_data_record_format;
         warn_of_more(&header, points, file_size, &mut warnings);
+        let extra_bytes = described(&header, vlrs.iter().chain(&evlrs), &mut warnings);
         Ok(Self {
             path: path.to_path_buf(),
             file_size,
@@ -68,6 +72,7 @@ impl Scan {
             header,
             vlrs,
             evlrs,
+            extra_bytes,
             warnings,
         })
     }
@@ -162,6 +167,22 @@ fn warn_of_more(header: &Header, points: u64, file_size: u64, warnings: &mut Vec
         warnings
             .push(format!("{points} points are announced, and {room} have room; the others are passed over"));
     }
+}
+
+/// What the extra bytes are said to hold; some writers give each attribute its own record.
+fn described<'a>(
+    header: &Header,
+    records: impl Iterator<Item = &'a VariableRecord>,
+    warnings: &mut Vec<String>,
+) -> Described {
+    let descriptors: Vec<u8> = records
+        .filter(|record| record.is(SPECIFICATION, EXTRA_BYTES))
+        .flat_map(|record| record.data.iter().copied())
+        .collect();
+    let format = usize::from(header.point_data_record_format & 0x3f);
+    let base = crate::record::LENGTHS.get(format).copied().unwrap_or(u16::MAX);
+    let room = usize::from(header.point_data_record_length.saturating_sub(base));
+    Described::of(&descriptors, room, warnings)
 }
 
 /// The records between header and points. A count that does not fit in there is passed over with a warning:

@@ -26,6 +26,7 @@ pub const GROMA: &str = "groma";
 pub const GROMA_GEOREFERENCE: u16 = 1;
 pub const GROMA_STATISTICS: u16 = 2;
 pub const GROMA_TRANSFORMATION: u16 = 3;
+pub const GROMA_CHECKSUMS: u16 = 4;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct VariableRecord {
@@ -127,16 +128,25 @@ impl VariableRecord {
     }
 }
 
-/// A fixed-width text field up to its first NUL; bytes that are not UTF-8 become replacement characters.
+/// A fixed-width text field up to its first NUL, as UTF-8 or, where it is not that, as Latin-1.
 pub fn text(field: &[u8]) -> String {
     let end = field.iter().position(|b| *b == 0).unwrap_or(field.len());
-    String::from_utf8_lossy(&field[..end]).trim_end().to_string()
+    let text = match str::from_utf8(&field[..end]) {
+        Ok(text) => text.to_string(),
+        Err(_) => latin1(&field[..end]),
+    };
+    text.trim_end().to_string()
 }
 
-/// A text cut to a fixed-width field, filled with NUL.
+/// Each byte as the character with its number: what Latin-1 means, and no byte is lost.
+pub fn latin1(bytes: &[u8]) -> String {
+    bytes.iter().copied().map(char::from).collect()
+}
+
+/// A text cut to a fixed-width field, between two of its characters, and filled with NUL.
 pub fn padded<const N: usize>(text: &str) -> [u8; N] {
     let mut field = [0; N];
-    let length = text.len().min(N);
+    let length = (0..=text.len().min(N)).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
     field[..length].copy_from_slice(&text.as_bytes()[..length]);
     field
 }

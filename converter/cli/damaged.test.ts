@@ -1,0 +1,114 @@
+import { execFile, execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+
+const main = fileURLToPath(new URL("../dist/main.js", import.meta.url));
+const generator = fileURLToPath(new URL("../../demo/sample/dist/generate.js", import.meta.url));
+const folder = mkdtempSync(join(tmpdir(), "groma-damaged-"));
+
+interface Outcome {
+  code: number;
+  stdout: string;
+  stderr: string;
+}
+
+function groma(...args: string[]): Promise<Outcome> {
+  return new Promise((resolve) => {
+    execFile(process.execPath, [main, ...args], { cwd: folder }, (error, stdout, stderr) => {
+      resolve({ code: error ? Number(error.code ?? 1) : 0, stdout, stderr });
+    });
+  });
+}
+
+/** The last JSON line of an outcome. */
+const last = ({ stdout }: Outcome) => JSON.parse(stdout.trimEnd().split("\n").at(-1)!);
+
+const put = (name: string, bytes: Uint8Array) => writeFileSync(join(folder, name), bytes);
+
+beforeAll(() => {
+  execFileSync(process.execPath, [generator, join(folder, "good.las"), "5000"]);
+  const good = readFileSync(join(folder, "good.las"));
+  const empty = Buffer.from(good.subarray(0, good.readUInt32LE(96)));
+  empty.writeUInt32LE(0, 107);
+  if (empty[25] === 4) empty.writeBigUInt64LE(0n, 247);
+  put("empty.las", empty);
+  put("cut.las", good.subarray(0, good.length - 100));
+  put("none.las", new Uint8Array(0));
+});
+afterAll(() => rmSync(folder, { recursive: true }));
+
+describe("several inputs, some of which are empty or cannot be read", () => {
+  it("are converted without these, which are listed at the end", async () => {
+    const inputs = ["empty.las", "cut.las", "good.las", "none.las"];
+    const made = await groma("convert", ...inputs, "a.copc.laz", "--progress", "json");
+    expect(made.code).toBe(0);
+    const done = last(made);
+    expect(done).toMatchObject({ event: "done", points: 4970 });
+    expect(done.skipped.map(({ file, code }: { file: string; code: string }) => [file, code])).toEqual([
+      ["empty.las", "INPUT_EMPTY"],
+      ["cut.las", "INPUT_TRUNCATED"],
+      ["none.las", "INPUT_MAGIC"],
+    ]);
+    expect(made.stdout.match(/"event":"warning","text":"[a-z]+\.las: skipped: /g)).toHaveLength(3);
+    const { stdout } = await groma("convert", ...inputs, "b.copc.laz", "--progress", "plain");
+    expect(stdout).toMatch(/^skipped +cut\.las: .* \(INPUT_TRUNCATED\)$/m);
+    const plan = last(await groma("convert", ...inputs, "c.copc.laz", "--dry-run", "--json"));
+    expect(plan).toMatchObject({ inputs: 1, points: 4970, skipped: done.skipped });
+  });
+
+  it("are refused with --strict, and so is one that is alone or not there", async () => {
+    const refused: [string[], RegExp][] = [
+      [["good.las", "empty.las", "d.copc.laz", "--strict"], /^INPUT_EMPTY: empty\.las: /],
+      [["good.las", "cut.las", "d.copc.laz", "--strict"], /^INPUT_TRUNCATED: cut\.las: /],
+      [["empty.las", "d.copc.laz"], /^INPUT_EMPTY: empty\.las: /],
+      [["good.las", "misspelt.las", "d.copc.laz"], /^INPUT_NOT_FOUND: misspelt\.las: /],
+      [["empty.las", "cut.las", "d.copc.laz"], /^INPUT_NONE: empty\.las: none of the 2 inputs can be read: /],
+    ];
+    for (const [args, message] of refused) {
+      const { code, stderr } = await groma("convert", ...args, "--progress", "plain");
+      expect(stderr.trimEnd().split("\n").at(-1)).toMatch(message);
+      expect(code).toBe(1);
+    }
+    expect(existsSync(join(folder, "d.copc.laz"))).toBe(false);
+  });
+});
+
+it("an output that is not named as LAZ is refused", async () => {
+  const { code, stderr } = await groma("convert", "good.las", "out.las");
+  expect(stderr).toMatch(/OUTPUT_NAME: out\.las: .*\.copc\.laz/);
+  expect(code).toBe(1);
+});
+
+describe("groma info --verify", () => {
+  it("tells that all points are as they were written, or which are not", async () => {
+    await groma("convert", "good.las", "whole.copc.laz");
+    const told = JSON.parse((await groma("info", "whole.copc.laz", "--verify", "--json")).stdout);
+    expect(told).toMatchObject({
+      checksums: "CRC-32C",
+      verified: { points: 4970, checksums: true },
+    });
+    expect((await groma("info", "whole.copc.laz")).stdout).toMatch(/^checksums +CRC-32C of each node/m);
+    const bytes = readFileSync(join(folder, "whole.copc.laz"));
+    const at = Number(bytes.readBigUInt64LE(bytes.readUInt32LE(96))) - 1000;
+    bytes[at]! ^= 1;
+    put("damaged.copc.laz", bytes);
+    for (const args of [
+      ["info", "damaged.copc.laz", "--verify"],
+      ["convert", "damaged.copc.laz", "again.copc.laz"],
+    ]) {
+      const { code, stderr } = await groma(...args);
+      expect(stderr).toMatch(
+        /^INPUT_CHECKSUM: damaged\.copc\.laz: .*the points of node \d+-\d+-\d+-\d+ are/m,
+      );
+      expect(code).toBe(1);
+    }
+  });
+
+  it("decodes the points of a file without checksums", async () => {
+    const { stdout } = await groma("info", "good.las", "--verify");
+    expect(stdout).toMatch(/^checksums +none stored; 1 part with 4,970 points decode$/m);
+  });
+});
