@@ -25,7 +25,7 @@ const layer = (name, allowed) =>
   onlyTo(`layer-${name}`, `layer/src/${name}`, [...allowed.map((other) => `layer/src/${other}`), "georef"]);
 
 /** What everybody may know of a source of points, whatever its format. */
-const CONTRACT = "sources/(point-source|point-attribute|statistics)\\.ts";
+const CONTRACT = "sources/(point-source|point-attribute|statistics|checksum)\\.ts";
 /** What chooses the format. */
 const OPEN_SOURCE = "sources/open-source\\.ts";
 

@@ -71,12 +71,17 @@ async function spread(
 }
 
 async function coarse({ source, nodes }: Octree, scan: Scan, most: number): Promise<Records[]> {
-  const { decodeChunk } = await import("./decode.js");
+  const [{ decodeChunk }, { checkChecksum }] = await Promise.all([
+    import("./decode.js"),
+    import("@groma/layer/sources"),
+  ]);
   const taken: Records[] = [];
   let count = 0;
-  for (const { address, pointCount } of nodes) {
+  for (const { depth, x, y, z, address, pointCount } of nodes) {
     if (count + pointCount > most && count > 0) break;
-    const chunk = new Uint8Array(await source.chunk(address));
+    const { bytes, checksum } = await source.chunk(address);
+    const chunk = new Uint8Array(bytes);
+    checkChecksum(chunk, checksum, { file: source.name, node: [depth, x, y, z].join("-") });
     const points = Math.min(pointCount, most);
     taken.push({ bytes: await decodeChunk(chunk, scan, points), count: points });
     count += points;

@@ -110,8 +110,8 @@ export class NodeLoader {
     const { source, dataSet, geometry } = this.#parts;
     const { address, pointCount, name } = node;
     if (address === undefined || pointCount === 0) throw noNode(name, source.name);
-    const chunk = await source.chunk(address, { signal });
-    return { dataSet, chunk, pointCount, node: name, cube: geometry.cube(node.key) };
+    const { bytes, checksum } = await source.chunk(address, { signal });
+    return { dataSet, chunk: bytes, checksum, pointCount, node: name, cube: geometry.cube(node.key) };
   }
 }
 

@@ -22,7 +22,7 @@ describe("openSource", () => {
     const [root] = await source.page(source.rootPage);
     expect(root).toMatchObject({ depth: 0, pointCount: 10 });
     const chunk = await source.chunk(root.address);
-    expect(chunk.byteLength).toBe(100);
+    expect(chunk.bytes.byteLength).toBe(100);
   });
 
   it("has a spacing where the file has none", async () => {

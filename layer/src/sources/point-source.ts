@@ -41,10 +41,18 @@ export interface PointSource<Address = unknown, Encoding extends AnyEncoding = A
    */
   page(address: Address, options?: ReadOptions): Promise<Iterable<HierarchyEntry<Address>>>;
   /**
-   * Reads the encoded points of a node, in a buffer of their own.
+   * Reads the encoded points of a node.
    * @throws SourceError, FormatError
    */
-  chunk(address: Address, options?: ReadOptions): Promise<ArrayBuffer>;
+  chunk(address: Address, options?: ReadOptions): Promise<EncodedChunk>;
+}
+
+/** The encoded points of a node. */
+export interface EncodedChunk {
+  /** In a buffer of their own. */
+  readonly bytes: ArrayBuffer;
+  /** CRC-32C of the bytes as their writer has stored it; undefined where it stored none. */
+  readonly checksum: number | undefined;
 }
 
 /** What all encodings have in common. */

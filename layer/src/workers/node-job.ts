@@ -65,10 +65,10 @@ export async function runRecordsJob(
 
 async function decodeChunk(
   { encoding, file, scale, offset }: DataSetSpec,
-  { chunk, pointCount, node, cube }: ChunkJob,
+  { chunk, checksum, pointCount, node, cube }: ChunkJob,
   decoders: Decoders,
 ): Promise<NodeRecords> {
-  const expected = { pointCount, file, node };
+  const expected = { pointCount, checksum, file, node };
   const { xyz, attributes } = await decode(decoders, new Uint8Array(chunk), encoding, expected);
   const count = xyz.length / 3;
   return { xyz, attributes, count, order: drawingOrder(xyz, count, cellGrid(cube, scale, offset)) };

@@ -7,6 +7,8 @@ export type Encoded<Kind extends Encoding["kind"]> = Extract<Encoding, { readonl
 /** What a chunk must turn out to be, and where it is from, for errors. */
 export interface Expected {
   readonly pointCount: number;
+  /** CRC-32C of the chunk as stored; undefined where there is none. */
+  readonly checksum?: number | undefined;
   readonly file: string;
   /** Node name. */
   readonly node: string;

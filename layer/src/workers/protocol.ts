@@ -32,6 +32,8 @@ export interface Appearance {
 export interface ChunkJob {
   readonly dataSet: number;
   readonly chunk: ArrayBuffer;
+  /** CRC-32C of the chunk as stored; undefined where there is none. */
+  readonly checksum?: number | undefined;
   readonly pointCount: number;
   /** Node name, for errors. */
   readonly node: string;

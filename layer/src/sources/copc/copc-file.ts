@@ -29,6 +29,8 @@ export interface CopcFile {
   readonly statistics?: CloudStatistics;
   /** What the extra bytes of each record hold (LASF_Spec 4); empty where they are not described. */
   readonly extraBytes: readonly ExtraBytes[];
+  /** Where Groma's record of checksums stands (VLR `groma` 4); undefined also where it is not known yet. */
+  readonly checksums: VlrEntry | undefined;
   readonly limits: HierarchyLimits;
 }
 
@@ -62,7 +64,15 @@ export async function openCopc(source: ByteSource, options: ReadOptions = {}): P
   const headerLength = new DataView(bytes.buffer, bytes.byteOffset).getUint16(94, true);
   const entries = walkVlrs(bytes, header, headerLength, file);
   if (isSpreadOut(entries, header)) entries.push(...(await walkEvlrs(source, header, options)));
-  return { source, header, info, limits, ...(await readRecords(source, header, entries, options)) };
+  const checksums = findVlr(entries, "groma", 4);
+  return {
+    source,
+    header,
+    info,
+    limits,
+    checksums,
+    ...(await readRecords(source, header, entries, options)),
+  };
 }
 
 /**

@@ -1,13 +1,14 @@
 import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
 import { BASE_RECORD_LENGTH, readText } from "../las/las-header.js";
 import { type LazEncoding, recordFields } from "../las/record-fields.js";
-import type { HierarchyEntry, PointSource } from "../point-source.js";
+import type { EncodedChunk, HierarchyEntry, PointSource } from "../point-source.js";
+import { Checksums } from "./checksums.js";
 import { type CopcFile, openCopc } from "./copc-file.js";
 import type { ByteRange } from "./copc-info.js";
-import { checkPageAddress, entriesOfPage, type HierarchyLimits } from "./hierarchy.js";
+import { type ChunkRange, checkPageAddress, entriesOfPage, type HierarchyLimits } from "./hierarchy.js";
 
 /** A COPC file as a source of points. */
-export class CopcSource implements PointSource<ByteRange, LazEncoding> {
+export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
   readonly name: string;
   readonly pointCount: number;
   readonly boundingBox: PointSource["boundingBox"];
@@ -21,6 +22,8 @@ export class CopcSource implements PointSource<ByteRange, LazEncoding> {
   readonly encoding: LazEncoding;
   readonly rootPage: ByteRange;
   readonly #bytes: ByteSource;
+  readonly #file: CopcFile;
+  #checksums: Promise<Checksums | undefined> | undefined;
   readonly #limits: HierarchyLimits;
 
   constructor(file: CopcFile) {
@@ -29,6 +32,7 @@ export class CopcSource implements PointSource<ByteRange, LazEncoding> {
     const [x, y, z] = info.center.map((middle) => middle - info.halfSize);
     const edge = 2 * info.halfSize;
     this.#bytes = source;
+    this.#file = file;
     this.#limits = file.limits;
     this.name = source.name;
     this.pointCount = header.pointCount;
@@ -56,16 +60,29 @@ export class CopcSource implements PointSource<ByteRange, LazEncoding> {
     return readText(opening, 0, 4) === "LASF";
   }
 
-  async page(address: ByteRange, options: ReadOptions = {}): Promise<Iterable<HierarchyEntry<ByteRange>>> {
+  async page(address: ByteRange, options: ReadOptions = {}): Promise<Iterable<HierarchyEntry<ChunkRange>>> {
     checkPageAddress(address, this.#limits);
     const { offset, length } = address;
-    return entriesOfPage(await this.#bytes.read(offset, offset + length, options), this.#limits);
+    const [bytes, checksums] = await Promise.all([
+      this.#bytes.read(offset, offset + length, options),
+      this.#openChecksums().then((all) => all?.ofPage(address, options)),
+    ]);
+    return entriesOfPage(bytes, this.#limits, checksums);
   }
 
-  async chunk({ offset, length }: ByteRange, options: ReadOptions = {}): Promise<ArrayBuffer> {
+  async chunk({ offset, length, checksum }: ChunkRange, options: ReadOptions = {}): Promise<EncodedChunk> {
     const bytes = await this.#bytes.read(offset, offset + length, options);
     const whole = bytes.byteLength === bytes.buffer.byteLength;
-    return (whole ? bytes.buffer : bytes.slice().buffer) as ArrayBuffer;
+    return { bytes: (whole ? bytes.buffer : bytes.slice().buffer) as ArrayBuffer, checksum };
+  }
+
+  /** The file's checksums, looked for with its first page. */
+  #openChecksums(): Promise<Checksums | undefined> {
+    this.#checksums ??= Checksums.open(this.#file).catch((error: unknown) => {
+      this.#checksums = undefined;
+      throw error;
+    });
+    return this.#checksums;
   }
 }
 

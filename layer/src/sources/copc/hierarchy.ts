@@ -14,6 +14,11 @@ const MAX_NODE_POINTS = 2 ** 24;
 /** Bytes that one page may take: 2^20 entries. */
 const MAX_PAGE_LENGTH = ENTRY_LENGTH * 2 ** 20;
 
+/** Where a chunk lies, and what its checksum must be. */
+export interface ChunkRange extends ByteRange {
+  readonly checksum?: number | undefined;
+}
+
 /** What entries are held against. */
 export interface HierarchyLimits {
   /** Name of the file, for errors. */
@@ -41,20 +46,26 @@ export function checkPageAddress(page: ByteRange, limits: HierarchyLimits): void
 /**
  * Reads a page of the hierarchy, entry by entry as they are taken; each is held against the file, so that nothing is
  * ever asked for that the file cannot hold.
+ * @param checksums one for each entry, where the file has them
  * @throws FormatError FORMAT_HIERARCHY, FORMAT_TRUNCATED
  */
 export function* entriesOfPage(
   bytes: Uint8Array,
   limits: HierarchyLimits,
-): Generator<HierarchyEntry<ByteRange>> {
+  checksums?: Uint32Array,
+): Generator<HierarchyEntry<ChunkRange>> {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   for (let at = 0; at + ENTRY_LENGTH <= bytes.length; at += ENTRY_LENGTH) {
-    const entry: HierarchyEntry<ByteRange> = {
+    const entry: HierarchyEntry<ChunkRange> = {
       depth: view.getInt32(at, true),
       x: view.getInt32(at + 4, true),
       y: view.getInt32(at + 8, true),
       z: view.getInt32(at + 12, true),
-      address: { offset: Number(view.getBigUint64(at + 16, true)), length: view.getInt32(at + 24, true) },
+      address: {
+        offset: Number(view.getBigUint64(at + 16, true)),
+        length: view.getInt32(at + 24, true),
+        checksum: checksums?.[at / ENTRY_LENGTH],
+      },
       pointCount: view.getInt32(at + 28, true),
     };
     checkEntry(entry, limits);

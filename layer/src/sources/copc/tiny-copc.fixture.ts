@@ -11,6 +11,8 @@ export interface TinyCopc {
   readonly records?: readonly (readonly [string, number, Uint8Array])[];
   /** Extended records at the end: user id, record id, content, and the length that is claimed if not the true one. */
   readonly extended?: readonly (readonly [string, number, Uint8Array, number?])[];
+  /** An extended record between points and root page, where `groma` puts checksums for which there is no room in front. */
+  readonly ahead?: readonly [string, number, Uint8Array];
   /** Rows of the root page: depth, x, y, z, offset, length, points. An offset of 0 stands for the points' own. */
   readonly page?: readonly (readonly number[])[];
   /** Put instead of the true offset of the root page. */
@@ -68,7 +70,8 @@ export function tinyCopc(options: TinyCopc = {}): Uint8Array {
     ([depth, x, y, z, offset, length, count]) => [depth, x, y, z, offset || pointsOffset, length, count],
   );
   const page = pageBytes(rows);
-  const pageOffset = pointsOffset + CHUNK.length;
+  const ahead = options.ahead ? extendedBytes([options.ahead]) : new Uint8Array();
+  const pageOffset = pointsOffset + CHUNK.length + ahead.length;
   // A hierarchy is an extended record in real files; here an empty one stands for it.
   const extended = options.extended
     ? extendedBytes([["copc", 1000, new Uint8Array()], ...options.extended])
@@ -102,6 +105,11 @@ export function tinyCopc(options: TinyCopc = {}): Uint8Array {
   for (const [index, value] of [50, 50, 50, 50, 1].entries()) view.setFloat64(429 + 8 * index, value, true);
   view.setBigUint64(469, BigInt(options.pageOffset ?? pageOffset), true);
   view.setBigUint64(477, BigInt(page.length), true);
+  file.set(ahead, pointsOffset + CHUNK.length);
+  if (options.ahead) {
+    view.setBigUint64(235, BigInt(pointsOffset + CHUNK.length), true);
+    view.setUint32(243, 1, true);
+  }
   file.set(page, pageOffset);
   if (options.extended) {
     view.setBigUint64(235, BigInt(pageOffset + page.length), true);

@@ -5,7 +5,7 @@ import { type LasHeader, readText, readU64, truncated } from "./las-header.js";
 /** Length of a VLR's header in bytes (LAS 1.4 R15, section 2.5). */
 const VLR_HEADER = 54;
 /** Length of an extended VLR's header in bytes (LAS 1.4 R15, section 2.6). */
-const EVLR_HEADER = 60;
+export const EVLR_HEADER = 60;
 /** More records than any writer makes: a count above it is taken for damage, not walked. */
 const MAX_RECORDS = 4096;
 /** Bytes of one record's content that are read at most; WKT and statistics take a few kilobytes. */
@@ -67,17 +67,25 @@ export async function walkEvlrs(
     if (source.size !== undefined && at + EVLR_HEADER > source.size) {
       throw truncated(source.name, "its extended records");
     }
-    const bytes = await source.read(at, at + EVLR_HEADER, options);
-    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-    const begin = at + EVLR_HEADER;
-    const end = begin + readU64(view, 20, source.name);
-    if (source.size !== undefined && end > source.size) {
+    const entry = evlrEntry(await source.read(at, at + EVLR_HEADER, options), at, source.name);
+    if (source.size !== undefined && entry.end > source.size) {
       throw truncated(source.name, "its extended records");
     }
-    entries.push({ userId: readText(bytes, 2, 16), recordId: view.getUint16(18, true), begin, end });
-    at = end;
+    entries.push(entry);
+    at = entry.end;
   }
   return entries;
+}
+
+/**
+ * The extended VLR whose header begins with `bytes`, which stand at byte `at` of the file.
+ * @throws FormatError where its length is beyond what a number holds
+ */
+export function evlrEntry(bytes: Uint8Array, at: number, file: string): VlrEntry {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const begin = at + EVLR_HEADER;
+  const end = begin + readU64(view, 20, file);
+  return { userId: readText(bytes, 2, 16), recordId: view.getUint16(18, true), begin, end };
 }
 
 /** First record with the ids given, or undefined. */
