@@ -5,7 +5,7 @@
 //! Finding out takes as long as compressing twice as many points and, which is more, setting up two compressors. So one
 //! job does so for itself and its siblings that come after it.
 
-use super::site::Site;
+use super::context::Context;
 use crate::copc::chunk;
 use crate::error::Result;
 use crate::octree::key::Key;
@@ -64,9 +64,9 @@ pub struct Selection<'a> {
 
 impl Arranger {
     /// Copies of selected records in the better order.
-    pub fn arrange(&mut self, site: &Site, selection: Selection) -> Result<Vec<u8>> {
+    pub fn arrange(&mut self, context: &Context, selection: Selection) -> Result<Vec<u8>> {
         let Selection { records, codes, numbers } = selection;
-        let length = site.inputs.length;
+        let length = context.inputs.length;
         let input = match self.order {
             Some(Order::Morton) => Vec::new(),
             _ => gather(records, numbers.iter().copied(), length),
@@ -81,10 +81,10 @@ impl Arranger {
         let order = match self.order {
             Some(order) => order,
             None => {
-                let order = better(&input, &morton, site)?;
+                let order = better(&input, &morton, context)?;
                 // What few points tell is not worth sharing.
                 if numbers.len() >= PROBE {
-                    site.orders.add(self.parent, order);
+                    context.orders.add(self.parent, order);
                 }
                 *self.order.insert(order)
             }
@@ -93,9 +93,9 @@ impl Arranger {
     }
 
     /// Begins the job of a node.
-    pub fn begin(&mut self, site: &Site, key: Key) {
+    pub fn begin(&mut self, context: &Context, key: Key) {
         self.parent = key.parent();
-        self.order = site.orders.of(self.parent);
+        self.order = context.orders.of(self.parent);
     }
 }
 
@@ -109,13 +109,13 @@ pub fn gather(records: &[u8], numbers: impl ExactSizeIterator<Item = u32>, lengt
 }
 
 /// Compresses as many points from the middle of both.
-fn better(input: &[u8], morton: &[u8], site: &Site) -> Result<Order> {
-    let length = site.inputs.length;
+fn better(input: &[u8], morton: &[u8], context: &Context) -> Result<Order> {
+    let length = context.inputs.length;
     let points = input.len() / length;
     let start = points.saturating_sub(PROBE) / 2 * length;
     let size = |records: &[u8]| -> Result<usize> {
         let part = &records[start..records.len().min(start + PROBE * length)];
-        Ok(chunk::compress(part, site.laz).map_err(Site::uncompressed)?.len())
+        Ok(chunk::compress(part, context.laz).map_err(Context::compression_failed)?.len())
     };
     Ok(if size(morton)? < size(input)? { Order::Morton } else { Order::Input })
 }

@@ -1,6 +1,6 @@
 //! A node's choice among the points of its children.
 
-use super::site::{Desk, Site};
+use super::context::{Buffers, Context};
 use crate::error::Result;
 use crate::octree::key::Key;
 use crate::record::colour;
@@ -18,34 +18,39 @@ pub struct Candidates<'a> {
 /// Chooses a node's points: the numbers of their records, ascending. No more than a node may hold; of more, those with
 /// the smallest seeds, which of a Poisson sample leaves one of fewer points, and as even. Colours are averaged
 /// where the rules say so.
-pub fn choose(site: &Site, key: Key, candidates: Candidates, desk: &mut Desk) -> Result<Vec<u32>> {
+pub fn choose(
+    context: &Context,
+    key: Key,
+    candidates: Candidates,
+    buffers: &mut Buffers,
+) -> Result<Vec<u32>> {
     let Candidates { records, numbers, weights } = candidates;
-    let (length, cell) = (site.inputs.length, site.cube.cell(key));
-    let Desk { positions, seeds, surroundings, scratch, .. } = desk;
+    let (length, cell) = (context.inputs.length, context.cube.cell(key));
+    let Buffers { positions, seeds, surroundings, scratch, .. } = buffers;
     let record = |number: u32| &records[number as usize * length..][..length];
     positions.clear();
-    positions.extend(numbers.iter().map(|number| site.position(record(*number))));
+    positions.extend(numbers.iter().map(|number| context.position(record(*number))));
     seeds.clear();
-    if site.keeps_distance() {
+    if context.keeps_distance() {
         seeds.extend(positions.iter().map(|position| seed::of_place(key.level, position)));
-        surroundings.look(site, key, &cell)?;
+        surroundings.look(context, key, &cell)?;
     } else {
         let node = key.morton() ^ u64::from(key.level) << 60;
         seeds.extend(numbers.iter().map(|number| seed::of_number(node, *number)));
     }
     let around = surroundings.around();
-    let mut chosen = sampling::choose(site.rules.sampling, &cell, positions, seeds, around, scratch);
-    let most = site.limits.node as usize;
+    let mut chosen = sampling::choose(context.rules.sampling, &cell, positions, seeds, around, scratch);
+    let most = context.limits.node as usize;
     if chosen.len() > most {
         chosen.select_nth_unstable_by_key(most, |index| (seeds[*index as usize], *index));
         chosen.truncate(most);
         chosen.sort_unstable();
     }
-    if site.keeps_distance() {
+    if context.keeps_distance() {
         let taken = chosen.iter().map(|index| positions[*index as usize]);
-        site.borders.keep(key, &cell, cell.spacing, taken, site.store)?;
+        context.chosen_borders.keep(key, &cell, cell.spacing, taken, context.store)?;
     }
-    if site.averages() {
+    if context.averages() {
         let colours: Vec<_> = numbers.iter().map(|number| colour(record(*number))).collect();
         let counts: Vec<_> = numbers.iter().map(|number| weights[*number as usize]).collect();
         let means = sampling::average(&cell, positions, &colours, &counts, &chosen);

@@ -2,26 +2,26 @@
 
 use super::arrange::Selection;
 use super::choose::{Candidates, choose};
-use super::site::{Batch, Desk, Site};
+use super::context::{Batch, Buffers, Context};
 use crate::error::Result;
 use crate::octree::key::Key;
 
 /// Builds a node from its children's points, which are finished with that.
-pub fn merge(site: &Site, key: Key, desk: &mut Desk) -> Result<()> {
-    let length = site.inputs.length;
+pub fn merge(context: &Context, key: Key, buffers: &mut Buffers) -> Result<()> {
+    let length = context.inputs.length;
     let mut all = Batch::default();
     let mut children = Vec::with_capacity(8);
     for octant in 0..8 {
         let child = key.child(octant);
-        let mut batch = site.take(child)?;
+        let mut batch = context.take(child)?;
         all.records.append(&mut batch.records);
         all.weights.append(&mut batch.weights);
         children.push((child, all.records.len() / length));
     }
     let numbers: Vec<u32> = (0..(all.records.len() / length) as u32).collect();
     let Batch { records, weights } = &mut all;
-    let chosen = choose(site, key, Candidates { records, numbers: &numbers, weights }, desk)?;
-    let codes = site.codes(&all.records);
+    let chosen = choose(context, key, Candidates { records, numbers: &numbers, weights }, buffers)?;
+    let codes = context.codes(&all.records);
     let mut own = Batch::default();
     let mut taken = chosen.into_iter().peekable();
     let mut start = 0;
@@ -36,8 +36,8 @@ pub fn merge(site: &Site, key: Key, desk: &mut Desk) -> Result<()> {
             }
         }
         let selection = Selection { records: &all.records, codes: &codes, numbers: &rest };
-        site.finish(child, selection, &mut desk.arranger)?;
+        context.finish(child, selection, &mut buffers.arranger)?;
         start = end;
     }
-    site.keep(key, own)
+    context.keep(key, own)
 }

@@ -5,26 +5,26 @@
 //! chosen among those that its children hold, and taken away from them. A node is finished, and its points
 //! compressed, once its parent has chosen.
 //!
-//! Points with one and the same place in the finest grid of the root cube cannot be divided: such a *pile* begins at the
-//! topmost node that holds no other points, with as many of its points as a node may hold. The others follow in
-//! a chain of descendants, as many in each, or more where the levels down to the deepest do not suffice.
+//! Points in one cell of the finest grid of the root cube are *coincident*: no level can divide them. They begin at the
+//! topmost node that holds no other points, with as many as a node may hold. The others follow in a chain of descendants,
+//! as many in each, or more where the levels down to the deepest do not suffice.
 //!
 //! The order of work makes the result the same for any number of threads: nodes whose samples depend on each other,
 //! because they touch, are never worked on at the same time.
 
 mod arrange;
-mod bands;
-mod board;
+mod border_points;
 mod choose;
+mod coincident;
+mod context;
 mod merge;
 mod outline;
-mod pile;
 mod plan;
-mod site;
+mod scheduler;
 mod split;
 mod surroundings;
 
-pub use site::{Node, Rules};
+pub use context::{Node, Rules};
 
 use crate::distribute::Inputs;
 use crate::distribute::cells::Cells;
@@ -33,10 +33,10 @@ use crate::octree::cube::Cube;
 use crate::octree::limits::Limits;
 use crate::progress::Meter;
 use crate::temporary::store::Store;
-use board::{Board, Task};
+use context::{Buffers, Context};
 use laz::LazVlr;
 use plan::Job;
-use site::{Desk, Site};
+use scheduler::{Scheduler, Task};
 
 /// Bytes of working memory per point besides its record: code, order, candidate, and what sampling needs for it.
 const POINT_BYTES: u64 = 80;
@@ -51,7 +51,7 @@ pub fn job_bytes(points: u64, length: usize) -> u64 {
 
 /// Threads and the bytes that they may use.
 #[derive(Debug, Clone, Copy)]
-pub struct Workforce {
+pub struct WorkerBudget {
     pub workers: usize,
     /// Bytes for all nodes that are being built.
     pub work: u64,
@@ -65,35 +65,36 @@ pub fn build(
     cells: Cells,
     rules: Rules,
     laz: &LazVlr,
-    force: Workforce,
+    force: WorkerBudget,
     store: &Store,
     meter: &Meter,
 ) -> Result<Vec<Node>> {
     let limits = Limits::of(inputs.length);
     let plan::Plan { phases, pending, outline } = plan::plan(cells, &limits);
     let bytes = |job: &Job| job_bytes(job.points(&limits), inputs.length);
-    let board = Board::new(phases, bytes, force);
-    let site = Site::new(inputs, cube, limits, rules, laz, store, meter, (pending, outline), &board);
+    let scheduler = Scheduler::new(phases, bytes, force);
+    let context =
+        Context::new(inputs, cube, limits, rules, laz, store, meter, (pending, outline), &scheduler);
     let work = || {
-        let _watch = board.watch();
-        let mut desk = Desk::default();
-        while let Some(task) = board.next() {
+        let _watch = scheduler.watch();
+        let mut buffers = Buffers::default();
+        while let Some(task) = scheduler.next() {
             let done = match task {
-                Task::Finish(finish) => site.compress(finish),
+                Task::Compress(node) => context.compress(node),
                 Task::Job(job, bytes) => {
-                    desk.arranger.begin(&site, job.key());
+                    buffers.arranger.begin(&context, job.key());
                     let done = match job {
-                        Job::Split { key, cell } => split::split(&site, key, cell, &mut desk),
-                        Job::Pile { key, cell } => pile::stream(&site, key, cell),
-                        Job::Merge { key, .. } => merge::merge(&site, key, &mut desk),
-                        Job::Root => site.finish_root(&mut desk.arranger),
+                        Job::Split { key, cell } => split::split(&context, key, cell, &mut buffers),
+                        Job::Coincident { key, cell } => coincident::stream(&context, key, cell),
+                        Job::Merge { key, .. } => merge::merge(&context, key, &mut buffers),
+                        Job::Root => context.finish_root(&mut buffers.arranger),
                     };
-                    board.job_done(bytes);
+                    scheduler.job_done(bytes);
                     done
                 }
             };
             if let Err(error) = done {
-                board.fail(error);
+                scheduler.fail(error);
             }
         }
     };
@@ -102,7 +103,7 @@ pub fn build(
             scope.spawn(work);
         }
     });
-    let nodes = site.into_nodes();
-    board.outcome()?;
+    let nodes = context.into_nodes();
+    scheduler.outcome()?;
     Ok(nodes)
 }

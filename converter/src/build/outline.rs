@@ -45,8 +45,8 @@ impl Outline {
         self.topmost(key, |part| part.points <= self.leaf)
     }
 
-    /// The topmost pile that a cell is a part of, if all its points have one code.
-    pub fn pile(&self, key: Key) -> Option<Key> {
+    /// The topmost node that holds nothing but the coincident points of a cell, if all its points are.
+    pub fn coincident(&self, key: Key) -> Option<Key> {
         self.topmost(key, |part| part.codes.0 == part.codes.1)
     }
 
@@ -97,18 +97,21 @@ mod tests {
         assert!(may.into_iter().all(|key| outline.may_choose(key)));
         let not = [few, few.child(1), Key::ROOT.child(7), Key::ROOT.child(1), Key::ROOT.child(0).child(1)];
         assert!(!not.into_iter().any(|key| outline.may_choose(key)));
-        assert_eq!((outline.leaf(few), outline.leaf(full), outline.pile(full)), (Some(few), None, None));
+        assert_eq!(
+            (outline.leaf(few), outline.leaf(full), outline.coincident(full)),
+            (Some(few), None, None)
+        );
     }
 
     #[test]
-    fn leaves_and_piles_begin_as_high_as_they_can() {
+    fn leaves_and_coincident_points_begin_as_high_as_they_can() {
         let parent = Key::ROOT.child(2);
         let cells = [cell(parent.child(0), 20_000), cell(parent.child(1), 20_000), cell(Key::ROOT, 90_000)];
         let outline = Outline::of(cells.into_iter(), &LIMITS);
         assert_eq!(outline.leaf(parent.child(1)), Some(parent));
         let code = 5 << 57;
-        let pile = Key::of(code, 2);
-        let outline = Outline::of([(pile, 900_000, (code, code))].into_iter(), &LIMITS);
-        assert_eq!(outline.pile(pile), Some(Key::ROOT));
+        let cell = Key::of(code, 2);
+        let outline = Outline::of([(cell, 900_000, (code, code))].into_iter(), &LIMITS);
+        assert_eq!(outline.coincident(cell), Some(Key::ROOT));
     }
 }

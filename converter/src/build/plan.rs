@@ -1,7 +1,7 @@
 //! Which nodes are built in which order.
 
+use super::context::Pending;
 use super::outline::Outline;
-use super::site::Pending;
 use crate::distribute::cells::{Cell, Cells};
 use crate::octree::key::Key;
 use crate::octree::limits::Limits;
@@ -12,7 +12,7 @@ pub enum Job {
     /// A cell with too many points for a leaf: all nodes below it.
     Split { key: Key, cell: Cell },
     /// A cell whose points all have one code.
-    Pile { key: Key, cell: Cell },
+    Coincident { key: Key, cell: Cell },
     /// A node whose children are there.
     Merge { key: Key, children: u32 },
     /// The root has no parent that would take anything.
@@ -23,7 +23,7 @@ impl Job {
     /// The node that it builds, with all below it that is not there yet.
     pub fn key(&self) -> Key {
         match self {
-            Self::Split { key, .. } | Self::Pile { key, .. } | Self::Merge { key, .. } => *key,
+            Self::Split { key, .. } | Self::Coincident { key, .. } | Self::Merge { key, .. } => *key,
             Self::Root => Key::ROOT,
         }
     }
@@ -32,7 +32,7 @@ impl Job {
     pub fn points(&self, limits: &Limits) -> u64 {
         match self {
             Self::Split { cell, .. } => cell.points,
-            Self::Pile { .. } | Self::Root => limits.node,
+            Self::Coincident { .. } | Self::Root => limits.node,
             Self::Merge { children, .. } => u64::from(*children) * limits.node,
         }
     }
@@ -58,8 +58,8 @@ pub fn plan(cells: Cells, limits: &Limits) -> Plan {
     for (key, cell) in cells {
         if let Some(leaf) = outline.leaf(key) {
             pending.entry(leaf).or_default().push(cell);
-        } else if let Some(key) = outline.pile(key) {
-            jobs.push((key, Job::Pile { key, cell }));
+        } else if let Some(key) = outline.coincident(key) {
+            jobs.push((key, Job::Coincident { key, cell }));
         } else {
             jobs.push((key, Job::Split { key, cell }));
         }

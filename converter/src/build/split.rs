@@ -2,8 +2,8 @@
 
 use super::arrange::{Arranger, Selection, gather};
 use super::choose::{Candidates, choose};
-use super::pile;
-use super::site::{Batch, Desk, Site};
+use super::coincident;
+use super::context::{Batch, Buffers, Context};
 use crate::distribute::cells::Cell;
 use crate::error::Result;
 use crate::octree::key::{BITS, Key};
@@ -17,17 +17,17 @@ struct Points {
 }
 
 /// Builds the nodes of a cell. The topmost one's points wait for its parent.
-pub fn split(site: &Site, key: Key, cell: Cell, desk: &mut Desk) -> Result<()> {
-    let length = site.inputs.length;
-    let records = cell.load(length, site.store)?;
-    let codes = site.codes(&records);
+pub fn split(context: &Context, key: Key, cell: Cell, buffers: &mut Buffers) -> Result<()> {
+    let length = context.inputs.length;
+    let records = cell.load(length, context.store)?;
+    let codes = context.codes(&records);
     let mut order: Vec<u32> = (0..codes.len() as u32).collect();
     let mut spare = order.clone();
-    let weights = site.weights(codes.len());
+    let weights = context.weights(codes.len());
     let taken = vec![false; codes.len()];
     let mut points = Points { batch: Batch { records, weights }, codes, taken };
-    let own = points.grow(site, key, &mut order, &mut spare, desk)?;
-    site.keep(key, points.gather(&own, length))
+    let own = points.grow(context, key, &mut order, &mut spare, buffers)?;
+    context.keep(key, points.gather(&own, length))
 }
 
 impl Points {
@@ -35,19 +35,19 @@ impl Points {
     /// all its points, ascending; `spare` is as long.
     fn grow(
         &mut self,
-        site: &Site,
+        context: &Context,
         key: Key,
         order: &mut [u32],
         spare: &mut [u32],
-        desk: &mut Desk,
+        buffers: &mut Buffers,
     ) -> Result<Vec<u32>> {
-        if order.len() as u64 <= site.limits.leaf {
+        if order.len() as u64 <= context.limits.leaf {
             return Ok(order.to_vec());
         }
         let code = |number: u32| self.codes[number as usize];
         let first = code(order[0]);
         if order.iter().all(|number| code(*number) == first) {
-            return self.pile(site, key, first, order, &mut desk.arranger);
+            return self.coincident(context, key, first, order, &mut buffers.arranger);
         }
         let ends = self.partition(key.level, order, spare);
         let mut children = Vec::with_capacity(8);
@@ -57,7 +57,7 @@ impl Points {
                 let child = key.child(octant);
                 children.push((
                     child,
-                    self.grow(site, child, &mut order[start..end], &mut spare[start..end], desk)?,
+                    self.grow(context, child, &mut order[start..end], &mut spare[start..end], buffers)?,
                 ));
             }
             start = end;
@@ -66,12 +66,12 @@ impl Points {
         // Runs of ascending numbers, which a stable sort merges.
         numbers.sort();
         let Batch { records, weights } = &mut self.batch;
-        let chosen = choose(site, key, Candidates { records, numbers: &numbers, weights }, desk)?;
+        let chosen = choose(context, key, Candidates { records, numbers: &numbers, weights }, buffers)?;
         drop(numbers);
         chosen.iter().for_each(|number| self.taken[*number as usize] = true);
         for (child, mut own) in children {
             own.retain(|number| !self.taken[*number as usize]);
-            site.finish(child, self.select(&own), &mut desk.arranger)?;
+            context.finish(child, self.select(&own), &mut buffers.arranger)?;
         }
         // The marks are for this node's children only: its parent makes its own.
         chosen.iter().for_each(|number| self.taken[*number as usize] = false);
@@ -98,19 +98,19 @@ impl Points {
     }
 
     /// Points with one code: the first ones are the node's, the others its descendants'.
-    fn pile(
+    fn coincident(
         &self,
-        site: &Site,
+        context: &Context,
         key: Key,
         code: u64,
         order: &[u32],
         arranger: &mut Arranger,
     ) -> Result<Vec<u32>> {
-        let chain = pile::chain(key, code, order.len() as u64, site.limits.node);
+        let chain = coincident::chain(key, code, order.len() as u64, context.limits.node);
         let (own, mut rest) = order.split_at(chain.own as usize);
         for (key, points) in chain.below {
             let (now, later) = rest.split_at(points as usize);
-            site.finish(key, self.select(now), arranger)?;
+            context.finish(key, self.select(now), arranger)?;
             rest = later;
         }
         Ok(own.to_vec())

@@ -3,9 +3,9 @@
 
 pub mod cells;
 mod divide;
+mod ordered_parts;
 pub mod pass;
 pub mod sort;
-mod turns;
 
 use crate::error::Result;
 use crate::input::Source;

@@ -2,8 +2,8 @@
 
 use super::Inputs;
 use super::cells::Cells;
+use super::ordered_parts::OrderedParts;
 use super::sort::{Sorted, Sorter, Target};
-use super::turns::Turns;
 use crate::error::Result;
 use crate::input::{Pieces, piece_points};
 use crate::octree::cube::Cube;
@@ -85,11 +85,11 @@ pub fn read(
             }
         }
     };
-    let turns = Turns::new(parts.len(), workers * WAITING as usize, take);
+    let ordered_parts = OrderedParts::new(parts.len(), workers * WAITING as usize, take);
     let work = || {
-        let _watch = turns.watch();
+        let _watch = ordered_parts.watch();
         let (mut pieces, mut sorter) = (Pieces::default(), Sorter::default());
-        while let Some(number) = turns.claim() {
+        while let Some(number) = ordered_parts.claim() {
             let (source, part) = parts[number];
             let read = source.read(part, &mut pieces, |records| {
                 let tally = Tally::of(records, inputs.length, &inputs.fields);
@@ -103,10 +103,10 @@ pub fn read(
                     sorter.sort(records, inputs.length, &target)
                 });
                 meter.add((records.len() / inputs.length) as u64);
-                turns.give(number, (tally, extent, sorted))
+                ordered_parts.give(number, (tally, extent, sorted))
             });
-            if let Err(error) = read.and_then(|()| turns.end(number)) {
-                turns.fail(error);
+            if let Err(error) = read.and_then(|()| ordered_parts.end(number)) {
+                ordered_parts.fail(error);
             }
         }
     };
@@ -115,7 +115,7 @@ pub fn read(
             scope.spawn(work);
         }
     });
-    turns.finish().map(drop)?;
+    ordered_parts.finish().map(drop)?;
     found.placed = placed.into_inner();
     Ok(found)
 }

@@ -118,6 +118,21 @@ mod tests {
         assert!(cube.min()[0] < 470_692.44 && 470_692.44 < cube.min()[0] + cube.side());
     }
 
+    /// Steps of a nanometre far from the origin: float64 has no room for the levels of a cube that is as small as they are.
+    #[test]
+    fn a_cube_is_large_enough_to_be_divided_in_float64() {
+        let (east, north) = (4e6, 5e6);
+        let cube = cube_of(&[[east, north, 0.0]], [1e-9; 3]);
+        assert_eq!(cube.side(), north / f64::from(2u32).powi(40));
+        let far = Key { level: 9, x: 511, y: 511, z: 511 };
+        let (first, last) = (cube.cell(Key { level: 9, x: 0, y: 0, z: 0 }), cube.cell(far));
+        for axis in [0, 1] {
+            assert!(first.min[axis] < first.min[axis] + first.side);
+            assert!(last.min[axis] < last.min[axis] + last.side);
+            assert!(first.min[axis] < last.min[axis]);
+        }
+    }
+
     #[test]
     fn the_cube_is_hardly_larger_than_the_points() {
         let cube = cube_of(&[[0.0; 3], [1000.0, 3.0, 2.0]], [0.01; 3]);

@@ -34,7 +34,7 @@ const MOST_CELLS: f64 = 32_768.0;
 pub struct Limits {
     /// A node with no more points in all is a leaf.
     pub leaf: u64,
-    /// No node has more, but for piles, see [`crate::build`].
+    /// No node has more, but for coincident points, see [`crate::build`].
     pub node: u64,
     /// A cell with more is divided before it is built.
     pub cell: u64,

@@ -55,7 +55,7 @@ pub struct Distributed {
     additions: Additions,
     shares: Shares,
     distribution: Distribution,
-    site: Workplace,
+    workspace: Workspace,
 }
 
 /// Every point has its node, and every node is compressed.
@@ -66,11 +66,11 @@ pub struct Built {
     additions: Additions,
     first: Scan,
     nodes: Vec<Node>,
-    site: Workplace,
+    workspace: Workspace,
 }
 
 /// Where the run works. The store goes before the folders that it writes to.
-struct Workplace {
+struct Workspace {
     store: Store,
     _temporary: Option<TempFolder>,
     output: PendingFile,
@@ -136,8 +136,8 @@ impl<'a> Pipeline<'a, Validated> {
         if options.wait_for_record {
             progress.bounds(distribution.bounds.min, distribution.bounds.max);
         }
-        let site = Workplace { store, _temporary: temporary, output };
-        let stage = Distributed { inputs, additions, shares, distribution, site };
+        let workspace = Workspace { store, _temporary: temporary, output };
+        let stage = Distributed { inputs, additions, shares, distribution, workspace };
         Ok(Pipeline { options, progress, stage })
     }
 }
@@ -146,7 +146,7 @@ impl<'a> Pipeline<'a, Distributed> {
     /// Gives every point its node and compresses the nodes.
     pub fn build(self) -> Result<Pipeline<'a, Built>> {
         let Self { options, progress, stage } = self;
-        let Distributed { inputs, mut additions, shares, distribution, site } = stage;
+        let Distributed { inputs, mut additions, shares, distribution, workspace } = stage;
         let Distribution { cells, cube, bounds, tally } = distribution;
         let first = &inputs.sources[0];
         let failed = |e: std::io::Error| Error::output_write(&options.output, e);
@@ -154,7 +154,7 @@ impl<'a> Pipeline<'a, Distributed> {
             .map_err(|e| failed(std::io::Error::other(e)))?;
         let meter = Meter::start(progress, Stage::Build, inputs.points);
         let nodes =
-            build::build(&inputs, cube, cells, options.rules, &laz, shares.force, &site.store, &meter)?;
+            build::build(&inputs, cube, cells, options.rules, &laz, shares.force, &workspace.store, &meter)?;
         meter.finish();
 
         let statistics = Statistics::of(&tally, &inputs.fields);
@@ -172,7 +172,7 @@ impl<'a> Pipeline<'a, Distributed> {
         let info = Info { cube, root_page: (0, 0), gps_time: time };
         let first = inputs.sources.into_iter().next().map(|source| source.scan);
         let first = first.ok_or_else(|| Error::option("USAGE", "no input"))?;
-        let stage = Built { points, info, laz, additions, first, nodes, site };
+        let stage = Built { points, info, laz, additions, first, nodes, workspace };
         Ok(Pipeline { options, progress, stage })
     }
 }
@@ -181,7 +181,7 @@ impl Pipeline<'_, Built> {
     /// Writes the file; it has its name only when all of it is on disk.
     pub fn write(self) -> Result<Summary> {
         let Self { options, progress, stage } = self;
-        let Built { points, info, laz, mut additions, first, nodes, site } = stage;
+        let Built { points, info, laz, mut additions, first, nodes, workspace } = stage;
         if options.wait_for_record {
             answer::read(std::io::stdin().lock(), &options.output, &mut additions)?;
         }
@@ -195,7 +195,7 @@ impl Pipeline<'_, Built> {
         let meter = Meter::start(progress, Stage::Write, points.count);
         let nodes = copc::write::ordered(nodes);
         let (count, number) = (points.count, nodes.len());
-        let Workplace { store, _temporary, output } = site;
+        let Workspace { store, _temporary, output } = workspace;
         let mut file = output.open()?;
         let content = copc::write::Content {
             input: &first.header,

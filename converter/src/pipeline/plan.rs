@@ -1,6 +1,6 @@
 //! What a conversion will take, known before it reads a point.
 
-use crate::build::{COMPRESSOR_BYTES, Workforce, job_bytes};
+use crate::build::{COMPRESSOR_BYTES, WorkerBudget, job_bytes};
 use crate::distribute::{Inputs, pass};
 use crate::error::{Error, Result};
 use crate::input::Source;
@@ -55,7 +55,7 @@ pub struct Plan {
 pub struct Shares {
     /// Threads that read.
     pub readers: usize,
-    pub force: Workforce,
+    pub force: WorkerBudget,
     /// Bytes in which points may wait.
     pub store: u64,
 }
@@ -78,7 +78,7 @@ pub fn shares(inputs: &Inputs, budget: Budget, threads: usize) -> Result<Shares>
     let cell = job_bytes(Limits::of(inputs.length).cell, inputs.length);
     let building = budget.divide(threads, cell);
     let store = building.store.saturating_sub(compressing.work).min(reading.store);
-    let force = Workforce { workers: compressing.workers, work: building.work };
+    let force = WorkerBudget { workers: compressing.workers, work: building.work };
     Ok(Shares { readers: reading.workers, force, store })
 }
 

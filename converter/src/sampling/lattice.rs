@@ -1,14 +1,14 @@
-//! Cubic cells over a node's cube, each with one number. Places are in edges of a cell from the cube's lower
-//! corner.
+//! A grid of cubic cells over a node's cube, with one number per cell: for points to be found by their place. A place is
+//! given in edges of a cell from the cube's lower corner.
 
 /// The most cells along an axis.
 pub const MOST: f64 = 256.0;
 
-/// What a cell that holds nothing holds.
+/// The value of an empty cell.
 pub const EMPTY: u32 = u32::MAX;
 
-/// A dense grid over a node's cube. Places outside belong to the nearest cell: that moves no two of them farther
-/// apart, so neighbours stay neighbours. Between two uses only cells that were set are cleared.
+/// A dense grid over a node's cube. A place outside the cube is moved to the nearest cell, which brings no two places
+/// farther apart: neighbours stay neighbours. Between two uses only those cells are cleared that were set.
 #[derive(Debug, Default)]
 pub struct Lattice {
     cells: Vec<u32>,
@@ -41,8 +41,8 @@ impl Lattice {
         self.flat(x.clamp(0.0, last), y.clamp(0.0, last), z.clamp(0.0, last))
     }
 
-    /// What the eight cells hold in which all places lie that are within half an edge of this one; the place's
-    /// own cell comes first, then those that share a face with it.
+    /// The values of eight cells that together hold every place within half an edge of this one: the place's own cell
+    /// first, then those that share a face with it.
     #[inline]
     pub fn around(&self, [x, y, z]: [f64; 3]) -> impl Iterator<Item = u32> {
         let last = f64::from(self.count - 2);
@@ -63,7 +63,7 @@ impl Lattice {
         self.cells[cell as usize]
     }
 
-    /// Sets a cell and returns what it held.
+    /// Sets a cell and returns its former value.
     #[inline]
     pub fn replace(&mut self, cell: u32, value: u32) -> u32 {
         let before = std::mem::replace(&mut self.cells[cell as usize], value);

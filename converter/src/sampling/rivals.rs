@@ -1,5 +1,6 @@
-//! The candidates of neighbours that have not chosen yet, or stand-ins for them where they are not known. Without
-//! them the candidates at a face have rivals on one side only, and the sample piles up there.
+//! Rivals beyond the faces of a node: candidates of neighbours that choose later, or mirror images of the node's own
+//! where the neighbours' are not known. Without them a candidate at a face would have rivals on one side only, and the
+//! sample would be denser there.
 
 use super::seed::hash;
 use super::{Around, Cell};

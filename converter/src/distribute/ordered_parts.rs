@@ -1,4 +1,5 @@
-//! Parts of a work that threads do at once, and whose results arrive in order.
+//! A queue for numbered parts of some work: threads take them in order and do them at once, and the results are handed
+//! on in the order of the parts.
 
 use crate::error::{Error, Result};
 use std::collections::{BTreeMap, VecDeque};
@@ -6,7 +7,7 @@ use std::path::Path;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 /// Hands out parts by number, and hands on what they give: all of part 0 first, then all of part 1, and so on.
-pub struct Turns<T, F> {
+pub struct OrderedParts<T, F> {
     parts: usize,
     /// Results that may wait for their turn.
     most_waiting: usize,
@@ -28,7 +29,7 @@ struct Waiting<T> {
     ended: bool,
 }
 
-impl<T, F: FnMut(T) -> Result<()>> Turns<T, F> {
+impl<T, F: FnMut(T) -> Result<()>> OrderedParts<T, F> {
     pub fn new(parts: usize, most_waiting: usize, sink: F) -> Self {
         let state = State { claimed: 0, turn: 0, waiting: BTreeMap::new(), count: 0, failure: None, sink };
         Self { parts, most_waiting, state: Mutex::new(state), moved: Condvar::new() }
@@ -100,8 +101,8 @@ impl<T, F: FnMut(T) -> Result<()>> Turns<T, F> {
     }
 }
 
-/// See [`Turns::watch`].
-pub struct Watch<'a, T, F: FnMut(T) -> Result<()>>(&'a Turns<T, F>);
+/// See [`OrderedParts::watch`].
+pub struct Watch<'a, T, F: FnMut(T) -> Result<()>>(&'a OrderedParts<T, F>);
 
 impl<T, F: FnMut(T) -> Result<()>> Drop for Watch<'_, T, F> {
     fn drop(&mut self) {
@@ -136,34 +137,34 @@ mod tests {
     /// Runs parts of some results each on threads of uneven speed.
     fn run(threads: usize, parts: usize, fails_at: Option<usize>) -> Result<Vec<(usize, usize)>> {
         let mut all = Vec::new();
-        let turns = Turns::new(parts, 3, |result| {
+        let ordered_parts = OrderedParts::new(parts, 3, |result| {
             all.push(result);
             Ok(())
         });
         std::thread::scope(|scope| {
             for _ in 0..threads {
                 scope.spawn(|| {
-                    while let Some(part) = turns.claim() {
+                    while let Some(part) = ordered_parts.claim() {
                         let work = || {
                             for index in 0..part % 4 {
                                 if part % 3 == 0 {
                                     std::thread::sleep(std::time::Duration::from_micros(300));
                                 }
-                                turns.give(part, (part, index))?;
+                                ordered_parts.give(part, (part, index))?;
                             }
                             if fails_at == Some(part) {
                                 return Err(Error::corrupt(Path::new("a"), "b"));
                             }
-                            turns.end(part)
+                            ordered_parts.end(part)
                         };
                         if let Err(error) = work() {
-                            turns.fail(error);
+                            ordered_parts.fail(error);
                         }
                     }
                 });
             }
         });
-        turns.finish().map(drop)?;
+        ordered_parts.finish().map(drop)?;
         Ok(all)
     }
 

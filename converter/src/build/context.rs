@@ -1,9 +1,9 @@
-//! What all jobs of a build share.
+//! The state that all jobs of a build share.
 
 use super::arrange::{Arranger, Orders, Selection};
-use super::bands::Bands;
-use super::board::Board;
+use super::border_points::BorderPoints;
 use super::outline::Outline;
+use super::scheduler::Scheduler;
 use super::surroundings::Surroundings;
 use crate::copc::chunk;
 use crate::distribute::Inputs;
@@ -45,12 +45,12 @@ pub struct Node {
 }
 
 /// Records of a node that has only to be compressed.
-pub struct Finish {
+pub struct Uncompressed {
     pub key: Key,
     pub records: Vec<u8>,
 }
 
-impl Finish {
+impl Uncompressed {
     pub fn bytes(&self) -> u64 {
         self.records.len() as u64
     }
@@ -77,9 +77,9 @@ pub struct Batch {
     pub weights: Vec<u32>,
 }
 
-/// Buffers of one thread.
+/// Buffers of one worker, which serve job after job.
 #[derive(Debug, Default)]
-pub struct Desk {
+pub struct Buffers {
     pub positions: Vec<[f64; 3]>,
     pub seeds: Vec<u64>,
     pub surroundings: Surroundings,
@@ -87,26 +87,27 @@ pub struct Desk {
     pub arranger: Arranger,
 }
 
-pub struct Site<'a> {
+/// Inputs, options and intermediate results of a build, shared by all workers.
+pub struct Context<'a> {
     pub inputs: &'a Inputs,
     pub cube: Cube,
     pub limits: Limits,
     pub rules: Rules,
     pub laz: &'a LazVlr,
     pub store: &'a Store,
-    /// What nodes have chosen, near their faces.
-    pub borders: Bands,
-    /// What nodes hold until their parents choose, near the faces of these.
-    pub rims: Bands,
+    /// Points that nodes have chosen, near the nodes' faces.
+    pub chosen_borders: BorderPoints,
+    /// Points that nodes hold until their parents choose, near the parents' faces.
+    pub pending_borders: BorderPoints,
     pub outline: Outline,
     pub orders: Orders,
     meter: &'a Meter<'a>,
-    board: &'a Board,
+    scheduler: &'a Scheduler,
     pending: Mutex<HashMap<Key, Pending>>,
     nodes: Mutex<Vec<Node>>,
 }
 
-impl<'a> Site<'a> {
+impl<'a> Context<'a> {
     #[expect(clippy::too_many_arguments, reason = "all that a build is about, said once")]
     pub fn new(
         inputs: &'a Inputs,
@@ -117,7 +118,7 @@ impl<'a> Site<'a> {
         store: &'a Store,
         meter: &'a Meter<'a>,
         (pending, outline): (HashMap<Key, Pending>, Outline),
-        board: &'a Board,
+        scheduler: &'a Scheduler,
     ) -> Self {
         let (pending, nodes) = (Mutex::new(pending), Mutex::new(Vec::new()));
         Self {
@@ -127,12 +128,12 @@ impl<'a> Site<'a> {
             rules,
             laz,
             store,
-            borders: Bands::default(),
-            rims: Bands::default(),
+            chosen_borders: BorderPoints::default(),
+            pending_borders: BorderPoints::default(),
             outline,
             orders: Orders::default(),
             meter,
-            board,
+            scheduler,
             pending,
             nodes,
         }
@@ -164,7 +165,7 @@ impl<'a> Site<'a> {
             let parent = self.cube.cell(key.parent());
             let positions =
                 batch.records.chunks_exact(self.inputs.length).map(|record| self.position(record));
-            self.rims.keep(key, &parent, REACH * parent.spacing, positions, self.store)?;
+            self.pending_borders.keep(key, &parent, REACH * parent.spacing, positions, self.store)?;
         }
         let mut bytes = batch.records;
         batch.weights.iter().for_each(|weight| bytes.extend(weight.to_le_bytes()));
@@ -175,7 +176,7 @@ impl<'a> Site<'a> {
 
     /// Takes back the points of a node; none where there is no such node.
     pub fn take(&self, key: Key) -> Result<Batch> {
-        self.rims.forget(key, self.store)?;
+        self.pending_borders.forget(key, self.store)?;
         let length = self.inputs.length;
         let pending = self.pending().remove(&key);
         match pending {
@@ -209,7 +210,7 @@ impl<'a> Site<'a> {
             return Ok(());
         }
         let records = arranger.arrange(self, selection)?;
-        match self.board.queue(Finish { key, records }) {
+        match self.scheduler.queue(Uncompressed { key, records }) {
             Some(finish) => self.compress(finish),
             None => Ok(()),
         }
@@ -230,10 +231,10 @@ impl<'a> Site<'a> {
     }
 
     /// Compresses a node's records.
-    pub fn compress(&self, finish: Finish) -> Result<()> {
+    pub fn compress(&self, finish: Uncompressed) -> Result<()> {
         let bytes = chunk::compress(&finish.records, self.laz);
         let points = finish.bytes() / self.inputs.length as u64;
-        self.add(finish.key, points, bytes.map_err(Self::uncompressed)?)
+        self.add(finish.key, points, bytes.map_err(Self::compression_failed)?)
     }
 
     /// Adds a node whose chunk is there.
@@ -247,7 +248,7 @@ impl<'a> Site<'a> {
     }
 
     /// A compression that failed.
-    pub fn uncompressed(error: laz::LasZipError) -> Error {
+    pub fn compression_failed(error: laz::LasZipError) -> Error {
         Error::output_write(Path::new("LAZ"), error)
     }
 

@@ -1,12 +1,12 @@
-//! Points that no level of the tree can tell apart.
+//! Coincident points: those that lie in one cell of the finest grid, so that no level of the tree can divide them.
 
-use super::site::{Batch, Site};
+use super::context::{Batch, Context};
 use crate::copc::chunk::Compressor;
 use crate::distribute::cells::Cell;
 use crate::error::Result;
 use crate::octree::key::{BITS, Key};
 
-/// Where the points of a pile stand.
+/// The nodes that hold coincident points.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Chain {
     /// Points of the topmost node.
@@ -15,7 +15,8 @@ pub struct Chain {
     pub below: Vec<(Key, u64)>,
 }
 
-/// A pile of points with one code that begins at a node. No node gets more than `most`, unless there are too few levels.
+/// Divides coincident points among a node and its descendants. No node gets more than `most`, unless there are too few
+/// levels.
 pub fn chain(key: Key, code: u64, points: u64, most: u64) -> Chain {
     let levels = u64::from(BITS - key.level);
     if levels == 0 {
@@ -36,30 +37,31 @@ pub fn chain(key: Key, code: u64, points: u64, most: u64) -> Chain {
     Chain { own, below }
 }
 
-/// Builds a pile that may be larger than memory.
-pub fn stream(site: &Site, key: Key, cell: Cell) -> Result<()> {
-    let length = site.inputs.length;
-    let Chain { own, below } = chain(key, cell.codes.0, cell.points, site.limits.node);
+/// Builds the nodes of coincident points that may be larger than memory together.
+pub fn stream(context: &Context, key: Key, cell: Cell) -> Result<()> {
+    let length = context.inputs.length;
+    let Chain { own, below } = chain(key, cell.codes.0, cell.points, context.limits.node);
     let mut top = Vec::new();
     let mut nodes = below.into_iter();
     let mut open: Option<(Key, u64, Compressor)> = None;
     let mut left = own;
-    cell.drain(length * site.limits.node.min(own) as usize, site.store, |records| {
+    cell.drain(length * context.limits.node.min(own) as usize, context.store, |records| {
         let mut records = records;
         while !records.is_empty() {
             if left == 0 {
                 if let Some((key, points, compressor)) = open.take() {
-                    site.add(key, points, compressor.finish().map_err(Site::uncompressed)?)?;
+                    context.add(key, points, compressor.finish().map_err(Context::compression_failed)?)?;
                 }
                 let Some((key, points)) = nodes.next() else { return Ok(()) };
-                open = Some((key, points, Compressor::new(site.laz).map_err(Site::uncompressed)?));
+                open =
+                    Some((key, points, Compressor::new(context.laz).map_err(Context::compression_failed)?));
                 left = points;
             }
             let count = left.min((records.len() / length) as u64);
             let (now, later) = records.split_at(count as usize * length);
             match &mut open {
                 None => top.extend_from_slice(now),
-                Some((.., compressor)) => compressor.add(now).map_err(Site::uncompressed)?,
+                Some((.., compressor)) => compressor.add(now).map_err(Context::compression_failed)?,
             }
             left -= count;
             records = later;
@@ -67,10 +69,10 @@ pub fn stream(site: &Site, key: Key, cell: Cell) -> Result<()> {
         Ok(())
     })?;
     if let Some((key, points, compressor)) = open {
-        site.add(key, points, compressor.finish().map_err(Site::uncompressed)?)?;
+        context.add(key, points, compressor.finish().map_err(Context::compression_failed)?)?;
     }
-    let weights = site.weights(top.len() / length);
-    site.keep(key, Batch { records: top, weights })
+    let weights = context.weights(top.len() / length);
+    context.keep(key, Batch { records: top, weights })
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
-//! Who does what next: jobs phase by phase, and between them the nodes that are to be compressed.
+//! The scheduler: hands jobs to the workers phase by phase and, between them, nodes to be compressed.
 
-use super::Workforce;
+use super::WorkerBudget;
+use super::context::Uncompressed;
 use super::plan::Job;
-use super::site::Finish;
 use crate::error::{Error, Result};
 use std::collections::VecDeque;
 use std::path::Path;
@@ -11,14 +11,15 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 /// Bytes of records that wait to be compressed, per worker.
 const QUEUE: u64 = 4 << 20;
 
-/// What a worker is given to do. A job comes with the bytes that it takes.
+/// What a worker is given to do.
 pub enum Task {
+    /// A job and the bytes of memory that it takes.
     Job(Job, u64),
-    Finish(Finish),
+    Compress(Uncompressed),
 }
 
-/// The list of all that is to be done, shared by the workers.
-pub struct Board {
+/// The tasks that are left, shared by the workers.
+pub struct Scheduler {
     work: u64,
     queue: u64,
     state: Mutex<State>,
@@ -32,15 +33,17 @@ struct State {
     jobs: Vec<(Job, u64)>,
     active: usize,
     active_bytes: u64,
-    finishes: VecDeque<Finish>,
+    /// Nodes that wait to be compressed, the oldest first.
+    compressions: VecDeque<Uncompressed>,
+    /// Bytes of their records.
     queued: u64,
     failure: Option<Error>,
 }
 
-impl Board {
+impl Scheduler {
     /// `phases` in order; the jobs of one may be done at once, and all of them before any of the next. `bytes` tells
     /// what a job takes.
-    pub fn new(phases: Vec<Vec<Job>>, bytes: impl Fn(&Job) -> u64, force: Workforce) -> Self {
+    pub fn new(phases: Vec<Vec<Job>>, bytes: impl Fn(&Job) -> u64, force: WorkerBudget) -> Self {
         let weighed = |jobs: Vec<Job>| {
             let mut jobs: Vec<_> = jobs
                 .into_iter()
@@ -57,7 +60,7 @@ impl Board {
             jobs: Vec::new(),
             active: 0,
             active_bytes: 0,
-            finishes: VecDeque::new(),
+            compressions: VecDeque::new(),
             queued: 0,
             failure: None,
         };
@@ -88,9 +91,9 @@ impl Board {
                 state.active_bytes += bytes;
                 return Some(Task::Job(job, bytes));
             }
-            if let Some(finish) = state.finishes.pop_front() {
-                state.queued -= finish.bytes();
-                return Some(Task::Finish(finish));
+            if let Some(node) = state.compressions.pop_front() {
+                state.queued -= node.bytes();
+                return Some(Task::Compress(node));
             }
             if state.active == 0 && state.jobs.is_empty() {
                 return None;
@@ -111,13 +114,13 @@ impl Board {
     }
 
     /// Puts a node in line for compression; gives it back where too much waits already.
-    pub fn queue(&self, finish: Finish) -> Option<Finish> {
+    pub fn queue(&self, node: Uncompressed) -> Option<Uncompressed> {
         let mut state = self.state();
         if state.queued >= self.queue {
-            return Some(finish);
+            return Some(node);
         }
-        state.queued += finish.bytes();
-        state.finishes.push_back(finish);
+        state.queued += node.bytes();
+        state.compressions.push_back(node);
         self.moved.notify_one();
         None
     }
@@ -154,8 +157,8 @@ impl State {
     }
 }
 
-/// See [`Board::watch`].
-pub struct Watch<'a>(&'a Board);
+/// See [`Scheduler::watch`].
+pub struct Watch<'a>(&'a Scheduler);
 
 impl Drop for Watch<'_> {
     fn drop(&mut self) {

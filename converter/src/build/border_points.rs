@@ -1,4 +1,4 @@
-//! Positions near the faces of cubes: all that nodes need to know of each other.
+//! Positions near the faces of cubes: what neighbours have to know of each other to keep a distance across borders.
 
 use crate::error::Result;
 use crate::octree::key::Key;
@@ -12,9 +12,9 @@ const POSITION: usize = 24;
 
 /// Positions of nodes that lie near the faces of a cube.
 #[derive(Debug, Default)]
-pub struct Bands(RwLock<HashMap<Key, Held>>);
+pub struct BorderPoints(RwLock<HashMap<Key, Held>>);
 
-impl Bands {
+impl BorderPoints {
     /// Keeps those of a node's positions that lie within `width` of a face of `cube`, source units.
     pub fn keep(
         &self,
@@ -49,8 +49,8 @@ impl Bands {
         mut each: impl FnMut([f64; 3]),
     ) -> Result<()> {
         let (low, high) = (-width, cube.side + width);
-        let bands = self.0.read().unwrap_or_else(PoisonError::into_inner);
-        for held in keys.filter_map(|key| bands.get(&key)) {
+        let border_points = self.0.read().unwrap_or_else(PoisonError::into_inner);
+        for held in keys.filter_map(|key| border_points.get(&key)) {
             store.with(held, |bytes| {
                 for position in bytes.as_chunks::<POSITION>().0 {
                     let (numbers, _) = position.as_chunks::<8>();
@@ -80,21 +80,23 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         for budget in [0, 1 << 20] {
             let store = Store::new(folder.path(), budget);
-            let bands = Bands::default();
+            let border_points = BorderPoints::default();
             let cell = |x: f64| Cell { min: [x, 0.0, 0.0], side: 128.0, spacing: 1.0 };
             let key = |x| Key { level: 3, x, y: 0, z: 0 };
             let positions = [[127.5, 50.0, 50.0], [126.5, 50.0, 50.0], [64.0, 0.5, 64.0], [64.0; 3]];
-            bands.keep(key(0), &cell(0.0), 1.0, positions.into_iter(), &store).unwrap();
+            border_points.keep(key(0), &cell(0.0), 1.0, positions.into_iter(), &store).unwrap();
             let near = |x: u32| {
                 let mut near = Vec::new();
                 let cube = cell(128.0 * f64::from(x));
-                bands.near(key(x).neighbours(), &cube, 1.0, &store, |position| near.push(position)).unwrap();
+                border_points
+                    .near(key(x).neighbours(), &cube, 1.0, &store, |position| near.push(position))
+                    .unwrap();
                 near
             };
             assert_eq!(near(1), [positions[0]]);
             assert!(near(2).is_empty() && near(0).is_empty());
-            bands.forget(key(0), &store).unwrap();
-            bands.forget(key(1), &store).unwrap();
+            border_points.forget(key(0), &store).unwrap();
+            border_points.forget(key(1), &store).unwrap();
             assert!(near(1).is_empty());
             let _ = std::fs::remove_file(folder.path().join("log"));
         }
