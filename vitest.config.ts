@@ -1,4 +1,22 @@
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { defineConfig } from "vitest/config";
+
+/** Packages that tests read as sources, so that an edit reaches every test without a build. */
+const LIBRARIES = ["georef", "layer"];
+
+/** Each module that a library exports, by the name that it is imported by, and the source it is built from. */
+const sources = LIBRARIES.flatMap((folder) => {
+  const { name, exports } = JSON.parse(
+    readFileSync(join(import.meta.dirname, folder, "package.json"), "utf8"),
+  );
+  return Object.entries<string | { default: string }>(exports).map(([path, target]) => {
+    const built = typeof target === "string" ? target : target.default;
+    const source = built.replace(/^\.\/dist\//, "src/").replace(/\.js$/, ".ts");
+    const find = `${name}${path.slice(1)}`.replace(/[./]/g, "\\$&");
+    return { find: new RegExp(`^${find}$`), replacement: join(import.meta.dirname, folder, source) };
+  });
+});
 
 /** Rooms of the suite by what they need; `tests/run.mjs` runs them all. */
 const rooms = {
@@ -16,6 +34,7 @@ const rooms = {
 };
 
 export default defineConfig({
+  resolve: { alias: sources },
   test: {
     testTimeout: 30_000,
     hookTimeout: 120_000,

@@ -86,7 +86,7 @@ module.exports = {
     {
       name: "georef-has-no-io",
       severity: "error",
-      from: { path: room("georef/src"), pathNot: "\\.test\\.ts$" },
+      from: { path: room("georef/src") },
       to: { dependencyTypes: ["core"] },
     },
   ],

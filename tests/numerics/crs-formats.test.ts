@@ -1,6 +1,8 @@
 import { ellipsoid, geodeticToEcef, resolveCrs, WGS84 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { distance, lookup, radians, truth, withoutShift } from "./truth.js";
+import { distance, radians } from "../../georef/src/cartesian/points.fixture.js";
+import { lookup } from "../../georef/src/crs/epsg-table.fixture.js";
+import { truth, withoutShift } from "./truth.js";
 
 /** One CRS of `crs_formats.json`: coordinates on its own datum, computed by PROJ, and its notations. */
 interface Row {

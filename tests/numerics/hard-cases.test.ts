@@ -12,6 +12,8 @@ import {
   WGS84,
 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { lookup } from "../../georef/src/crs/epsg-table.fixture.js";
+import { samplerOf } from "../../georef/src/transformation/sampler.fixture.js";
 import { data } from "../project.js";
 import {
   distance,
@@ -26,8 +28,7 @@ import {
   tolerance,
   triple,
 } from "./hard-cases.js";
-import { missingFor, openGrid, PIPELINES, pipeline, samplerOf } from "./pipelines.js";
-import { lookup } from "./truth.js";
+import { missingFor, openGrid, PIPELINES, pipeline } from "./pipelines.js";
 
 const METRE = { name: "metre", kind: "linear", size: 1 } as const;
 

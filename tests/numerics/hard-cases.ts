@@ -1,4 +1,5 @@
-import { distance, radians, truth } from "./truth.js";
+import { distance, radians } from "../../georef/src/cartesian/points.fixture.js";
+import { truth } from "./truth.js";
 
 /** One row of `truth/hard_cases.json`. */
 export interface HardCase {

@@ -14,8 +14,8 @@ import {
   verticalLookup,
 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { distance, random } from "../../georef/src/cartesian/points.fixture.js";
 import { data, projectRoot } from "../project.js";
-import { distance, random } from "./truth.js";
 
 const DEGREE = Math.PI / 180;
 const grid = data("grids/us_nga_egm96_15.tif");

@@ -1,9 +1,7 @@
 import {
   type Bounds,
   cutWindow,
-  ecefToGeodetic,
   ellipsoid,
-  exactTransform,
   fitPatchwork,
   type Grid,
   type ProjectionSampler,
@@ -13,11 +11,10 @@ import {
   WGS84,
 } from "@groma/georef";
 import { fromFile } from "geotiff";
+import { BESSEL, samplerOf } from "../../georef/src/transformation/sampler.fixture.js";
 import { data } from "../project.js";
 
-const BESSEL = ellipsoid(6377397.155, 1 / 299.1528128);
 const GRS80 = ellipsoid(6378137, 1 / 298.257222101);
-const METRE = { name: "metre", kind: "linear", size: 1 } as const;
 const ARC_SECOND = Math.PI / 648000;
 
 /** The pipelines that PROJ 9.5 gives for three compound CRSs, as far as the grids of the data folder go. */
@@ -52,31 +49,6 @@ export function missingFor(name: PipelineName): string | undefined {
   const { horizontal, vertical, truth } = PIPELINES[name];
   const files = [`grids/${vertical}`, `truth/${truth}`, ...(horizontal ? [`grids/${horizontal}`] : [])];
   return files.map((file) => data(file).missing).find((missing) => missing !== undefined);
-}
-
-/** Samples the inverse of a projection on its own ellipsoid (Bessel's or WGS 84's) by proj4js; counts its calls. */
-export function samplerOf(proj4: string): ProjectionSampler & { calls: number } {
-  const exact = exactTransform({
-    proj4: `${proj4} +towgs84=0,0,0`,
-    horizontalUnit: METRE,
-    verticalUnit: { ...METRE, declared: true },
-    height: { kind: "ellipsoidal" },
-  });
-  const shape = proj4.includes("+ellps=bessel") ? BESSEL : WGS84;
-  const sampler = async (points: Float64Array) => {
-    sampler.calls++;
-    const places = new Float64Array(points.length);
-    const ecef = new Float64Array(6);
-    const geodetic = new Float64Array(3);
-    for (let i = 0; i < points.length; i += 2) {
-      exact(points[i], points[i + 1], ecef, 0);
-      ecefToGeodetic(ecef[0], ecef[1], ecef[2], geodetic, 0, shape);
-      places.set(geodetic.subarray(0, 2), i);
-    }
-    return places;
-  };
-  sampler.calls = 0;
-  return sampler;
 }
 
 /** A grid file with PixelIsPoint rows from the north: heights in metres, or shifts (latitude first) in arc seconds. */

@@ -1,9 +1,9 @@
 import { type Crs, exactTransform, fitPlacement, place, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { distance, random } from "../../georef/src/cartesian/points.fixture.js";
 import { data } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { readLasHeader } from "./las-header.js";
-import { distance, random } from "./truth.js";
 
 /** The CRS taken apart for PROJ: with the same parameters, but none of this project's arithmetic. */
 function request(crs: Crs, points: readonly (readonly number[])[]): string {

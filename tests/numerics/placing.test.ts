@@ -1,8 +1,8 @@
 import { exactTransform, fitPlacement, placeIntegers, placePoint, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { distance, random } from "../../georef/src/cartesian/points.fixture.js";
 import { data } from "../project.js";
 import { readLasHeader } from "./las-header.js";
-import { distance, random } from "./truth.js";
 
 const SCANS = ["autzen.laz", "vol_total.laz"];
 

@@ -11,8 +11,8 @@ import {
   placeIntegers,
 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { distance, random } from "../../georef/src/cartesian/points.fixture.js";
 import { missingFor, type PipelineName, pipeline } from "./pipelines.js";
-import { distance, random } from "./truth.js";
 
 /** Where nodes are drawn from: source coordinates and heights. */
 const AREAS: Readonly<Record<PipelineName, Domain>> = {

@@ -7,10 +7,10 @@ import {
   WGS84,
 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { distance, random } from "../../georef/src/cartesian/points.fixture.js";
 import { data, dataFolder } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { openGrid } from "./pipelines.js";
-import { distance, random } from "./truth.js";
 
 const DEGREE = Math.PI / 180;
 const BESSEL = { a: 6377397.155, f: 1 / 299.1528128 };

@@ -8,9 +8,9 @@ import {
   type Rectangle,
 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { distance, random } from "../../georef/src/cartesian/points.fixture.js";
 import { data } from "../project.js";
 import { missingFor, PIPELINES, type PipelineName, pipeline } from "./pipelines.js";
-import { distance, random } from "./truth.js";
 
 type Row = readonly [x: number, y: number, z: number, X: number, Y: number, Z: number];
 

@@ -1,3 +1,5 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
 import {
   covariance,
   fitPlane,
@@ -6,10 +8,8 @@ import {
   quantise,
   slab,
   symmetricEigen,
-} from "@groma/georef";
-import fc from "fast-check";
-import { describe, expect, it } from "vitest";
-import { random } from "./truth.js";
+} from "../index.js";
+import { random } from "./points.fixture.js";
 
 const finite = (min: number, max: number) => fc.double({ min, max, noNaN: true, noDefaultInfinity: true });
 const integer = (reach: number) => fc.integer({ min: -reach, max: reach });

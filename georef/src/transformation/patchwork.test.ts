@@ -1,3 +1,6 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { distance, random } from "../cartesian/points.fixture.js";
 import {
   compileTransformation,
   fitPatchwork,
@@ -7,11 +10,8 @@ import {
   type ProjectionSampler,
   type Rectangle,
   WGS84,
-} from "@groma/georef";
-import fc from "fast-check";
-import { describe, expect, it } from "vitest";
-import { samplerOf } from "./pipelines.js";
-import { distance, random } from "./truth.js";
+} from "../index.js";
+import { samplerOf } from "./sampler.fixture.js";
 
 const DEGREE = Math.PI / 180;
 

@@ -1,3 +1,5 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
 import {
   decodeTransformation,
   encodeTransformation,
@@ -5,11 +7,7 @@ import {
   RecordError,
   type Step,
   type Transformation,
-} from "@groma/georef";
-import fc from "fast-check";
-import { describe, expect, it } from "vitest";
-import { missingFor, type PipelineName, pipeline } from "./pipelines.js";
-import { random } from "./truth.js";
+} from "../index.js";
 
 const number = fc.double({ noNaN: true, noDefaultInfinity: true, min: -1e9, max: 1e9 });
 const positive = fc.double({ noNaN: true, min: 1e-9, max: 1e9 });
@@ -187,24 +185,5 @@ describe("encoded transformation", () => {
     new DataView(bytes.buffer).setUint32(at, 0xffffffff, true);
     new DataView(bytes.buffer).setUint32(at + 4, 0xffffffff, true);
     expect(codeOf(bytes)).toBe("RECORD_TRUNCATED");
-  });
-
-  const sizes: ReadonlyArray<[PipelineName, edge: number, bytes: number]> = [
-    ["EPSG:7415", 10e3, 8e3],
-    ["EPSG:7415", 50e3, 64e3],
-    ["EPSG:2056+5728", 10e3, 8e3],
-    ["EPSG:2056+5728", 50e3, 64e3],
-  ];
-  it.each(sizes)("is small: %s over %d m takes at most %d bytes", async (name, edge, most) => {
-    if (missingFor(name)) return;
-    const next = random(edge);
-    const [x, y] = name === "EPSG:7415" ? [110e3, 430e3] : [2560e3, 1150e3];
-    for (let i = 0; i < 5; i++) {
-      const [minX, minY] = [x + 50e3 * next(), y + 50e3 * next()];
-      const given = await pipeline(name, { minX, minY, maxX: minX + edge, maxY: minY + edge });
-      const bytes = encodeTransformation(given);
-      expect(bytes.length).toBeLessThanOrEqual(most);
-      expect(given).toMatchObject(decodeTransformation(bytes, name));
-    }
   });
 });

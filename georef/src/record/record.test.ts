@@ -1,3 +1,6 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { lookup } from "../crs/epsg-table.fixture.js";
 import {
   accuracyParts,
   decodeRecord,
@@ -7,10 +10,7 @@ import {
   RecordError,
   resolveCrs,
   statedAccuracy,
-} from "@groma/georef";
-import fc from "fast-check";
-import { describe, expect, it } from "vitest";
-import { lookup } from "./truth.js";
+} from "../index.js";
 
 const crs = resolveCrs({ file: "sample", given: "EPSG:2056+5728" }, lookup);
 const record: GeoreferenceRecord = {

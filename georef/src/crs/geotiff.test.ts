@@ -1,6 +1,7 @@
-import { exactTransform, type GeoTiffKeys, placePoint, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { distance, lookup } from "./truth.js";
+import { distance } from "../cartesian/points.fixture.js";
+import { exactTransform, type GeoTiffKeys, placePoint, resolveCrs } from "../index.js";
+import { lookup } from "./epsg-table.fixture.js";
 
 type Key = readonly [key: number, value: number | string | readonly number[]];
 

@@ -1,7 +1,7 @@
-import { eastNorthUp, ecefToGeodetic, geodeticToEcef, WGS84 } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { distance } from "./truth.js";
+import { distance } from "../cartesian/points.fixture.js";
+import { eastNorthUp, ecefToGeodetic, geodeticToEcef, WGS84 } from "../index.js";
 
 const out = new Float64Array(3);
 const back = new Float64Array(3);

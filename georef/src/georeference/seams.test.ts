@@ -1,3 +1,8 @@
+import fc from "fast-check";
+import proj4 from "proj4";
+import { describe, expect, it } from "vitest";
+import { distance, radians, random } from "../cartesian/points.fixture.js";
+import { lookup } from "../crs/epsg-table.fixture.js";
 import {
   ecefToGeodetic,
   exactTransform,
@@ -6,12 +11,8 @@ import {
   type Placement,
   place,
   resolveCrs,
-} from "@groma/georef";
-import fc from "fast-check";
-import proj4 from "proj4";
-import { describe, expect, it } from "vitest";
-import { crsAreas, squareNode } from "./random-crs.js";
-import { distance, lookup, radians, random } from "./truth.js";
+} from "../index.js";
+import { crsAreas, squareNode } from "./areas.fixture.js";
 
 const unit = fc.noBias(fc.integer({ min: 0, max: 1e6 })).map((i) => i / 1e6);
 const finite = (min: number, max: number) => fc.double({ min, max, noNaN: true, noDefaultInfinity: true });

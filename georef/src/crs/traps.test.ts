@@ -1,6 +1,7 @@
-import { type Crs, CrsError, type CrsSources, exactTransform, placePoint, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { distance, lookup } from "./truth.js";
+import { distance } from "../cartesian/points.fixture.js";
+import { type Crs, CrsError, type CrsSources, exactTransform, placePoint, resolveCrs } from "../index.js";
+import { lookup } from "./epsg-table.fixture.js";
 
 const DEGREE = 'UNIT["degree",0.0174532925199433]';
 const BESSEL = 'SPHEROID["Bessel 1841",6377397.155,299.1528128]';

@@ -1,3 +1,6 @@
+import { describe, expect, it } from "vitest";
+import { random } from "../cartesian/points.fixture.js";
+import { lookup } from "../crs/epsg-table.fixture.js";
 import {
   type Crs,
   exactTransform,
@@ -6,9 +9,7 @@ import {
   place,
   placeIntegers,
   resolveCrs,
-} from "@groma/georef";
-import { describe, expect, it } from "vitest";
-import { lookup, random } from "./truth.js";
+} from "../index.js";
 
 /*
  * What is compared: the pixel at which the GPU draws a point, against the pixel of the same point computed in float64.

@@ -1,5 +1,6 @@
-import { type Crs, type Domain, type ExactTransform, exactTransform, resolveCrs } from "@groma/georef";
-import { lookup, radians } from "./truth.js";
+import { radians } from "../cartesian/points.fixture.js";
+import { lookup } from "../crs/epsg-table.fixture.js";
+import { type Crs, type Domain, type ExactTransform, exactTransform, resolveCrs } from "../index.js";
 
 /** A CRS with a rectangle of its plane in which nodes may lie, and the size of the largest node that makes sense. */
 export interface CrsArea {

@@ -1,8 +1,8 @@
-import { fitPlacement, type Placement, PlacementError, place, placeIntegers } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { type CrsArea, crsAreas, squareNode } from "./random-crs.js";
-import { distance, random } from "./truth.js";
+import { distance, random } from "../cartesian/points.fixture.js";
+import { fitPlacement, type Placement, PlacementError, place, placeIntegers } from "../index.js";
+import { type CrsArea, crsAreas, squareNode } from "./areas.fixture.js";
 
 /** Evenly from 0 to 1; doubles of fast-check crowd at the ends. */
 const unit = fc.noBias(fc.integer({ min: 0, max: 1e6 })).map((i) => i / 1e6);

@@ -1,4 +1,5 @@
 import { createRequire } from "node:module";
+import { describe, expect, it } from "vitest";
 import {
   type EpsgRow,
   egm96Grid,
@@ -7,8 +8,7 @@ import {
   resolveCrs,
   verticalLookup,
   verticalSystems,
-} from "@groma/georef";
-import { describe, expect, it } from "vitest";
+} from "../index.js";
 
 const table = createRequire(import.meta.url)("epsg-index/all.json") as Record<string, EpsgRow>;
 const systems = verticalSystems(Object.values(table));
