@@ -212,14 +212,14 @@ interface ProjDatum {
 }
 
 /** Datums of PROJ's `+datum=` (PROJ, datums.cpp); NAD27 is not here, PROJ computes it from grids alone. */
-export const PROJ_DATUMS: Readonly<Record<string, ProjDatum>> = {
-  WGS84: { ellps: "WGS84", name: "World Geodetic System 1984" },
-  NAD83: { ellps: "GRS80", name: "North American Datum 1983" },
-  GGRS87: { ellps: "GRS80", towgs84: [-199.87, 74.79, 246.62] },
-  potsdam: { ellps: "bessel", towgs84: [598.1, 73.7, 418.2, 0.202, 0.045, -2.455, 6.7] },
-  carthage: { ellps: "clrk80ign", towgs84: [-263, 6, 431] },
-  hermannskogel: { ellps: "bessel", towgs84: [577.326, 90.129, 463.919, 5.137, 1.474, 5.297, 2.4232] },
-  ire65: { ellps: "mod_airy", towgs84: [482.53, -130.596, 564.557, -1.042, -0.214, -0.631, 8.15] },
-  nzgd49: { ellps: "intl", towgs84: [59.47, -5.04, 187.44, 0.47, -0.1, 1.024, -4.5993] },
-  OSGB36: { ellps: "airy", towgs84: [446.448, -125.157, 542.06, 0.1502, 0.247, 0.8421, -20.4894] },
-};
+export const PROJ_DATUMS: ReadonlyMap<string, ProjDatum> = new Map<string, ProjDatum>([
+  ["WGS84", { ellps: "WGS84", name: "World Geodetic System 1984" }],
+  ["NAD83", { ellps: "GRS80", name: "North American Datum 1983" }],
+  ["GGRS87", { ellps: "GRS80", towgs84: [-199.87, 74.79, 246.62] }],
+  ["potsdam", { ellps: "bessel", towgs84: [598.1, 73.7, 418.2, 0.202, 0.045, -2.455, 6.7] }],
+  ["carthage", { ellps: "clrk80ign", towgs84: [-263, 6, 431] }],
+  ["hermannskogel", { ellps: "bessel", towgs84: [577.326, 90.129, 463.919, 5.137, 1.474, 5.297, 2.4232] }],
+  ["ire65", { ellps: "mod_airy", towgs84: [482.53, -130.596, 564.557, -1.042, -0.214, -0.631, 8.15] }],
+  ["nzgd49", { ellps: "intl", towgs84: [59.47, -5.04, 187.44, 0.47, -0.1, 1.024, -4.5993] }],
+  ["OSGB36", { ellps: "airy", towgs84: [446.448, -125.157, 542.06, 0.1502, 0.247, 0.8421, -20.4894] }],
+]);

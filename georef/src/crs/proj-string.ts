@@ -30,11 +30,11 @@ const PROJECTIONS = [
   ...["aea", "merc", "webmerc", "poly", "eqdc", "nzmg"],
 ];
 /** Other names for the same in PROJ strings. */
-const ALIASES: Readonly<Record<string, string>> = {
-  latlong: "longlat",
-  latlon: "longlat",
-  lonlat: "longlat",
-};
+const ALIASES: ReadonlyMap<string, string> = new Map([
+  ["latlong", "longlat"],
+  ["latlon", "longlat"],
+  ["lonlat", "longlat"],
+]);
 
 /** Keys that parametrise a projection, all of them plain numbers: of degrees and minutes proj4js would take the first. */
 const PARAMETERS = [
@@ -80,21 +80,21 @@ const READ = [
 ];
 
 /** Prime meridians of PROJ by name, degrees (PROJ, prime_meridians in datums.cpp). */
-const MERIDIANS: Readonly<Record<string, number>> = {
-  greenwich: 0,
-  lisbon: -9.131906111111,
-  paris: 2.337229166667,
-  bogota: -74.080916666667,
-  madrid: -3.687938888889,
-  rome: 12.452333333333,
-  bern: 7.439583333333,
-  jakarta: 106.807719444444,
-  ferro: -17.666666666667,
-  brussels: 4.367975,
-  stockholm: 18.058277777778,
-  athens: 23.7163375,
-  oslo: 10.722916666667,
-};
+const MERIDIANS: ReadonlyMap<string, number> = new Map([
+  ["greenwich", 0],
+  ["lisbon", -9.131906111111],
+  ["paris", 2.337229166667],
+  ["bogota", -74.080916666667],
+  ["madrid", -3.687938888889],
+  ["rome", 12.452333333333],
+  ["bern", 7.439583333333],
+  ["jakarta", 106.807719444444],
+  ["ferro", -17.666666666667],
+  ["brussels", 4.367975],
+  ["stockholm", 18.058277777778],
+  ["athens", 23.7163375],
+  ["oslo", 10.722916666667],
+]);
 
 /**
  * Reads a PROJ string. A key that proj4js would pass over in silence is handled here or refused by name.
@@ -103,7 +103,7 @@ const MERIDIANS: Readonly<Record<string, number>> = {
 export function readProjString(text: string): CrsModel {
   const keys = split(text);
   const name = keys.get("proj") ?? "";
-  const projection = ALIASES[name] ?? name;
+  const projection = ALIASES.get(name) ?? name;
   if (text.includes("proj=pipeline"))
     throw unsupported("a PROJ pipeline is an operation, not a coordinate reference system");
   if (!PROJECTIONS.includes(projection))
@@ -121,7 +121,7 @@ export function readProjString(text: string): CrsModel {
     projection === "longlat" ? "geographic" : projection === "geocent" ? "geocentric" : "projected";
   const unit = kind === "geographic" ? DEGREE : (linearUnit(keys, "units", "to_meter") ?? METRE);
   const datum = keys.get("datum");
-  const known = datum === undefined ? undefined : PROJ_DATUMS[datum];
+  const known = datum === undefined ? undefined : PROJ_DATUMS.get(datum);
   if (datum !== undefined && !known) throw unsupported(`+datum=${datum} in the PROJ string is not supported`);
   return {
     name: text.trim(),
@@ -142,7 +142,7 @@ export function readProjString(text: string): CrsModel {
 /** The `+towgs84` of a PROJ string as numbers, `+datum` resolved; undefined when there is neither. */
 export function shiftOfProjString(text: string): readonly number[] | undefined {
   const keys = split(text);
-  return shift(keys) ?? PROJ_DATUMS[keys.get("datum") ?? ""]?.towgs84;
+  return shift(keys) ?? PROJ_DATUMS.get(keys.get("datum") ?? "")?.towgs84;
 }
 
 function split(text: string): Keys {
@@ -204,7 +204,7 @@ function shift(keys: Keys): readonly number[] | undefined {
 function meridian(keys: Keys): number {
   const name = keys.get("pm");
   if (name === undefined) return 0;
-  const value = MERIDIANS[name] ?? Number(name);
+  const value = MERIDIANS.get(name) ?? Number(name);
   if (!Number.isFinite(value)) throw unsupported(`+pm=${name} in the PROJ string is not known`);
   return value;
 }

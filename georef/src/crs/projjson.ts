@@ -4,27 +4,30 @@ import type { WktItem, WktNode } from "./tree.js";
 type Json = Readonly<Record<string, unknown>>;
 
 /** WKT2 keyword of each PROJJSON type of CRS. */
-const KEYWORDS: Readonly<Record<string, string>> = {
-  GeographicCRS: "GEOGCRS",
-  GeodeticCRS: "GEODCRS",
-  ProjectedCRS: "PROJCRS",
-  VerticalCRS: "VERTCRS",
-  CompoundCRS: "COMPOUNDCRS",
-  BoundCRS: "BOUNDCRS",
-};
+const KEYWORDS: ReadonlyMap<string, string> = new Map([
+  ["GeographicCRS", "GEOGCRS"],
+  ["GeodeticCRS", "GEODCRS"],
+  ["ProjectedCRS", "PROJCRS"],
+  ["VerticalCRS", "VERTCRS"],
+  ["CompoundCRS", "COMPOUNDCRS"],
+  ["BoundCRS", "BOUNDCRS"],
+]);
 
 /** Units that PROJJSON writes as a bare word. */
-const WORDS: Readonly<Record<string, readonly [keyword: string, size: number]>> = {
-  metre: ["LENGTHUNIT", 1],
-  degree: ["ANGLEUNIT", Math.PI / 180],
-  unity: ["SCALEUNIT", 1],
-};
+const WORDS: ReadonlyMap<string, readonly [keyword: string, size: number]> = new Map<
+  string,
+  readonly [keyword: string, size: number]
+>([
+  ["metre", ["LENGTHUNIT", 1]],
+  ["degree", ["ANGLEUNIT", Math.PI / 180]],
+  ["unity", ["SCALEUNIT", 1]],
+]);
 
-const UNIT_KEYWORDS: Readonly<Record<string, string>> = {
-  LinearUnit: "LENGTHUNIT",
-  AngularUnit: "ANGLEUNIT",
-  ScaleUnit: "SCALEUNIT",
-};
+const UNIT_KEYWORDS: ReadonlyMap<string, string> = new Map([
+  ["LinearUnit", "LENGTHUNIT"],
+  ["AngularUnit", "ANGLEUNIT"],
+  ["ScaleUnit", "SCALEUNIT"],
+]);
 
 /** PROJJSON is WKT2 in other brackets (PROJ, projjson.schema.json 0.7): the same CRS as a tree of WKT2. */
 export function projJsonTree(source: string): WktNode {
@@ -38,7 +41,7 @@ export function projJsonTree(source: string): WktNode {
 }
 
 function crs(json: Json): WktNode {
-  const keyword = KEYWORDS[string(json.type)];
+  const keyword = KEYWORDS.get(string(json.type));
   if (!keyword) throw unknown(`PROJJSON of type "${string(json.type)}" is no CRS that can be read`);
   if (keyword === "COMPOUNDCRS") {
     const components = list(json.components).map((part) => crs(object(part, "a component")));
@@ -145,13 +148,13 @@ function axes(json: Json): (WktItem | undefined)[] {
 
 function unitNode(unit: unknown): WktNode | undefined {
   if (typeof unit === "string") {
-    const word = WORDS[unit];
+    const word = WORDS.get(unit);
     if (!word) throw unknown(`unit "${unit}" is not known`);
     return [word[0], unit, word[1]];
   }
   const own = optional(unit);
   if (!own) return undefined;
-  return [UNIT_KEYWORDS[string(own.type)] ?? "UNIT", string(own.name), Number(own.conversion_factor)];
+  return [UNIT_KEYWORDS.get(string(own.type)) ?? "UNIT", string(own.name), Number(own.conversion_factor)];
 }
 
 function id(json: Json): WktNode | undefined {

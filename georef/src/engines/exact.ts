@@ -29,8 +29,8 @@ interface Projection {
   readonly Qn?: number;
   over?: boolean;
   readonly datum: { readonly datum_type: number; readonly datum_params?: readonly number[] };
-  forward(point: { x: number; y: number }): { x: number; y: number };
-  inverse(point: { x: number; y: number }): { x: number; y: number };
+  forward(point: { x: number; y: number }): PlanePoint | null;
+  inverse(point: { x: number; y: number }): PlanePoint | null;
 }
 
 /** `datum_type` of proj4js. */
@@ -205,15 +205,31 @@ function ellipsoidOf({ a, es, datum, datumCode }: Projection): Ellipsoid {
   return none || (same && datum.datum_type === NULL_SHIFT) ? WGS84 : own;
 }
 
-function invert(projection: Projection, x: number, y: number): { x: number; y: number } {
-  const first = projection.inverse({ x, y });
-  const back = projection.forward({ x: first.x, y: first.y });
+function invert(projection: Projection, x: number, y: number): PlanePoint {
+  const first = attempt(() => projection.inverse({ x, y }));
+  const back = attempt(() => projection.forward({ x: first.x, y: first.y }));
   const dx = x - back.x;
   const dy = y - back.y;
-  if (!(Math.abs(dx) < LOST && Math.abs(dy) < LOST)) return { x: Number.NaN, y: Number.NaN };
+  if (!(Math.abs(dx) < LOST && Math.abs(dy) < LOST)) return NOWHERE;
   if (dx === 0 && dy === 0) return first;
-  const second = projection.inverse({ x: x + dx, y: y + dy });
+  const second = attempt(() => projection.inverse({ x: x + dx, y: y + dy }));
   return Number.isFinite(second.x) && Number.isFinite(second.y) ? second : first;
+}
+
+interface PlanePoint {
+  readonly x: number;
+  readonly y: number;
+}
+
+const NOWHERE: PlanePoint = { x: Number.NaN, y: Number.NaN };
+
+/** Where a projection has no place for a point, proj4js returns null or NaN, or throws. */
+function attempt(project: () => PlanePoint | null | undefined): PlanePoint {
+  try {
+    return project() ?? NOWHERE;
+  } catch {
+    return NOWHERE;
+  }
 }
 
 /** Shifts P and n, six numbers, in place. */
