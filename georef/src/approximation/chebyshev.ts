@@ -52,10 +52,11 @@ const DECAY_MAX = 0.9;
 const LAST = NODES - 1;
 
 /**
- * Bound on what a 9 × 9 expansion itself leaves out: twice the geometric tail 2·s₈·r/(1 − r), where s₈ is the sum of
- * norms in the last shell max(k, l) = 8 and r its decay ratio, clamped to [0.001, 0.9]. Twice, because an interpolant
- * folds the tail back onto its own coefficients (aliasing). The decay is a model, not a proof; the rule with a floor
- * of 5 µm held in 31,200 of 31,200 trials on 14 CRSs.
+ * Bound on what a 9 × 9 expansion itself leaves out. Interpolation is off by at most 2 Σ |a_k| over the degrees k > 8
+ * of the true series (Trefethen, theorem 8.2), here 2·a₈·r/(1 − r) for one whose terms fall by the ratio r. The shells
+ * s_k of coefficients met are those of the true ones less what the samples take for them: T_(18−k) is −T_k on the
+ * nodes, so s_k = a_k − a_(18−k) and a₈ = s₈/(1 − r²). The ratio is the greater of what s₈/s₇ and s₈/s₆ say, within
+ * [0.001, 0.9]. That it stays so is a model, not a proof.
  *
  * @param norm size of the coefficients of degree k in u and l in v
  */
@@ -64,10 +65,19 @@ export function geometricTail(norm: (k: number, l: number) => number): number {
   for (let k = 0; k < NODES; k++) {
     for (let l = 0; l < NODES; l++) shells[Math.max(k, l)] += norm(k, l);
   }
-  const ratio = shells[LAST - 1] > 0 ? shells[LAST] / shells[LAST - 1] : 0;
-  const overTwo = shells[LAST - 2] > 0 ? Math.sqrt(shells[LAST] / shells[LAST - 2]) : 0;
-  const decay = Math.min(DECAY_MAX, Math.max(DECAY_MIN, ratio, overTwo));
-  return (2 * shells[LAST] * decay) / (1 - decay);
+  const last = shells[LAST];
+  const byOne = shells[LAST - 1] > 0 ? last / shells[LAST - 1] : 0;
+  const byTwo = shells[LAST - 2] > 0 ? last / shells[LAST - 2] : 0;
+  // s₈/s₇ = r/(1 + r²), and s₈/s₆ = r²/(1 + r² + r⁴).
+  const ratio = Math.max(smallerRoot(byOne, 1, byOne), Math.sqrt(smallerRoot(byTwo, 1 - byTwo, byTwo)));
+  const decay = Math.min(DECAY_MAX, Math.max(DECAY_MIN, ratio));
+  return (2 * last * decay) / ((1 - decay * decay) * (1 - decay));
+}
+
+/** The smaller root of a·x² − b·x + c for a, c ≥ 0 and b ≤ 1, or 1 where there is none: the series does not fall. */
+function smallerRoot(a: number, b: number, c: number): number {
+  const discriminant = b * b - 4 * a * c;
+  return b > 0 && discriminant >= 0 ? (2 * c) / (b + Math.sqrt(discriminant)) : 1;
 }
 
 /** Sum of the norms of the coefficients of degree above `degree` in u or in v: what leaving them out can cost. */
