@@ -6,7 +6,7 @@ import { conversionNodes } from "./geotiff-projection.js";
 import type { CrsModel, HorizontalModel, VerticalModel } from "./model.js";
 import { unknown, unsupported } from "./refusal.js";
 import type { WktItem, WktNode } from "./tree.js";
-import { unitByCode } from "./units.js";
+import { unitByCode, unitOf } from "./units.js";
 import { readWkt } from "./wkt.js";
 
 const MODEL_TYPE = 1024;
@@ -84,7 +84,7 @@ function linearUnit(values: KeyValues) {
     const size = values.get(LINEAR_UNIT_SIZE);
     if (typeof size !== "number" || !(size > 0))
       throw unknown("the GeoTIFF keys name a linear unit without its size");
-    return { name: "unit", kind: "linear", size } as const;
+    return unitOf("unit", "linear", size);
   }
   const known = unitByCode(unit);
   if (known?.kind !== "linear") throw unsupported(`linear unit ${unit} of the GeoTIFF keys is not known`);

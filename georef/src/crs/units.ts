@@ -1,4 +1,5 @@
 import type { Unit } from "./crs.js";
+import { unknown } from "./refusal.js";
 
 export const METRE: Unit = { name: "metre", kind: "linear", size: 1 };
 /** International foot, exactly 0.3048 m (EPSG:9002). */
@@ -51,8 +52,13 @@ export function unitByProjName(name: string): Unit | undefined {
 /**
  * Unit from a definition. Sizes are written with 7 to 15 digits; one within 1e-8 of a unit known here is that unit
  * (the two feet are 2e-6 apart), so that rounding of the writer does not move a point.
+ *
+ * @param size metres or radians
+ * @throws Refusal CRS_UNKNOWN when that is not between a nanometre and a light second: no unit of a scan
  */
 export function unitOf(name: string, kind: Unit["kind"], size: number): Unit {
+  if (!(size > 1e-9 && size < 3e8))
+    throw unknown(`the unit "${name}" has no size that can be meant: ${size}`);
   for (const known of [METRE, FOOT, US_SURVEY_FOOT, DEGREE, GRAD, RADIAN]) {
     if (known.kind === kind && Math.abs(size / known.size - 1) < 1e-8) return known;
   }

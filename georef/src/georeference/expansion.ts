@@ -93,7 +93,11 @@ export function expand(exact: ExactTransform, domain: Domain, file: string): Exp
       }
     }
   }
-  return { box, frame, coefficients: chebyshevCoefficients(values, 6) };
+  const coefficients = chebyshevCoefficients(values, 6);
+  // Squares, because bounds are made of lengths.
+  const finite = Number.isFinite(coefficients.reduce((sum, value) => sum + value * value, 0));
+  if (!finite) throw outside(file, "the points reach farther than can be computed with", domain);
+  return { box, frame, coefficients };
 }
 
 /** The expansion with a quadratic polynomial added to P: axis by axis the terms 1, u, v, u², uv, v² in its frame, metres. */

@@ -219,13 +219,14 @@ describe("a CRS of a file that is not to be trusted", () => {
   }, async () => {
     const seen = new Map<string, number>();
     await fc.assert(
-      fc.asyncProperty(sources, domains, fc.integer({ min: 0, max: 49 }), async (source, domain, one) => {
+      fc.asyncProperty(sources, domains, fc.integer({ min: 0, max: 199 }), async (source, domain, one) => {
         const code = await outcome(async () => {
           const crs = resolveCrs({ file: "foreign.las", ...source }, lookup);
           const truth = exactTransform(crs, domain.minZ);
           placePoint(truth, domain.minX, domain.minY, domain.minZ, new Float64Array(3), "foreign.las");
           const placement = fitPlacement(truth, domain, 0.001, "foreign.las");
           expect(placement.bound).toBeGreaterThan(0);
+          expect(Number.isFinite(placement.bound)).toBe(true);
           expect(placement.coefficients.every(Number.isFinite)).toBe(true);
           if (one === 0) await deriveTransformation(crs, domain);
         });
@@ -261,6 +262,19 @@ describe("a CRS of a file that is not to be trusted", () => {
     expect(await outcome(point)).toBe("PLACE_DOMAIN");
     expect(await outcome(() => fitPlacement(truth, domain, 0.001))).toBe("PLACE_DOMAIN");
     expect(await outcome(() => deriveTransformation(crs, domain))).toBe("PLACE_DOMAIN");
+  });
+
+  it.each(["1e308", "1e-300", "-1", "0", "3e8"])("has no unit of %s m", async (size) => {
+    for (const key of ["to_meter", "vto_meter"]) {
+      const given = `+proj=utm +zone=33 +datum=WGS84 +${key}=${size}`;
+      expect(await outcome(() => resolveCrs({ file: "foreign.las", given }))).toBe("CRS_UNKNOWN");
+    }
+  });
+
+  it("has no place for points whose distances overflow: PLACE_DOMAIN", async () => {
+    const truth = exactTransform(resolveCrs({ file: "foreign.las", given: "EPSG:4326" }, lookup));
+    const domain = { minX: 0, minY: 0, minZ: 0, maxX: 0, maxY: 0, maxZ: 1e300 };
+    expect(await outcome(() => fitPlacement(truth, domain, 0.001))).toBe("PLACE_DOMAIN");
   });
 
   it.each(FOREIGN)("does not find %s in any table", async (name) => {
