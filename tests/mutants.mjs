@@ -1,0 +1,76 @@
+// `npm run mutants ROOM [FILE …]`: changes the sources of a room in small ways, one at a time, and says how many of the
+// changes its tests notice. Not part of `npm test`: a room takes an hour and more, a file minutes.
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const root = join(fileURLToPath(new URL(".", import.meta.url)), "..");
+const artifacts = join(root, "tests/artifacts/mutants");
+
+/** A room of TypeScript, by Stryker: every source of a folder against the tests of these places. */
+const typescript = (folder, ...tests) => ({ tool: stryker, folder, tests: [folder, ...tests] });
+
+/** Rooms by name; one of Rust names a tool of its own beside `stryker`. */
+const ROOMS = new Map([
+  ["georeference", typescript("georef/src/georeference")],
+  ["transformation", typescript("georef/src/transformation", "georef/src/georeference")],
+  ["crs", typescript("georef/src/crs", "georef/src/georeference")],
+  ["octree", typescript("layer/src/octree")],
+  ["query", typescript("layer/src/cloud")],
+  ["clips", typescript("layer/src/clips")],
+]);
+
+/** Changes that no test can notice: texts for people. */
+const SILENT = ["StringLiteral"];
+
+/**
+ * @param files names within the room's folder, such as `certificate.ts`; none stands for all
+ * @returns mutants by what became of them
+ */
+async function stryker({ folder, tests }, files) {
+  const { Stryker } = await import("@stryker-mutator/core");
+  process.env.GROMA_MUTANTS_TESTS = tests.join(",");
+  process.env.GROMA_SEED ??= "20150217";
+  process.env.GROMA_FUZZ_RUNS ??= "200";
+  const named = files.length > 0 ? files.map((file) => `${folder}/${file}`) : [`${folder}/**/*.ts`];
+  const results = await new Stryker({
+    mutate: [...named, "!**/*.test.ts", "!**/*.fixture.ts", "!**/*.d.ts"],
+    mutator: { excludedMutations: SILENT },
+    testRunner: "vitest",
+    plugins: ["@stryker-mutator/vitest-runner"],
+    vitest: { configFile: "tests/mutants.config.ts", related: false },
+    coverageAnalysis: "perTest",
+    ignoreStatic: true,
+    concurrency: Number(process.env.GROMA_MUTANTS_CONCURRENCY ?? 2),
+    timeoutMS: 20_000,
+    reporters: ["clear-text", "progress-append-only"],
+    clearTextReporter: { allowColor: false, reportTests: false, reportMutants: false },
+    tempDirName: "tests/artifacts/mutants/sandbox",
+    ignorePatterns: ["dist", "target", ".venv", "/tests/artifacts", "/docs"],
+    allowEmpty: false,
+  }).runMutationTest();
+  return results.map(({ status, fileName, location, mutatorName, replacement }) => ({
+    ...{ status, file: fileName.replace(`${root}/`, ""), line: location.start.line + 1 },
+    ...{ change: mutatorName, replacement },
+  }));
+}
+
+const [name, ...files] = process.argv.slice(2);
+const room = ROOMS.get(name);
+if (!room) {
+  console.error(
+    `npm run mutants ROOM [FILE …]: no room "${name ?? ""}"; there are ${[...ROOMS.keys()].join(", ")}`,
+  );
+  process.exit(1);
+}
+const mutants = await room.tool(room, files);
+const count = (...statuses) => mutants.filter(({ status }) => statuses.includes(status)).length;
+const killed = count("Killed", "Timeout");
+const lived = mutants.filter(({ status }) => status === "Survived" || status === "NoCoverage");
+for (const { file, line, change, replacement } of lived) {
+  console.log(`${file}:${line} lives: ${change} → ${(replacement ?? "").replace(/\s+/g, " ").slice(0, 80)}`);
+}
+mkdirSync(artifacts, { recursive: true });
+writeFileSync(join(artifacts, `${name}.json`), JSON.stringify(mutants, null, 1));
+const share = ((100 * killed) / Math.max(1, killed + lived.length)).toFixed(1);
+console.log(`\n${name}: ${killed} of ${killed + lived.length} mutants killed (${share} %)`);
