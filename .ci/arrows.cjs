@@ -52,6 +52,8 @@ module.exports = {
     georef("record", ["engines", "vertical", "crs", "ellipsoid", "errors"]),
     onlyTo("layer-knows-georef-only", "layer", ["georef"]),
     onlyTo("demo-knows-libraries", "demo", ["layer", "georef"]),
+    onlyTo("demo-scene", "demo/src/scene", ["layer", "georef"]),
+    onlyTo("demo-panel", "demo/src/panel", ["demo/src/scene", "layer", "georef"]),
     onlyTo("cli-knows-view-independent-rooms", "converter/cli", [
       "georef",
       "layer/(src|dist)/sources",

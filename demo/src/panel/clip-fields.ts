@@ -1,4 +1,4 @@
-import { CLIP_EDGES, type ClipBox, type ClipWish } from "../clip-box.js";
+import { CLIP_EDGES, type ClipBox, type ClipWish } from "../scene/clip-box.js";
 import type { FieldGroup } from "./drawing.js";
 
 const WISHES: readonly { readonly value: ClipWish; readonly label: string }[] = [

@@ -1,5 +1,5 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
-import type { Aspect } from "../camera.js";
+import type { Aspect } from "../scene/camera.js";
 import { byId } from "./elements.js";
 import { liftWords } from "./words.js";
 

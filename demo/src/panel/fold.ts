@@ -1,4 +1,4 @@
-import type { ScreenRectangle } from "../framing.js";
+import type { ScreenRectangle } from "../scene/framing.js";
 import { byId } from "./elements.js";
 
 /** Screens narrower than this (CSS pixels) begin with the panel folded; as in style.css. */

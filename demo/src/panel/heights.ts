@@ -1,6 +1,6 @@
 import type { HeightGuess } from "@groma/georef";
 import { guessHeights, type PointCloud } from "@groma/layer/cesium";
-import { chooseHeight, type HeightWish } from "../height-choice.js";
+import { chooseHeight, type HeightWish } from "../scene/height-choice.js";
 import { byId, textElement } from "./elements.js";
 
 /** The switch for what heights are measured from, with what they may be where nobody has said it. */

@@ -1,5 +1,5 @@
 import { ecefToGeodetic } from "@groma/georef";
-import type { Hit } from "../picking.js";
+import type { Hit } from "../scene/picking.js";
 import { attributeLabel } from "./attribute-words.js";
 import { byId, textElement } from "./elements.js";
 import { coordinateWords, degreeWords, valueWords } from "./record-words.js";
