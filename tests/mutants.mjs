@@ -1,6 +1,7 @@
 // `npm run mutants ROOM [FILE …]`: changes the sources of a room in small ways, one at a time, and says how many of the
 // changes its tests notice. Not part of `npm test`: a room takes an hour and more, a file minutes.
-import { mkdirSync, writeFileSync } from "node:fs";
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -10,7 +11,10 @@ const artifacts = join(root, "tests/artifacts/mutants");
 /** A room of TypeScript, by Stryker: every source of a folder against the tests of these places. */
 const typescript = (folder, ...tests) => ({ tool: stryker, folder, tests: [folder, ...tests] });
 
-/** Rooms by name; one of Rust names a tool of its own beside `stryker`. */
+/** A room of the core, by cargo-mutants: every source of a folder against the tests in it. */
+const rust = (folder) => ({ tool: cargoMutants, folder });
+
+/** Rooms by name. */
 const ROOMS = new Map([
   ["georeference", typescript("georef/src/georeference")],
   ["transformation", typescript("georef/src/transformation", "georef/src/georeference")],
@@ -18,6 +22,8 @@ const ROOMS = new Map([
   ["octree", typescript("layer/src/octree")],
   ["query", typescript("layer/src/cloud")],
   ["clips", typescript("layer/src/clips")],
+  ["sampling", rust("src/sampling")],
+  ["cells", rust("src/octree")],
 ]);
 
 /** Changes that no test can notice: texts for people. */
@@ -53,6 +59,44 @@ async function stryker({ folder, tests }, files) {
     ...{ status, file: fileName.replace(`${root}/`, ""), line: location.start.line + 1 },
     ...{ change: mutatorName, replacement },
   }));
+}
+
+/** What cargo-mutants calls what became of a mutant, and Stryker's word for it. */
+const STATUS = new Map([
+  ["CaughtMutant", "Killed"],
+  ["Timeout", "Timeout"],
+  ["MissedMutant", "Survived"],
+  ["Unviable", "CompileError"],
+]);
+
+/**
+ * Needs `cargo install cargo-mutants --locked` (27.1 or newer).
+ *
+ * @param files names within the room's folder, such as `lattice.rs`; none stands for all
+ * @returns mutants by what became of them
+ */
+function cargoMutants({ folder }, files) {
+  const named = files.length > 0 ? files.map((file) => `${folder}/${file}`) : [`${folder}/*.rs`];
+  const { error } = spawnSync(
+    "cargo",
+    [
+      ...["mutants", "--dir", join(root, "converter"), "--output", artifacts, "--no-shuffle"],
+      ...["--jobs", process.env.GROMA_MUTANTS_CONCURRENCY ?? "1", "--timeout", "120"],
+      ...named.flatMap((file) => ["--file", file]),
+      // What only tests use.
+      ...["properties", "scene"].flatMap((file) => ["--exclude", `${folder}/${file}.rs`]),
+      ...["--", "--lib", folder.split("/").at(-1)],
+    ],
+    { stdio: "inherit", env: { ...process.env, PROPTEST_CASES: process.env.PROPTEST_CASES ?? "64" } },
+  );
+  if (error) throw error;
+  const { outcomes } = JSON.parse(readFileSync(join(artifacts, "mutants.out/outcomes.json"), "utf8"));
+  return outcomes.flatMap(({ scenario: { Mutant: mutant }, summary }) => {
+    if (mutant === undefined) return [];
+    const { file, span, genre, replacement } = mutant;
+    const status = STATUS.get(summary) ?? summary;
+    return [{ status, file: `converter/${file}`, line: span.start.line, change: genre, replacement }];
+  });
 }
 
 const [name, ...files] = process.argv.slice(2);
