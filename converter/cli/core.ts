@@ -25,6 +25,8 @@ export interface Scan {
   readonly generatingSoftware: string;
   readonly creation: string | null;
   readonly extraBytes: readonly { readonly name: string; readonly type: string }[];
+  /** Bit 4 of the global encoding: the coordinate reference system is declared as WKT, not as GeoTIFF keys. */
+  readonly wktBit: boolean;
   readonly wkt?: string;
   readonly geoTiff?: { readonly directory: number[]; readonly doubles: number[]; readonly ascii: string };
   /** The records of user id `groma`: base64 of georeference and transformation, the statistics as they are. */
@@ -57,7 +59,7 @@ export interface Verified {
 /** What a conversion tells while it runs. */
 export type CoreEvent =
   | { readonly event: "progress"; readonly stage: string; readonly done: number; readonly total: number }
-  | { readonly event: "warning"; readonly text: string };
+  | { readonly event: "warning"; readonly text: string; readonly code?: string };
 
 /** Bounds of the points themselves, source units; the same that the output's header gets. */
 export interface PointBounds {

@@ -10,6 +10,7 @@ import {
 import type { Scan } from "./core.js";
 import { length } from "./output.js";
 import type { Placed } from "./placed.js";
+import { howToGet } from "./proj/grids/current-names.js";
 
 const DEGREE = Math.PI / 180;
 
@@ -106,6 +107,17 @@ function residualsInWords(accuracy: readonly AccuracyPart[]): string {
   return typeof worst === "number" ? `, residuals ≤ ${length(worst)}` : "";
 }
 
+/** Why the accuracies of the parts do not add up: `total accuracy unknown: height reference not declared`. */
+export function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "height">): string {
+  const lacks: ReadonlyMap<string, string> = new Map([
+    ["height", height.kind === "unknown" ? "height reference not declared" : "geoid not applied"],
+    ["datum operation", "accuracy of the datum operation not stated"],
+    ["anchor", "accuracy of the anchor not stated"],
+  ]);
+  const unknown = parts.filter(({ metres }) => metres === null).map(({ name }) => lacks.get(name) ?? name);
+  return `total accuracy unknown: ${unknown.join(", ")}`;
+}
+
 /** What a reader has to know of the way that was chosen, one sentence each. */
 export function remarks(operation: OperationReport | undefined): string[] {
   if (!operation) return [];
@@ -113,7 +125,9 @@ export function remarks(operation: OperationReport | undefined): string[] {
     const worth = accuracy === null ? "" : ` (${length(accuracy)})`;
     return `better with ${grids.join(", ")}: ${name}${worth}`;
   });
-  return [...operation.notes, ...lacking];
+  const missing = [...new Set(operation.lacking.flatMap(({ grids }) => grids))];
+  const way = missing.length === 0 ? [] : [`missing grids: ${howToGet(missing)}`];
+  return [...operation.notes, ...lacking, ...way];
 }
 
 /** Name of a grid without what kind of file it is. */

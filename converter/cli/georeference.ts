@@ -1,18 +1,26 @@
 import {
   type Crs,
   CrsError,
+  type CrsNote,
   decodeRecord,
   type GeoreferenceRecord,
+  likelySystems,
+  type Place,
   RecordError,
-  resolveCrs,
+  resolveWithNotes,
+  sameHeights,
+  samePlane,
+  similarSystems,
+  verticalSystems,
 } from "@groma/georef";
 import type { Scan } from "./core.js";
-import { epsg } from "./epsg.js";
+import { epsg, epsgRows } from "./epsg.js";
 import { type GivenPlace, isPlaced, type LocalPlace, localPlace } from "./place/local.js";
+import { expectedWhereabouts } from "./place/whereabouts.js";
 
 /** What the user says of the coordinates; it goes before what the files say. */
 export interface Given extends GivenPlace {
-  /** `none` passes over what the files say. */
+  /** `none` ignores what the files declare. */
   readonly crs?: string | undefined;
   readonly vertical?: string | undefined;
 }
@@ -23,10 +31,13 @@ export interface Georeferenced {
   readonly basis: "given" | "WKT" | "GeoTIFF keys" | LocalPlace["basis"];
   /** For a data set without a coordinate reference system: where it is put. */
   readonly local?: LocalPlace;
+  /** What has to be known of how it was found. */
+  readonly notes: readonly CrsNote[];
 }
 
-/** What a file says of its coordinates. */
-export type Named = Pick<Scan, "file" | "wkt" | "geoTiff" | "groma">;
+/** What a file says of its coordinates; what PDAL reads has no LAS header. */
+export type Named = Pick<Scan, "file" | "wkt" | "geoTiff" | "groma"> &
+  Partial<Pick<Scan, "pointFormat" | "wktBit" | "min" | "max">>;
 
 /** `--crs none`. */
 const NONE = "none";
@@ -41,14 +52,14 @@ export async function georeference(scan: Named, given: Given): Promise<Georefere
   if (isPlaced(given)) {
     refuseSecondPlace(scan, given);
     const local = await localPlace(given);
-    return { crs: local.crs, basis: local.basis, local };
+    return { crs: local.crs, basis: local.basis, local, notes: [] };
   }
-  if (given.crs === NONE) throw missing(scan.file, "its coordinate reference system is to be passed over");
-  const record = given.crs === undefined && given.vertical === undefined ? readable(scan) : undefined;
-  if (!record) return named(scan, given);
+  if (given.crs === NONE) throw missing(scan.file, "--crs none ignores its coordinate reference system");
+  const record = readable(scan);
+  if (!record || given.crs !== undefined || given.vertical !== undefined) return named(scan, given, record);
   const { crs, similarity, accuracy } = record;
   const basis = "Groma's record";
-  return { crs, basis, ...(similarity && { local: { basis, crs, similarity, accuracy } }) };
+  return { crs, basis, notes: [], ...(similarity && { local: { basis, crs, similarity, accuracy } }) };
 }
 
 /** The georeference record of a file that has one, unless it is damaged: a conversion makes it anew. */
@@ -68,21 +79,54 @@ export function georeferenceRecord({ file, groma }: Named): GeoreferenceRecord |
 }
 
 /** The coordinate reference system that the user or the file names. */
-function named(scan: Named, given: Given): Georeferenced {
-  const geoTiff = scan.geoTiff && {
-    directory: Uint16Array.from(scan.geoTiff.directory),
-    doubles: Float64Array.from(scan.geoTiff.doubles),
-    ascii: scan.geoTiff.ascii,
+function named(scan: Named, given: Given, record: GeoreferenceRecord | undefined): Georeferenced {
+  const { file, geoTiff: keys, pointFormat, wktBit } = scan;
+  const geoTiff = keys && {
+    directory: Uint16Array.from(keys.directory),
+    doubles: Float64Array.from(keys.doubles),
+    ascii: keys.ascii,
   };
-  const wkt = wktOnEarth(scan);
-  const sources = { file: scan.file, given: given.crs, givenVertical: given.vertical, wkt, geoTiff };
+  const las = pointFormat === undefined || wktBit === undefined ? undefined : { pointFormat, wktBit };
+  const recordedHeights = record?.similarity ? undefined : record?.crs;
+  const declared = { file, wkt: wktOnEarth(scan), geoTiff, las, recordedHeights };
   try {
-    const basis = given.crs !== undefined ? "given" : wkt ? "WKT" : "GeoTIFF keys";
-    return { crs: resolveCrs(sources, epsg), basis };
+    return resolveWithNotes({ ...declared, given: given.crs, givenVertical: given.vertical }, epsg);
   } catch (error) {
+    if (error instanceof CrsError && isNoHeightReference(given.vertical)) {
+      throw withSuggestions(error, given.vertical, placeOf(scan, { ...given, vertical: undefined }));
+    }
     if (!(error instanceof CrsError) || error.code !== "CRS_MISSING") throw error;
     throw missing(error.file, error.cause);
   }
+}
+
+/** Whether a height reference is given in words of which none is known: neither a code nor `ellipsoidal`. */
+function isNoHeightReference(vertical: string | undefined): vertical is string {
+  return vertical !== undefined && !/^\s*(EPSG:\d+|ellipsoidal)\s*$/i.test(vertical);
+}
+
+/** Where the middle of a file lies; undefined where that cannot be known. */
+function placeOf(scan: Named, given: Given): Place | undefined {
+  const { min, max } = scan;
+  if (!min || !max) return undefined;
+  try {
+    return expectedWhereabouts(named(scan, given, undefined), { min, max }).centre;
+  } catch (error) {
+    if (error instanceof CrsError) return undefined;
+    throw error;
+  }
+}
+
+/** The same refusal with the height systems that may be meant, else those in use at the place. */
+function withSuggestions(refusal: CrsError, text: string, place: Place | undefined): CrsError {
+  const systems = verticalSystems(epsgRows());
+  const similar = similarSystems(systems, text, place);
+  const local = similar.length === 0 && place ? likelySystems(systems, { ...place, unit: 1 }) : [];
+  const names = [...similar, ...local].map((system) => `EPSG:${system.code} (${system.name})`).join(", ");
+  if (names === "") return refusal;
+  const { code, file, cause } = refusal;
+  const which = similar.length > 0 ? "its EPSG code" : "an EPSG code, of those in use there";
+  return new CrsError({ code, file, cause, fix: `give ${which}: ${names}; or ellipsoidal` });
 }
 
 /** The WKT of a file, unless it only says that the coordinates are local. */
@@ -100,7 +144,7 @@ function missing(file: string, cause: string): CrsError {
 
 function refuseSecondPlace(scan: Named, { crs, vertical }: Given): void {
   const file = scan.file;
-  const fix = "leave one of them out; --crs none passes over what the file says";
+  const fix = "leave one of them out; --crs none ignores what the file declares";
   const cause = "has a place of its own, and --anchor or --control gives another";
   const second =
     vertical !== undefined ? "--vertical" : crs !== undefined && crs !== NONE ? "--crs" : undefined;
@@ -111,43 +155,58 @@ function refuseSecondPlace(scan: Named, { crs, vertical }: Given): void {
 }
 
 /**
- * The one coordinate reference system of several inputs.
+ * The one coordinate reference system of several inputs, however each of them spells it.
  *
- * @throws CrsError CRS_MIXED with the list when they differ; as {@link georeference}
+ * @throws CrsError CRS_MIXED with the list when they differ in meaning; as {@link georeference}
  */
 export async function commonGeoreference(scans: readonly Named[], given: Given): Promise<Georeferenced> {
-  const all: Georeferenced[] = [];
-  for (const scan of scans) all.push(await georeference(scan, given));
-  const meaning = ({ crs, local }: Georeferenced) =>
-    JSON.stringify([
-      ...[crs.proj4, crs.horizontalUnit.size, crs.verticalUnit.size, crs.height],
-      local?.similarity ?? null,
-    ]);
-  const first = all[0]!;
-  if (all.some((other) => meaning(other) !== meaning(first))) {
-    const list = scans.map((scan, index) => `${scan.file} is in ${all[index]!.crs.name}`).join(", ");
-    throw new CrsError({
-      ...{ code: "CRS_MIXED", file: scans[0]!.file, cause: `the inputs are in different systems: ${list}` },
-      fix: "convert them apart, or give the one that is right for all with --crs",
-    });
+  const systems: { readonly one: Georeferenced; readonly files: string[] }[] = [];
+  const notes = new Map<string, { readonly note: CrsNote; readonly files: string[] }>();
+  for (const scan of scans) {
+    const one = await georeference(scan, given);
+    const known = systems.find((system) => isSame(system.one, one));
+    if (known) known.files.push(scan.file);
+    else systems.push({ one, files: [scan.file] });
+    for (const note of one.notes) {
+      const told = notes.get(note.text);
+      if (told) told.files.push(scan.file);
+      else notes.set(note.text, { note, files: [scan.file] });
+    }
   }
-  return first;
+  const [{ one: first }] = systems as [(typeof systems)[number]];
+  if (systems.length > 1) throw mixed(systems);
+  const whose = (files: readonly string[]) => (files.length === scans.length ? "" : `${listed(files)}: `);
+  const all = [...notes.values()].map(({ note, files }) => ({
+    ...note,
+    text: `${whose(files)}${note.text}`,
+  }));
+  return { ...first, notes: all };
 }
 
-/**
- * WKT 1 for an output whose input had none (LAS 1.4 R15 asks for WKT in point formats 6 to 10): the text that was
- * given or the EPSG table's, horizontal and vertical joined as a compound; a local system says that it is one. Undefined
- * where nobody has words for it.
- */
-export function wktOf({ crs, local }: Georeferenced): string | undefined {
-  // Readers of LAS do not agree on what else than ASCII is.
-  const name = crs.name.replaceAll('"', "'").replace(/[^ -~]/g, "");
-  if (local) {
-    const unit = `UNIT["${crs.horizontalUnit.name}",${crs.horizontalUnit.size}]`;
-    return `LOCAL_CS["${name}",LOCAL_DATUM["${name}",32767],${unit},AXIS["x",OTHER],AXIS["y",OTHER]]`;
-  }
-  if (crs.wkt) return crs.wkt;
-  const [horizontal, vertical] = (crs.code?.match(/\d+/g) ?? []).map((code) => epsg(Number(code))?.wkt);
-  if (!horizontal || !vertical) return horizontal;
-  return `COMPD_CS["${name}",${horizontal},${vertical}]`;
+function isSame(a: Georeferenced, b: Georeferenced): boolean {
+  const similarity = ({ local }: Georeferenced) => JSON.stringify(local?.similarity ?? null);
+  return samePlane(a.crs, b.crs) && sameHeights(a.crs, b.crs) && similarity(a) === similarity(b);
+}
+
+function mixed(systems: readonly { readonly one: Georeferenced; readonly files: readonly string[] }[]) {
+  const list = systems.map(({ one, files }) => `${inWords(one)} (${listed(files)})`).join("; ");
+  const plane = systems.every(({ one }) => samePlane(one.crs, systems[0]!.one.crs));
+  return new CrsError({
+    code: "CRS_MIXED",
+    file: systems[1]!.files[0]!,
+    cause: `the inputs are in ${systems.length} different systems: ${list}`,
+    fix: `convert them separately, or give the one that is right for all with ${plane ? "--vertical, or with --crs with its heights" : "--crs"}`,
+  });
+}
+
+function inWords({ crs: { name, verticalUnit } }: Georeferenced): string {
+  return verticalUnit.declared ? `${name}, z in ${verticalUnit.name}` : name;
+}
+
+/** Files that a message names; of more, it gives the number. */
+const LISTED = 3;
+
+function listed(files: readonly string[]): string {
+  const more = files.length - LISTED;
+  return `${files.slice(0, LISTED).join(", ")}${more > 0 ? `, ${more} more` : ""}`;
 }

@@ -11,7 +11,7 @@ const ENGINES: readonly NonNullable<EngineChoice["engine"]>[] = ["proj", "proj4j
 const placing = () => [
   new Option(
     "--crs <X>",
-    "coordinate reference system: EPSG code, PROJ string, WKT or PROJJSON; none passes over the file's own",
+    "coordinate reference system: EPSG code, PROJ string, WKT or PROJJSON; none ignores the file's CRS",
   ),
   new Option("--vertical <X>", "height reference: a vertical EPSG code, or ellipsoidal"),
   new Option(
@@ -105,7 +105,7 @@ const convert = program
   .option("--dry-run", "print the plan and write nothing")
   .option("--json", "with --dry-run: for machines")
   .addOption(progress())
-  .option("--overwrite", "replace an output that is there already")
+  .option("--overwrite", "replace an output that already exists")
   .option("--strict", "refuse an empty or damaged input instead of converting what can be read")
   .action(async (paths: string[], options, command: Command) => {
     const least = options.pipeline === undefined ? 2 : 1;

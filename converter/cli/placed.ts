@@ -17,6 +17,8 @@ import { TOLERANCE } from "./place/records.js";
 export interface Placed {
   readonly crs: Crs;
   readonly basis: Georeferenced["basis"];
+  /** What has to be known of how the coordinate reference system was found. */
+  readonly notes: Georeferenced["notes"];
   /** Source coordinates → ECEF. */
   readonly truth: Truth;
   readonly engine: GeoreferenceRecord["engine"];
@@ -38,10 +40,10 @@ export async function placed(scan: Scan): Promise<Placed> {
   const middle = (scan.min[2] + scan.max[2]) / 2;
   const record = georeferenceRecord(scan);
   if (!record) {
-    const { crs, basis } = await georeference(scan, {});
+    const { crs, basis, notes } = await georeference(scan, {});
     const truth = truthOf({ crs }, middle, scan.file);
     const accuracy = accuracyParts(crs, scan.scale, TOLERANCE);
-    return { crs, basis, truth, ...noReport, accuracy };
+    return { crs, basis, notes, truth, ...noReport, accuracy };
   }
   const { crs, similarity, engine, operation, accuracy } = record;
   const bytes = scan.groma?.["3"];
@@ -49,11 +51,13 @@ export async function placed(scan: Scan): Promise<Placed> {
   const transformation = bytes === undefined ? undefined : Buffer.from(bytes, "base64");
   const truth = truthOf({ crs, similarity, transformation }, middle, scan.file);
   if (operation && !transformation) {
-    return { crs, basis, truth, ...noReport, accuracy: accuracyParts(crs, scan.scale, TOLERANCE) };
+    const accuracy = accuracyParts(crs, scan.scale, TOLERANCE);
+    return { crs, basis, notes: [], truth, ...noReport, accuracy };
   }
   return {
     crs,
     basis,
+    notes: [],
     truth,
     engine,
     operation,

@@ -22,8 +22,8 @@ describe("lines of numbers", () => {
     ["1 2 0x10", 'line 1: "0x10" is no number'],
     ["1 2 Infinity", 'line 1: "Infinity" is no number'],
     ["1 2 1e999", 'line 1: "1e999" is no number'],
-    ["# only x\n1", "line 2: 1 number is not what it has to be"],
-    ["1 2 3 4", "line 1: 4 numbers are not what it has to be"],
+    ["# only x\n1", "line 2: expected 2 or 3 numbers, found 1"],
+    ["1 2 3 4", "line 1: expected 2 or 3 numbers, found 4; use a decimal point"],
   ])("%j are refused with their line", (text, cause) => {
     expect(() => parse(text)).toThrow(
       expect.objectContaining({ code: "POINTS_SYNTAX", file: "points.txt", cause }),

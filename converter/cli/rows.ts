@@ -51,7 +51,10 @@ export function parseRows(content: string, file: string, format: RowFormat): Row
     const odd = words.find((word) => !(NUMBER.test(word) && Number.isFinite(Number(word))));
     if (odd !== undefined) throw wrong(`"${odd.slice(0, EXCERPT)}" is no number`);
     if (words.length < format.fewest || words.length > format.most) {
-      throw wrong(`${words.length} number${words.length === 1 ? " is" : "s are"} not what it has to be`);
+      const { fewest, most } = format;
+      const expected = fewest === most ? String(most) : `${fewest} or ${most}`;
+      const hint = words.length > most ? "; use a decimal point" : "";
+      throw wrong(`expected ${expected} numbers, found ${words.length}${hint}`);
     }
     rows.push({ line: index + 1, values: words.map(Number) });
   }

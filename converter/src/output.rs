@@ -75,7 +75,7 @@ pub fn check_target(target: &Path, overwrite: bool) -> Result<()> {
         return Err(Error::output_name(target, "a COPC file has a name that ends in .laz"));
     }
     if !overwrite && target.symlink_metadata().is_ok() {
-        return Err(Error::output_exists(target, "the file is there already"));
+        return Err(Error::output_exists(target, "the file already exists"));
     }
     Ok(())
 }

@@ -6,17 +6,32 @@ export { type FittedPlane, fitPlane } from "./cartesian/plane.js";
 export { quantise } from "./cartesian/quantise.js";
 export { planarArea } from "./cartesian/shoelace.js";
 export { type Slab, slab } from "./cartesian/slab.js";
+export {
+  type AreaOfUse,
+  areaOf,
+  areOverlapping,
+  countriesIn,
+  distanceTo,
+  extentOf,
+  isInside,
+  type Place,
+} from "./crs/area-of-use.js";
 export type {
   Crs,
+  CrsNote,
   CrsSources,
   DatumOperation,
   EpsgEntry,
   EpsgLookup,
   GeoTiffKeys,
   HeightReference,
+  LasDeclaration,
+  ResolvedCrs,
   Unit,
 } from "./crs/crs.js";
-export { resolveCrs } from "./crs/resolve.js";
+export { epsgLookup, type PackedEpsg, packEpsg } from "./crs/epsg-table.js";
+export { resolveCrs, resolveWithNotes } from "./crs/resolve.js";
+export { sameHeights, samePlane } from "./crs/same.js";
 export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
 export { eastNorthUp, type Frame } from "./ellipsoid/frame.js";
@@ -92,6 +107,7 @@ export type {
 } from "./transformation/step.js";
 export { decodeEgm96, EGM96, egm96Grid, egm96Step, egm96Undulation, encodeEgm96 } from "./vertical/egm96.js";
 export { guessHeight, type HeightGuess } from "./vertical/guess.js";
+export { similarSystems } from "./vertical/spelling.js";
 export {
   type EpsgRow,
   type HeightClues,

@@ -1,6 +1,6 @@
 /**
  * Completes layer/dist after tsc: the worker as one file without bare imports, so that any bundler and any
- * server can load it, the decoder's WebAssembly beside it, and the tables of height systems.
+ * server can load it, the decoder's WebAssembly beside it, and the tables of EPSG.
  */
 import { copyFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -21,4 +21,4 @@ await bundle.write({
 });
 await bundle.close();
 
-await import("./height-assets.mjs");
+await import("./crs-assets.mjs");

@@ -1,5 +1,7 @@
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
+import type { Georeferenced } from "../georeference.js";
+import { outputWkt } from "../output-wkt.js";
 import type { ConvertOptions } from "./options.js";
 
 /** Inputs that go onto the command line; more of them might not fit. */
@@ -8,20 +10,22 @@ const FEW = 64;
 /**
  * The arguments of `groma-core convert`.
  *
- * @param scratch folder for the list of the inputs
- * @param wkt file of the WKT for an output whose inputs have none
+ * @param georeferenced what the output declares
+ * @param scratch folder for the WKT and the list of the inputs
  */
 export async function coreArguments(
   inputs: readonly string[],
   output: string,
+  georeferenced: Georeferenced,
   options: ConvertOptions,
   scratch: string,
-  wkt?: string,
 ): Promise<string[]> {
   const args: string[] = [];
   const add = (name: string, value: string | number | undefined) => {
     if (value !== undefined) args.push(name, String(value));
   };
+  const wkt = join(scratch, "crs.wkt");
+  await writeFile(wkt, outputWkt(georeferenced));
   add("--wkt", wkt);
   add("--sampling", options.sampling);
   add("--threads", options.threads);

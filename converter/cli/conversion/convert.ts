@@ -3,10 +3,11 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import type { Fault } from "@groma/georef";
 import { type Conversion, type CoreEvent, convertFiles, type RecordMaker, scanFile } from "../core.js";
-import { type Georeferenced, wktOf } from "../georeference.js";
+import type { Georeferenced } from "../georeference.js";
 import type { Planned } from "../pdal/bring.js";
 import { type PdalReport, pdalReport } from "../pdal/report.js";
 import { type GeoreferenceRecords, makeRecords } from "../place/records.js";
+import type { Whereabouts } from "../place/whereabouts.js";
 import { withScratch } from "../scratch.js";
 import { coreArguments } from "./arguments.js";
 import type { ConvertOptions } from "./options.js";
@@ -16,6 +17,7 @@ import { type Preparation, prepare } from "./prepare.js";
 export interface Converted extends Conversion {
   readonly output: string;
   readonly georeferenced: Georeferenced;
+  readonly whereabouts: Whereabouts;
   readonly records: GeoreferenceRecords;
   /** 8 where no colour exceeds 255 in its 16-bit field, null where there is no colour. */
   readonly rgbBits: 8 | 16 | null;
@@ -68,14 +70,14 @@ async function convertPrepared(
     await writeFile(transformation, records.transformation);
     return { record, transformation };
   };
-  const wkt = await wktFile(preparation, options, scratch);
-  const coreArgs = await coreArguments(files, output, options, scratch, wkt);
+  const coreArgs = await coreArguments(files, output, georeferenced, options, scratch);
   const conversion = await convertFiles(coreArgs, onEvent, recordsFor, signal);
   if (!records) throw new Error("the converter core has not asked for the records");
   const { groma } = await scanFile(output);
   const pdal = plannedOf(preparation).map((planned) => pdalReport(preparation.pdal!, planned));
+  const { skipped, whereabouts } = preparation;
   const rgbBits = groma?.["2"]?.rgbBits ?? null;
-  return { ...conversion, output, georeferenced, records, rgbBits, pdal, skipped: preparation.skipped };
+  return { ...conversion, output, georeferenced, whereabouts, records, rgbBits, pdal, skipped };
 }
 
 /** What the core reads: the inputs themselves, and files of PDAL in place of the others. */
@@ -103,20 +105,6 @@ function plannedOf({ inputs }: Preparation): Planned[] {
 function firstOf({ inputs: [first] }: Preparation): { file: string; scale: readonly number[] } {
   if (first!.reader === "core") return { file: first!.file, scale: first!.scan.scale };
   return { file: first!.planned.probe.job.name, scale: first!.planned.form.scale };
-}
-
-/** File of the WKT that the output carries where its inputs' own does not do. */
-async function wktFile(
-  { hasWkt, georeferenced }: Preparation,
-  { crs }: ConvertOptions,
-  scratch: string,
-): Promise<string | undefined> {
-  const replaced = crs !== undefined || georeferenced.local !== undefined;
-  const wkt = hasWkt && !replaced ? undefined : wktOf(georeferenced);
-  if (wkt === undefined) return undefined;
-  const file = join(scratch, "crs.wkt");
-  await writeFile(file, wkt);
-  return file;
 }
 
 /** A PROJ string says more to PROJ than what was read from it: its grids above all. */

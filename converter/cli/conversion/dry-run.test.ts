@@ -31,7 +31,8 @@ const planned: DryRun = {
     pdal: [],
     pdalTemp: undefined,
   },
-  georeferenced: { crs, basis: "WKT" },
+  georeferenced: { crs, basis: "WKT", notes: [{ code: "CRS_OTHER_FORM", text: "said" }] },
+  whereabouts: { centre: { longitude: 7.44, latitude: 46.95 }, notes: [{ code: "CRS_AREA", text: "far" }] },
 };
 
 it("tells people what a conversion takes", () => {
@@ -40,6 +41,9 @@ it("tells people what a conversion takes", () => {
       "inputs   3, 10,653,336 points",
       "place    EPSG:2056 CH1903+ / LV95 (WKT)",
       "height   unknown (shown as ellipsoidal)",
+      "centre   longitude 7.4400°, latitude 46.9500°",
+      "note     said",
+      "note     far",
       "octree   about 6 levels, 36 bytes a point, sampling poisson",
       "memory   at most 512 MB",
       "temp     at most 480 MB in /scratch, 79 GB free",

@@ -6,6 +6,7 @@ import { crsInWords, heightInWords } from "../describe.js";
 import type { Georeferenced } from "../georeference.js";
 import { count, size, skippedRow } from "../output.js";
 import { type PdalReport, pdalInWords, pdalReport } from "../pdal/report.js";
+import { centreRow, type Whereabouts } from "../place/whereabouts.js";
 import { freeBytes, withScratch } from "../scratch.js";
 import { coreArguments } from "./arguments.js";
 import type { ConvertOptions } from "./options.js";
@@ -20,6 +21,7 @@ export interface DryRun {
   readonly skipped: readonly Fault[];
   readonly points: number;
   readonly georeferenced: Georeferenced;
+  readonly whereabouts: Whereabouts;
   /** What the core would do; undefined where inputs have to go through PDAL first. */
   readonly core: Plan | undefined;
   readonly pdal: readonly PdalReport[];
@@ -40,7 +42,7 @@ export async function dryRun(
   signal?: AbortSignal,
 ): Promise<DryRun> {
   const preparation = await prepare(args, output, options, onEvent, signal);
-  const { inputs, georeferenced } = preparation;
+  const { inputs, georeferenced, whereabouts } = preparation;
   const files = inputs.flatMap((input) => (input.reader === "core" ? [input.file] : []));
   const announced = inputs.reduce(
     (sum, input) => sum + (input.reader === "core" ? input.scan.points : input.planned.probe.points),
@@ -57,17 +59,17 @@ export async function dryRun(
   const core = pdalTemp
     ? undefined
     : await withScratch(tmpdir(), async (scratch) =>
-        planFiles(await coreArguments(files, output, options, scratch), onEvent, signal),
+        planFiles(await coreArguments(files, output, georeferenced, options, scratch), onEvent, signal),
       );
   const { skipped } = preparation;
   return {
-    ...{ output, inputs: inputs.length, skipped, georeferenced, core, pdal, pdalTemp },
+    ...{ output, inputs: inputs.length, skipped, georeferenced, whereabouts, core, pdal, pdalTemp },
     points: core?.points ?? announced,
   };
 }
 
 /** The plan as one JSON object. */
-export function planForMachines({ georeferenced, core, ...rest }: DryRun) {
+export function planForMachines({ georeferenced, whereabouts, core, ...rest }: DryRun) {
   const { name, code, height } = georeferenced.crs;
   const known = core ?? {
     recordLength: null,
@@ -76,19 +78,28 @@ export function planForMachines({ georeferenced, core, ...rest }: DryRun) {
     tempBytes: null,
     outputBytes: null,
   };
-  return { event: "plan", ...known, ...rest, crs: { name, code, height }, crsFrom: georeferenced.basis };
+  return {
+    event: "plan",
+    ...known,
+    ...rest,
+    crs: { name, code, height },
+    crsFrom: georeferenced.basis,
+    crsNotes: georeferenced.notes,
+  };
 }
 
 /** The plan, a line for each thing. */
 export function planInWords(plan: DryRun): string {
-  const { output, inputs, skipped, points, georeferenced, core, pdal, pdalTemp } = plan;
-  const { crs, basis } = georeferenced;
+  const { output, inputs, skipped, points, georeferenced, whereabouts, core, pdal, pdalTemp } = plan;
+  const { crs, basis, notes } = georeferenced;
   const rows: [string, string][] = [
     ["inputs", `${count(inputs)}, ${count(points)} points`],
     ...skipped.map(skippedRow),
     ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
     ["place", `${crsInWords(crs)} (${basis})`],
     ["height", heightInWords(crs)],
+    ...centreRow(whereabouts),
+    ...[...notes, ...whereabouts.notes].map(({ text }): [string, string] => ["note", text]),
   ];
   if (core) {
     rows.push(

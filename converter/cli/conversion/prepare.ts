@@ -1,12 +1,13 @@
 import { existsSync, statSync } from "node:fs";
 import { dirname } from "node:path";
 import { type Fault, GromaError } from "@groma/georef";
-import type { CoreEvent, Scan } from "../core.js";
+import type { CoreEvent, PointBounds, Scan } from "../core.js";
 import { commonGeoreference, type Georeferenced, type Named } from "../georeference.js";
 import type { Planned } from "../pdal/bring.js";
 import type { Pdal } from "../pdal/find.js";
 import type { Job } from "../pdal/pipeline.js";
 import { chosenProj } from "../place/engine.js";
+import { expectedWhereabouts, type Whereabouts } from "../place/whereabouts.js";
 import { expandInputs, InputError } from "./inputs.js";
 import type { ConvertOptions } from "./options.js";
 import { scanAll, sourcesOf } from "./sources.js";
@@ -26,8 +27,8 @@ export interface Preparation {
   /** Inputs that are empty or cannot be read, which the conversion does without. */
   readonly skipped: readonly Fault[];
   readonly georeferenced: Georeferenced;
-  /** Whether an input says its own coordinate reference system as WKT. */
-  readonly hasWkt: boolean;
+  /** By the bounds that the headers declare. */
+  readonly whereabouts: Whereabouts;
   /** Where one of the inputs needs it. */
   readonly pdal?: Pdal;
 }
@@ -71,8 +72,28 @@ export async function prepare(
     if (source.reader === "core") return { ...source, scan: scanOf.get(source.file)! };
     return { reader: "pdal", planned: planned![jobs.indexOf(source.job)]! };
   });
-  const hasWkt = named.some(({ wkt }) => wkt);
-  return { inputs, skipped, georeferenced, hasWkt, ...(read && { pdal: read.pdal }) };
+  const bounds = boundsOf(inputs);
+  const where = bounds ? expectedWhereabouts(georeferenced, bounds) : { centre: undefined, notes: [] };
+  // A system that is not meant for the place is a mistake more often than not: said before the points are read.
+  for (const { code, text } of where.notes) onEvent({ event: "warning", code, text });
+  return { inputs, skipped, georeferenced, whereabouts: where, ...(read && { pdal: read.pdal }) };
+}
+
+/** Bounds of all inputs with points; undefined where none has any that are numbers. */
+function boundsOf(inputs: readonly Prepared[]): PointBounds | undefined {
+  const boxes = inputs
+    .map((input) => (input.reader === "core" ? input.scan : input.planned.probe))
+    .filter(({ points, min, max }) => points > 0 && [...min, ...max].every(Number.isFinite));
+  if (boxes.length === 0) return undefined;
+  const min: [number, number, number] = [...boxes[0]!.min];
+  const max: [number, number, number] = [...boxes[0]!.max];
+  for (const box of boxes) {
+    for (const axis of [0, 1, 2] as const) {
+      min[axis] = Math.min(min[axis], box.min[axis]);
+      max[axis] = Math.max(max[axis], box.max[axis]);
+    }
+  }
+  return { min, max };
 }
 
 /** The error for inputs of which none can be read. */
@@ -112,7 +133,7 @@ function requireTarget(output: string, overwrite: boolean): void {
     throw refuse("OUTPUT_WRITE", "its folder is not there", "make the folder, or name another");
   }
   if (existsSync(output) && !overwrite) {
-    throw refuse("OUTPUT_EXISTS", "the file is there already", "give --overwrite, or another name");
+    throw refuse("OUTPUT_EXISTS", "the file already exists", "give --overwrite, or another name");
   }
   // As in the core, `output.rs`.
   if (!/\.laz$/i.test(output)) {

@@ -1,17 +1,20 @@
 import { basename } from "node:path";
-import { statedAccuracy } from "@groma/georef";
-import { placeInWords, remarks } from "../describe.js";
+import { type AccuracyPart, type Crs, statedAccuracy } from "@groma/georef";
+import { placeInWords, remarks, unknownTotal } from "../describe.js";
 import { count, counted, length, size, skippedRow } from "../output.js";
 import { pdalInWords } from "../pdal/report.js";
+import { centreRow } from "../place/whereabouts.js";
 import type { Converted } from "./convert.js";
 
 /** What a conversion made, for machines: the last of its JSON lines. */
-export function summaryForMachines({ georeferenced, records, ...summary }: Converted) {
+export function summaryForMachines({ georeferenced, whereabouts, records, ...summary }: Converted) {
   const { crs, engine, operation, accuracy } = records.georeference;
   return {
     event: "done",
     ...summary,
     crs: { name: crs.name, code: crs.code, height: crs.height },
+    crsNotes: [...georeferenced.notes, ...whereabouts.notes],
+    centre: whereabouts.centre ?? null,
     engine,
     operation: operation ?? null,
     residuals: georeferenced.local?.fitted?.residuals ?? null,
@@ -31,28 +34,30 @@ export function summaryInWords(converted: Converted): string {
 }
 
 /** Where the points are, what that is worth, and what has to be known of it, a line each. */
-export function placeSummary({ georeferenced, records, rgbBits, pdal, skipped }: Converted): string {
+export function placeSummary(converted: Converted): string {
+  const { georeferenced, whereabouts, records, rgbBits, pdal, skipped } = converted;
   const { crs, engine, operation, accuracy } = records.georeference;
   const lines: [string, string][] = [
     ["place", placeInWords({ crs, engine, operation, accuracy, fitBound: records.fitBound })],
-    ["accuracy", accuracyInWords(accuracy)],
-    ...remarks(operation).map((text): [string, string] => ["note", text]),
+    ...centreRow(whereabouts),
+    ["accuracy", accuracyInWords(accuracy, crs)],
+    ...[...whereabouts.notes.map(({ text }) => text), ...remarks(operation)].map((text): [string, string] => [
+      "note",
+      text,
+    ]),
     ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
   ];
   for (const [index, residual] of (georeferenced.local?.fitted?.residuals ?? []).entries()) {
     lines.push(["control", `point ${index + 1}: ${length(residual)} off`]);
   }
   if (rgbBits === 8) {
-    lines.push(["colours", "8 bits in fields of 16: kept as they are, and recorded so that viewers see it"]);
+    lines.push(["colours", "8-bit colours in 16-bit fields; values unchanged"]);
   }
   lines.push(...skipped.map(skippedRow));
   return lines.map(([label, text]) => `${label.padEnd(8)} ${text}\n`).join("");
 }
 
-/** The sum, or what it lacks. */
-function accuracyInWords(parts: Parameters<typeof statedAccuracy>[0]): string {
+function accuracyInWords(parts: readonly AccuracyPart[], crs: Crs): string {
   const { total } = statedAccuracy(parts);
-  if (total !== null) return `${length(total)} in all`;
-  const unknown = parts.filter(({ metres }) => metres === null).map(({ name }) => name);
-  return `not known as a whole, for want of: ${unknown.join(", ")}`;
+  return total === null ? unknownTotal(parts, crs) : `${length(total)} in all`;
 }

@@ -1,6 +1,7 @@
 import { type AccuracyPart, CrsError } from "@groma/georef";
 import { type Scan, type ScanStatistics, scanFile, type Verified, verifyFile } from "../core.js";
 import { type GeodeticBounds, geodeticBounds } from "../describe.js";
+import { type Whereabouts, whereabouts } from "../place/whereabouts.js";
 import { type Placed, placed } from "../placed.js";
 import { FileSource } from "./file-source.js";
 import { type GpsSpan, gpsSpan } from "./gps-time.js";
@@ -16,6 +17,7 @@ export interface Inspection {
   readonly place: Placed | undefined;
   readonly problem: CrsError | undefined;
   readonly bounds: GeodeticBounds | undefined;
+  readonly whereabouts: Whereabouts;
   readonly accuracy: readonly AccuracyPart[];
   /** Of all points, from the file's record, or of a sample; undefined where neither can be had. */
   readonly statistics: ScanStatistics | undefined;
@@ -58,6 +60,8 @@ export async function inspect(file: string, verify = false): Promise<Inspection>
   }
 }
 
+const nowhere: Whereabouts = { centre: undefined, notes: [] };
+
 const noOctree = { octree: undefined, octreeProblem: undefined } as const;
 
 async function octreeOf(source: FileSource): Promise<Pick<Inspection, "octree" | "octreeProblem">> {
@@ -73,13 +77,16 @@ async function octreeOf(source: FileSource): Promise<Pick<Inspection, "octree" |
   }
 }
 
-async function placeOf(scan: Scan): Promise<Pick<Inspection, "place" | "problem" | "bounds" | "accuracy">> {
+type Place = Pick<Inspection, "place" | "problem" | "bounds" | "whereabouts" | "accuracy">;
+
+async function placeOf(scan: Scan): Promise<Place> {
   try {
     const place = await placed(scan);
     const bounds = geodeticBounds(scan, place.truth);
-    return { place, problem: undefined, bounds, accuracy: place.accuracy };
+    const where = scan.points > 0 ? whereabouts(place.crs, place.truth, scan) : nowhere;
+    return { place, problem: undefined, bounds, whereabouts: where, accuracy: place.accuracy };
   } catch (error) {
     if (!(error instanceof CrsError)) throw error;
-    return { place: undefined, problem: error, bounds: undefined, accuracy: [] };
+    return { place: undefined, problem: error, bounds: undefined, whereabouts: nowhere, accuracy: [] };
   }
 }

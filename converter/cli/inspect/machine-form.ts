@@ -5,14 +5,17 @@ import type { Inspection } from "./inspect.js";
 
 /** What is known of a file as one JSON object (docs/cli.md). */
 export function machineForm(inspection: Inspection) {
-  const { scan, header, place, problem, bounds, accuracy, statistics, sampled, gps, octree } = inspection;
-  const { groma, wkt: _, geoTiff: __, ...rest } = scan;
+  const { scan, header, place, problem, bounds, whereabouts, accuracy, statistics, sampled, gps, octree } =
+    inspection;
+  const { groma, wktBit: _, wkt: __, geoTiff: ___, ...rest } = scan;
   const bytes = (base64: string | undefined) => (base64 ? Buffer.byteLength(base64, "base64") : 0);
   const perArea = place && density(scan, place.crs);
   return {
     ...rest,
     crs: place?.crs ?? null,
     crsFrom: place?.basis ?? "none",
+    crsNotes: [...(place?.notes ?? []), ...whereabouts.notes],
+    centre: whereabouts.centre ?? null,
     problem: problem?.toWire() ?? null,
     engine: place?.engine ?? null,
     operation: place?.operation ?? null,

@@ -1,7 +1,15 @@
 import { statedAccuracy } from "@groma/georef";
 import type { Scan, ScanStatistics } from "../core.js";
-import { density, type GeodeticBounds, heightInWords, placeInWords, remarks } from "../describe.js";
+import {
+  density,
+  type GeodeticBounds,
+  heightInWords,
+  placeInWords,
+  remarks,
+  unknownTotal,
+} from "../describe.js";
 import { count, counted, length, size } from "../output.js";
+import { centreRow } from "../place/whereabouts.js";
 import { className } from "./classes.js";
 import { gpsSpanInWords } from "./gps-time.js";
 import type { HeaderDetails } from "./header.js";
@@ -49,9 +57,9 @@ function fileRows(scan: Scan): Row[] {
   ];
 }
 
-function placeRows({ place, problem, accuracy }: Inspection): Row[] {
+function placeRows({ place, problem, whereabouts, accuracy }: Inspection): Row[] {
   if (!place) return [["place", problem?.message ?? "unknown"]];
-  const { crs, basis, operation } = place;
+  const { crs, basis, notes, operation } = place;
   const { horizontalUnit, verticalUnit } = crs;
   const { total } = statedAccuracy(accuracy);
   const assumed = verticalUnit.declared ? "" : " (assumed)";
@@ -59,10 +67,13 @@ function placeRows({ place, problem, accuracy }: Inspection): Row[] {
     ["place", placeInWords(place)],
     ["from", basis],
     ...(operation ? [["operation", operation.name] as const] : []),
-    ...remarks(operation).map((text) => ["note", text] as const),
+    ...centreRow(whereabouts),
+    ...[...[...notes, ...whereabouts.notes].map(({ text }) => text), ...remarks(operation)].map(
+      (text) => ["note", text] as const,
+    ),
     ["units", `${horizontalUnit.name} in plane, ${verticalUnit.name} in height${assumed}`],
     ["height", heightInWords(crs, place.geoids)],
-    ["accuracy", total === null ? "not known as a whole" : length(total)],
+    ["accuracy", total === null ? unknownTotal(accuracy, crs) : length(total)],
     ...accuracy.map(({ name, metres, note }): Row => {
       const worth = metres === null ? "unknown" : length(metres);
       return [`  ${name}`, `${worth}${note ? `  ${note}` : ""}`];
@@ -125,7 +136,7 @@ function contentRows(
 
 function statisticsRows(scan: Scan, { classes, rgbBits, attributes }: ScanStatistics): Row[] {
   const coloured = attributes.some(({ name }) => name === "red");
-  const depth = rgbBits === 8 ? "8 bits a channel, in fields of 16" : "16 bits a channel";
+  const depth = rgbBits === 8 ? "8-bit colours in 16-bit fields" : "16 bits a channel";
   // Where the points are is told already, and in more digits.
   const told = attributes.filter(({ name }) => !["x", "y", "z"].includes(name));
   return [

@@ -81,10 +81,23 @@ async function controlled(file: string): Promise<LocalPlace> {
   };
 }
 
+const NAMES = { anchor: ["lon", "lat", "height", "heading", "scale"], "anchor-at": ["x", "y", "z"] } as const;
+
 function numbers(option: "anchor" | "anchor-at", text: string, fewest: number, most: number): number[] {
-  const values = text.split(",").map((word) => (word.trim() === "" ? Number.NaN : Number(word)));
-  if (values.length >= fewest && values.length <= most && values.every(Number.isFinite)) return values;
-  throw wrong(option, `"${text}" is not what it has to be`);
+  const words = text.split(",").map((word) => word.trim());
+  const names = NAMES[option];
+  const bad = words.find((word) => word === "" || !Number.isFinite(Number(word)));
+  if (bad !== undefined) throw wrong(option, `"${bad}" is not a number`);
+  if (words.length < fewest) {
+    const missing = names.slice(words.length, fewest);
+    const are = missing.length === 1 ? "is" : "are";
+    throw wrong(option, `needs ${names.slice(0, fewest).join()}: ${missing.join(", ")} ${are} missing`);
+  }
+  if (words.length > most) {
+    const expected = fewest === most ? fewest : `${fewest} or ${most}`;
+    throw wrong(option, `expected ${expected} numbers, found ${words.length}; use a decimal point`);
+  }
+  return words.map(Number);
 }
 
 function wrong(option: "anchor" | "anchor-at", cause: string): OptionError {

@@ -13,14 +13,16 @@ import {
   similarityParts,
   type Truth,
   truthOf,
+  verticalSystems,
 } from "@groma/georef";
 import type { PointBounds } from "../core.js";
+import { epsgRows } from "../epsg.js";
 import type { Georeferenced } from "../georeference.js";
 import { egm96 } from "../proj/egm96.js";
 import { type EngineReport, UNKNOWN_HEIGHT_NOTE } from "../proj/report.js";
 import { type EngineChoice, type EngineSurroundings, engineTransformation } from "./engine.js";
 import { geoidsOf } from "./geoids.js";
-import { heightSystems } from "./height-systems.js";
+import { countriesOf } from "./whereabouts.js";
 
 /** Bound on the drawn position that the page keeps by default, metres. */
 export const TOLERANCE = 0.001;
@@ -47,7 +49,7 @@ const LONGEST_RECORD = 65535;
  * @throws CrsError, PlacementError, ProjError
  */
 export async function makeRecords(
-  { crs, local }: Georeferenced,
+  { crs, local, notes }: Georeferenced,
   { min, max }: PointBounds,
   scale: ArrayLike<number>,
   choice: EngineChoice,
@@ -67,7 +69,7 @@ export async function makeRecords(
   const bytes = encodeTransformation(transformation);
   const truth = truthOf({ crs, transformation: bytes }, (minZ + maxZ) / 2, surroundings.file);
   const guess = crs.height.kind === "unknown" ? await guessFor(crs, truth, domain) : undefined;
-  const operation = operationReport(report, guess);
+  const operation = operationReport(report, guess, notes);
   const accuracy = accuracyParts(crs, scale, TOLERANCE + report.fitBound, {
     ...{ operation, geoids: geoidsOf(truth), guess },
   });
@@ -99,7 +101,11 @@ function encoded(georeference: GeoreferenceRecord): GeoreferenceRecords {
 }
 
 /** What the record keeps of an engine's report. */
-function operationReport(report: EngineReport, guess: string | undefined): OperationReport {
+function operationReport(
+  report: EngineReport,
+  guess: string | undefined,
+  found: Georeferenced["notes"],
+): OperationReport {
   const passedOver = report.passedOver.map(
     ({ operation, why }) => `PROJ would have taken "${operation}", which cannot be followed: ${why}`,
   );
@@ -113,7 +119,7 @@ function operationReport(report: EngineReport, guess: string | undefined): Opera
     grids: report.grids,
     lacking: report.lacking.map(({ operation, accuracy, grids }) => ({ name: operation, accuracy, grids })),
     worstDifference: report.checkedPoints > 0 ? report.worstDifference : null,
-    notes: [...notes, ...passedOver],
+    notes: [...found.map(({ text }) => text), ...notes, ...passedOver],
   };
 }
 
@@ -128,5 +134,8 @@ async function guessFor(
   if (!ecef.every(Number.isFinite)) return undefined;
   const geodetic = new Float64Array(3);
   ecefToGeodetic(ecef[0], ecef[1], ecef[2], geodetic);
-  return guessHeight(await egm96(), heightSystems(), crs, geodetic[0], geodetic[1]).note;
+  const code = /^EPSG:(\d+)/.exec(crs.code ?? "")?.[1];
+  const countries = countriesOf(code === undefined ? undefined : Number(code));
+  const systems = verticalSystems(epsgRows());
+  return guessHeight(await egm96(), systems, crs, geodetic[0], geodetic[1], countries).note;
 }

@@ -69,6 +69,15 @@ describe.skipIf(!proj)(`projinfo itself${absent}`, () => {
     expect(operations.some(({ ballpark, accuracy }) => ballpark && accuracy === null)).toBe(true);
   });
 
+  it("names a German grid as PROJ-data does, whichever PROJ is asked", async () => {
+    const operations = await listOperations(proj!, { name: "DHHN2016", text: "EPSG:25832+7837" });
+    const missing = operations.flatMap(({ missingGrids }) => missingGrids);
+    const usable = operations.filter(({ missingGrids }) => missingGrids.length === 0);
+    const named = [...missing, ...usable.map(({ pipeline = "" }) => pipeline)].join(" ");
+    expect(named).toContain("de_bkg_gcg2016.tif");
+    expect(named).not.toContain("GCG2016.txt");
+  });
+
   it.each([
     ["a code of nothing", "EPSG:999999"],
     ["a file", "@/etc/passwd"],

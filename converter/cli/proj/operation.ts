@@ -1,5 +1,6 @@
 import { CrsError } from "@groma/georef";
 import type { Proj } from "./find.js";
+import { withCurrentNames } from "./grids/current-names.js";
 import { failed, run } from "./run.js";
 import { type CrsText, withArgument } from "./source.js";
 
@@ -67,7 +68,7 @@ export async function listOperations(
     if (outcome.status !== 0) throw unknownCrs(source, outcome.stderr);
     const operations = readOperations(outcome.stdout);
     if (!operations) throw failed(proj.projinfo, "its list of operations cannot be read");
-    return operations;
+    return Promise.all(operations.map((operation) => withCurrentNames(operation, proj.directories)));
   });
 }
 

@@ -21,6 +21,7 @@ import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
 import { egm96 } from "./egm96.js";
 import type { Proj } from "./find.js";
+import { howToGet } from "./grids/current-names.js";
 import { type DegreeBox, listOperations, type Operation } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
 import { OTHER_WAY } from "./refuse.js";
@@ -204,8 +205,9 @@ function noWay(crs: Crs, operations: readonly Operation[], blocked?: GromaError)
   const grids = [...new Set(operations.flatMap(({ missingGrids }) => missingGrids))].slice(0, LACKING_MAX);
   if (grids.length > 0) {
     const cause = blocked ? `${blocked.cause}, and the others lack` : "every operation to WGS 84 lacks";
-    const fix = "get the grids with projsync, or give their folder with --grids";
-    return new CrsError({ code, file, cause: `${cause} a grid (${grids.join(", ")})`, fix });
+    return new CrsError({
+      ...{ code, file, cause: `${cause} a grid (${grids.join(", ")})`, fix: howToGet(grids) },
+    });
   }
   const cause = blocked
     ? `${blocked.cause}, and no other operation leads to WGS 84 without leaving a datum shift out`

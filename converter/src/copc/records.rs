@@ -2,8 +2,8 @@
 
 use crate::scan::Scan;
 use crate::scan::variable_record::{
-    COPC, EXTRA_BYTES, GROMA, GROMA_GEOREFERENCE, GROMA_STATISTICS, GROMA_TRANSFORMATION, PROJECTION,
-    SPECIFICATION, VariableRecord, WKT,
+    COPC, EXTRA_BYTES, GEOTIFF_ASCII, GEOTIFF_DIRECTORY, GEOTIFF_DOUBLES, GROMA, GROMA_GEOREFERENCE,
+    GROMA_STATISTICS, GROMA_TRANSFORMATION, PROJECTION, SPECIFICATION, VariableRecord, WKT,
 };
 use laz::LazVlr;
 
@@ -64,10 +64,18 @@ pub fn collect(scan: &Scan, laz: &LazVlr, additions: &Additions) -> std::io::Res
     }
 
     let (long, mut plain): (Vec<_>, Vec<_>) = front.into_iter().partition(VariableRecord::needs_extension);
-    plain.extend(scan.vlrs.iter().filter(|r| is_carried(r)).cloned());
     let mut extended = long;
-    extended.extend(scan.evlrs.iter().filter(|r| is_carried(r)).cloned());
+    let has_wkt = plain.iter().chain(&extended).any(|record| record.is(PROJECTION, WKT));
+    let is_kept = |record: &&VariableRecord| is_carried(record) && !(has_wkt && is_geotiff(record));
+    plain.extend(scan.vlrs.iter().filter(is_kept).cloned());
+    extended.extend(scan.evlrs.iter().filter(is_kept).cloned());
     Ok(Records { plain, extended })
+}
+
+/// Beside WKT these would say the same a second time, or something else; the output's point formats require WKT
+/// (LAS 1.4 R15, 2.6).
+fn is_geotiff(record: &VariableRecord) -> bool {
+    [GEOTIFF_DIRECTORY, GEOTIFF_DOUBLES, GEOTIFF_ASCII].iter().any(|id| record.is(PROJECTION, *id))
 }
 
 fn is_carried(record: &VariableRecord) -> bool {

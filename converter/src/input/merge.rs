@@ -15,7 +15,6 @@ const NAMED: usize = 3;
 
 /// Prepares all inputs for the first one's record form, scale and offset, or refuses: `INPUT_MIXED`.
 pub fn unify(sources: &mut [Source]) -> Result<()> {
-    check_systems(sources)?;
     let Some((first, others)) = sources.split_first_mut() else { return Ok(()) };
     for other in others {
         if let Some(difference) = difference(first, other) {
@@ -34,8 +33,9 @@ pub fn unify(sources: &mut [Source]) -> Result<()> {
     Ok(())
 }
 
-/// Refuses inputs of several coordinate reference systems, naming all of these and who has them.
-fn check_systems(sources: &[Source]) -> Result<()> {
+/// Refuses inputs that declare several coordinate reference systems, naming all of these and who has them. Here
+/// declarations are compared as they are spelled; who knows that they mean one system gives it as WKT.
+pub fn check_systems(sources: &[Source]) -> Result<()> {
     let mut systems: Vec<(System, Vec<&Source>)> = Vec::new();
     for source in sources {
         let system = System { wkt: source.scan.wkt(), geo_tiff: geo_tiff(&source.scan) };

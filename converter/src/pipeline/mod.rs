@@ -105,6 +105,9 @@ impl<'a> Pipeline<'a, Scanned> {
             }
             warn(source, progress);
         }
+        if options.wkt.is_none() {
+            merge::check_systems(&sources)?;
+        }
         merge::unify(&mut sources)?;
         let inputs = inputs(sources)?;
         let budget = Budget::new(options.memory);

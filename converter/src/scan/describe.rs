@@ -11,6 +11,9 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use serde_json::Value;
 
+/// Bit 4 of the global encoding (LAS 1.4 R15, table 4).
+const WKT_BIT: u16 = 1 << 4;
+
 /// Bytes; a transformation with EGM96 for the whole earth takes two megabytes. A longer record is none.
 const LONGEST_TRANSFORMATION: usize = 1 << 24;
 
@@ -34,6 +37,8 @@ pub struct Description {
     /// ISO date, or `null` where the header's day and year are no date.
     creation: Option<String>,
     extra_bytes: Vec<ExtraBytes>,
+    /// Whether the header says that the coordinate reference system is declared as WKT, not as GeoTIFF keys.
+    wkt_bit: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     wkt: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -91,6 +96,8 @@ impl Scan {
             generating_software: text(&h.generating_software),
             creation: date(h.file_creation_year, h.file_creation_day_of_year),
             extra_bytes: self.extra_bytes.attributes.clone(),
+            // Versions 1.0 and 1.1 have no global encoding; 1.2 and 1.3 leave the bit clear.
+            wkt_bit: h.version.minor >= 2 && h.global_encoding & WKT_BIT != 0,
             wkt: self.wkt(),
             geo_tiff: self.geo_tiff(),
             groma: self.groma(),

@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, Las, cloud, records, sorted};
 use groma_core::scan::Scan;
-use groma_core::scan::variable_record::{PROJECTION, SPECIFICATION, VariableRecord, WKT};
+use groma_core::scan::variable_record::{GEOTIFF_DIRECTORY, PROJECTION, SPECIFICATION, VariableRecord, WKT};
 
 /// Converts one file and compares the multisets of records; returns the number of nodes.
 fn round_trip(bench: &Bench, bytes: &[u8]) -> u64 {
@@ -98,6 +98,7 @@ fn records_are_carried_over_or_replaced() {
     let note = VariableRecord::new("somebody", 7, "a note", vec![1, 2, 3]);
     las.vlrs = vec![
         note.clone(),
+        VariableRecord::new(PROJECTION, GEOTIFF_DIRECTORY, "", vec![1, 0, 1, 0, 0, 0, 0, 0]),
         VariableRecord::new(PROJECTION, WKT, "", b"OLD[]\0".to_vec()),
         VariableRecord::new(SPECIFICATION, 100, "waveform packet descriptor", vec![0; 26]),
         VariableRecord::new("copc", 1, "", vec![0; 160]),
@@ -129,6 +130,15 @@ fn records_are_carried_over_or_replaced() {
     let scan = Scan::read(&bench.path("replaced.copc.laz")).unwrap();
     assert_eq!(scan.wkt().as_deref(), Some("NEW[]"));
     assert!(scan.record("groma", 1).is_none());
+
+    las.vlrs.retain(|record| !record.is(PROJECTION, WKT));
+    bench.put("keys.las", &las.las());
+    bench.convert(&["keys.las", "keys.copc.laz"]);
+    let keys = Scan::read(&bench.path("keys.copc.laz")).unwrap();
+    assert!(keys.record(PROJECTION, GEOTIFF_DIRECTORY).is_some());
+    bench.convert(&["keys.las", "text.copc.laz", "--wkt", "new.wkt"]);
+    let text = Scan::read(&bench.path("text.copc.laz")).unwrap();
+    assert!(text.record(PROJECTION, GEOTIFF_DIRECTORY).is_none());
 }
 
 #[test]
@@ -145,6 +155,9 @@ fn scan_prints_one_object() {
     assert_eq!(scan["groma"]["1"], "AP8H");
     assert_eq!(scan["groma"]["2"]["points"], 20);
     assert_eq!(scan["warnings"], serde_json::json!([]));
+    assert_eq!(scan["wktBit"], true);
+    let (_, lines) = bench.run(&["scan", "in.las"]);
+    assert_eq!(lines[0]["wktBit"], false);
 }
 
 #[test]

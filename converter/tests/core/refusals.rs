@@ -139,6 +139,8 @@ fn inputs_that_do_not_fit_together() {
     let (_, lines) = bench.run(&["convert", "a.las", "crs.las", "b.las", "out.copc.laz"]);
     let cause = lines.last().unwrap()["cause"].as_str().unwrap();
     assert!(cause.contains("none declared (a.las, b.las); OTHER[] (crs.las)"), "{cause}");
+    bench.put("crs.wkt", b"SETTLED[]");
+    bench.convert(&["a.las", "crs.las", "b.las", "settled.copc.laz", "--wkt", "crs.wkt"]);
     bench.put("format.las", &Las::at(1, 0, &[[0; 3]]).las());
     assert_eq!(bench.refused(&["a.las", "format.las", "out.copc.laz"]), "INPUT_MIXED");
     bench.put("extra.las", &Las::at(3, 2, &[[0; 3]]).las());

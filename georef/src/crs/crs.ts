@@ -64,6 +64,30 @@ export interface CrsSources {
   /** The WKT VLR of the file. */
   readonly wkt?: string | undefined;
   readonly geoTiff?: GeoTiffKeys | undefined;
+  /** What the header of a LAS file says of which of the two is in force; without it the WKT is. */
+  readonly las?: LasDeclaration | undefined;
+  /** Heights of an earlier conversion, which a given CRS without any keeps. */
+  readonly recordedHeights?: Pick<Crs, "height" | "verticalUnit"> | undefined;
+}
+
+/** Point data record format, and bit 4 of the global encoding ("WKT"; LAS 1.4 R15, 2.4). */
+export interface LasDeclaration {
+  readonly pointFormat: number;
+  readonly wktBit: boolean;
+}
+
+/** What a user has to know of how a CRS was found. */
+export interface CrsNote {
+  /** CRS_CONTRADICTION, CRS_OTHER_FORM, CRS_HEIGHTS_FROM_OTHER_FORM, CRS_HEIGHTS_KEPT. */
+  readonly code: string;
+  readonly text: string;
+}
+
+/** A CRS, where it comes from, and what has to be known of that. */
+export interface ResolvedCrs {
+  readonly crs: Crs;
+  readonly basis: "given" | "WKT" | "GeoTIFF keys";
+  readonly notes: readonly CrsNote[];
 }
 
 /** One row of an EPSG table: PROJ string or WKT, and the kind (`CRS-PROJCRS`, `CRS-VERTCRS` …). */
@@ -72,6 +96,10 @@ export interface EpsgEntry {
   readonly proj4?: string | undefined;
   readonly wkt?: string | undefined;
   readonly kind: string;
+  /** North, west, south, east in degrees: the rectangle around its area of use. */
+  readonly bbox?: readonly number[] | undefined;
+  /** Its area of use in words. */
+  readonly area?: string | undefined;
 }
 
 /** Looks an EPSG code up in a table that the caller brings (this package carries none). */

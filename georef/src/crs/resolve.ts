@@ -1,7 +1,6 @@
-import type { CrsError } from "../errors/errors.js";
-import type { Crs, CrsSources, EpsgLookup } from "./crs.js";
+import type { Crs, CrsSources, EpsgLookup, ResolvedCrs } from "./crs.js";
+import { heightsOf, inWords, readDeclared, withHeights } from "./declared.js";
 import { epsgCodes, readEpsg, readEpsgVertical } from "./epsg.js";
-import { readGeoTiff } from "./geotiff.js";
 import type { CrsModel, VerticalModel } from "./model.js";
 import { normalise } from "./normalise.js";
 import { readProjString } from "./proj-string.js";
@@ -10,24 +9,33 @@ import { Refusal, unknown } from "./refusal.js";
 import { excerpt, parseWkt } from "./tree.js";
 import { readWkt } from "./wkt.js";
 
+/** As {@link resolveWithNotes}, the CRS alone. */
+export function resolveCrs(sources: CrsSources, lookup?: EpsgLookup): Crs {
+  return resolveWithNotes(sources, lookup).crs;
+}
+
 /**
- * The coordinate reference system of a file: what the user gives, else its WKT, else its GeoTIFF keys.
- * A height reference given by the user replaces the one of the file; the unit of z then is that of the given one.
+ * The coordinate reference system of a file: what the user gives, else what the file declares.
+ * A height reference given by the user replaces the one of the file; the unit of z then is that of the given one. A
+ * given CRS that says nothing of heights leaves those of the file in force.
  *
  * @param lookup table of EPSG codes; without one, codes are refused as unknown
  * @throws CrsError CRS_MISSING (no source says anything), CRS_UNKNOWN (not understood), CRS_UNSUPPORTED (understood,
  *   but not done here: grids, depths, other axes, other projections)
  */
-export function resolveCrs(sources: CrsSources, lookup?: EpsgLookup): Crs {
+export function resolveWithNotes(sources: CrsSources, lookup?: EpsgLookup): ResolvedCrs {
   try {
     const wkt = textOf(sources.wkt);
     const given = textOf(sources.given);
-    const file = read(sources, given, wkt, lookup);
-    const model = withVertical(file, textOf(sources.givenVertical), lookup);
-    const source = given === undefined ? wkt : isWkt(given) ? given : undefined;
-    return source === undefined ? normalise(model, lookup) : { ...normalise(model, lookup), wkt: source };
+    const vertical = textOf(sources.givenVertical);
+    const own = { ...sources, wkt };
+    const { model, basis, notes } =
+      given === undefined ? fromFile(own, lookup) : fromUser(given, own, vertical === undefined, lookup);
+    const text = basis === "given" ? given : basis === "WKT" ? wkt : undefined;
+    const crs = normalise(withVertical(model, vertical, lookup), lookup);
+    return { crs: text !== undefined && isWkt(text) ? { ...crs, wkt: text } : crs, basis, notes };
   } catch (error) {
-    if (error instanceof Refusal) throw named(error, sources);
+    if (error instanceof Refusal) throw error.toError(sources.file);
     throw error;
   }
 }
@@ -38,21 +46,45 @@ function textOf(text: string | undefined): string | undefined {
   return trimmed === "" ? undefined : trimmed;
 }
 
-function named(refusal: Refusal, sources: CrsSources): CrsError {
-  return refusal.toError(sources.file);
+type Found = Omit<ResolvedCrs, "crs"> & { readonly model: CrsModel };
+
+function fromFile(sources: CrsSources, lookup: EpsgLookup | undefined): Found {
+  const declared = readDeclared(sources, lookup);
+  if (declared) return { ...declared, basis: declared.form };
+  throw new Refusal("CRS_MISSING", "it does not say which coordinate reference system it is in");
 }
 
-function read(
+/** @param keepHeights whether a CRS that names no heights has those of the file */
+function fromUser(
+  given: string,
   sources: CrsSources,
-  given: string | undefined,
-  wkt: string | undefined,
+  keepHeights: boolean,
   lookup: EpsgLookup | undefined,
-): CrsModel {
-  if (given !== undefined) return readText(given, lookup);
-  if (wkt !== undefined) return readWkt(parseWkt(wkt));
-  const keys = sources.geoTiff && readGeoTiff(sources.geoTiff, lookup);
-  if (keys) return keys;
-  throw new Refusal("CRS_MISSING", "it does not say which coordinate reference system it is in");
+): Found {
+  const model = readText(given, lookup);
+  const kept = keepHeights && !heightsOf(model) ? heightsOfFile(sources, lookup) : undefined;
+  if (!kept) return { model, basis: "given", notes: [] };
+  const text = `${inWords(kept)} is kept from the file: the coordinate reference system given names no heights`;
+  return { model: withHeights(model, kept), basis: "given", notes: [{ code: "CRS_HEIGHTS_KEPT", text }] };
+}
+
+/** The heights that a file declares, whatever it says of the plane. */
+function heightsOfFile(sources: CrsSources, lookup: EpsgLookup | undefined): VerticalModel | undefined {
+  const { recordedHeights: recorded } = sources;
+  if (recorded && recorded.height.kind !== "unknown") {
+    const { height, verticalUnit } = recorded;
+    const unit = verticalUnit.declared ? verticalUnit : undefined;
+    const name = height.kind === "geoid" ? height.model : "ellipsoidal height";
+    return { name, code: height.kind === "geoid" ? height.epsg : undefined, unit, reference: height.kind };
+  }
+  try {
+    const declared = readDeclared(sources, lookup);
+    return declared && heightsOf(declared.model);
+  } catch (error) {
+    // A CRS is given because that of the file cannot be used.
+    if (error instanceof Refusal) return undefined;
+    throw error;
+  }
 }
 
 function isWkt(text: string): boolean {
@@ -72,8 +104,7 @@ function readText(text: string, lookup: EpsgLookup | undefined): CrsModel {
 
 function withVertical(model: CrsModel, given: string | undefined, lookup: EpsgLookup | undefined): CrsModel {
   if (given === undefined) return model;
-  const vertical = readVerticalText(given, model, lookup);
-  return { ...model, name: `${model.horizontal.name} + ${vertical.name}`, code: undefined, vertical };
+  return withHeights(model, readVerticalText(given, model, lookup));
 }
 
 function readVerticalText(text: string, model: CrsModel, lookup: EpsgLookup | undefined): VerticalModel {

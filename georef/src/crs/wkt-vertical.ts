@@ -30,6 +30,11 @@ export function readVertical(node: WktNode, grid?: string): VerticalModel {
     name: grid ?? (extension ? text(extension, 2) : name),
     code: epsgCode(node),
     unit: unit && unitOf(text(unit, 1), "linear", number(unit, 2)),
-    reference: ellipsoidal ? "ellipsoidal" : "geoid",
+    reference: ellipsoidal ? "ellipsoidal" : isUnknown(datum) ? "unknown" : "geoid",
   };
+}
+
+/** A datum that says that nobody knows it: GDAL's way to write a unit of heights alone. */
+function isUnknown(datum: WktNode | undefined): boolean {
+  return datum !== undefined && /^(unknown|not specified)\b/i.test(text(datum, 1));
 }

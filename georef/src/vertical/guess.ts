@@ -20,6 +20,7 @@ export interface HeightGuess {
  *
  * @param systems table of vertical systems
  * @param longitude radians, as `latitude`
+ * @param countries that the horizontal system is meant for, where they are known
  */
 export function guessHeight(
   egm96: Grid,
@@ -27,6 +28,7 @@ export function guessHeight(
   { code, verticalUnit }: Pick<Crs, "code" | "verticalUnit">,
   longitude: number,
   latitude: number,
+  countries?: readonly string[],
 ): HeightGuess {
   const undulation = egm96Undulation(egm96, longitude, latitude);
   const likely = likelySystems(systems, {
@@ -34,6 +36,7 @@ export function guessHeight(
     latitude: latitude / DEGREE,
     horizontal: Number(/^EPSG:(\d+)/.exec(code ?? "")?.[1] ?? Number.NaN),
     unit: verticalUnit.size,
+    countries,
   });
   const [first] = likely;
   const such = first ? `, such as ${first.name} (EPSG:${first.code})` : "";

@@ -6,6 +6,7 @@ import {
   egm96Grid,
   encodeRecord,
   type GeoreferenceRecord,
+  packEpsg,
   placePoint,
   resolveCrs,
   type VerticalSystem,
@@ -62,7 +63,7 @@ const SIMILARITY = {
 const GLOBAL_UNDULATION = 45.25;
 const system = (code: number, name: string, size = 1, depth = false): VerticalSystem => ({
   ...{ code, name, depth, unit: { name: size === 1 ? "metre" : "foot", size } },
-  ...{ area: [-180, -90, 180, 90], partners: [] },
+  ...{ area: [-180, -90, 180, 90], partners: [], countries: [] },
 });
 const heightData: HeightData = {
   systems: async () => [
@@ -325,5 +326,72 @@ describe("georeferenceOf a file that was placed as a body", () => {
   it("RECORD_FIELD where the record has no similarity", async () => {
     const { similarity: _, ...rest } = body;
     await expect(open(withRecords(rest))).rejects.toThrow(expect.objectContaining({ code: "RECORD_FIELD" }));
+  });
+});
+
+describe("georeferenceOf a file that names codes", () => {
+  const METRE = 'UNIT["metre",1],AXIS["E",EAST],AXIS["N",NORTH]';
+  const BASE =
+    'GEOGCS["ETRS89",DATUM["European_Terrestrial_Reference_System_1989",SPHEROID["GRS 1980",6378137,298.257222101],AUTHORITY["EPSG","6258"]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433],AUTHORITY["EPSG","4258"]]';
+  const parameters = (meridian: number) =>
+    `PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",${meridian}],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0]`;
+  const utm = (zone: number) =>
+    `PROJCS["ETRS89 / UTM zone ${zone}N",${BASE},PROJECTION["Transverse_Mercator"],${parameters(6 * zone - 183)},${METRE},AUTHORITY["EPSG","${25800 + zone}"]]`;
+  const row = (zone: number) => ({
+    ...{ code: 25800 + zone, kind: "CRS-PROJCRS", name: `ETRS89 / UTM zone ${zone}N`, wkt: utm(zone) },
+  });
+  const epsgTable = async () => packEpsg([row(32), row(33)]);
+  const keys = (...pairs: (readonly [number, number])[]) => {
+    const words = [1, 1, 0, pairs.length, ...pairs.flatMap(([key, value]) => [key, 0, 1, value])];
+    return ["LASF_Projection", 34735, new Uint8Array(Uint16Array.from(words).buffer)] as const;
+  };
+  const text = (wkt: string) => ["LASF_Projection", 2112, new TextEncoder().encode(wkt)] as const;
+
+  it("looks them up in the table beside the library: GeoTIFF keys, and the option crs", async () => {
+    const byKeys = await open({ records: [keys([1024, 1], [3072, 25832])] }, { epsgTable });
+    expect(byKeys).toMatchObject({ basis: "file", crs: { code: "EPSG:25832" } });
+    const byOption = await open({}, { crs: "EPSG:25832+5728", epsgTable });
+    expect(byOption).toMatchObject({ basis: "given", crs: { height: { epsg: 5728 } } });
+    const whole = resolveCrs({ file: "a", wkt: utm(32) });
+    expect(byKeys.crs.proj4).toBe(whole.proj4);
+  });
+
+  it("does not fetch it where no code is asked for, nor where the application has it", async () => {
+    const never = () => Promise.reject(new Error("not to be asked for"));
+    await open({ records: [text(utm(32))] }, { epsgTable: never });
+    await open(
+      {},
+      { crs: "EPSG:25832", epsg: (code) => (code === 25832 ? row(32) : undefined), epsgTable: never },
+    );
+  });
+
+  it("says that the table cannot be had where nothing else places the file", async () => {
+    const gone = { code: "SOURCE_EPSG", file: "epsg.json", cause: "it cannot be had", fix: "Look" };
+    const epsgTable = () => Promise.reject(new SourceError(gone));
+    await expect(open({ records: [keys([3072, 25832])] }, { epsgTable })).rejects.toMatchObject({
+      code: "SOURCE_EPSG",
+    });
+    const both = await open({ records: [text(utm(32)), keys([3072, 25832])] }, { epsgTable });
+    expect([both.crs.code, datumNote(both)]).toEqual([
+      "EPSG:25832",
+      expect.stringMatching(/codes would tell .* it cannot be had/),
+    ]);
+  });
+
+  it("takes WKT before keys that contradict it, heights of keys where the WKT has none, and tells both", async () => {
+    const apart = await open({ records: [text(utm(32)), keys([3072, 25833])] }, { epsgTable });
+    expect([apart.crs.code, datumNote(apart)]).toEqual([
+      "EPSG:25832",
+      expect.stringMatching(/contradict each other; the WKT is used/),
+    ]);
+    const heights = keys([3072, 25832], [4096, 8228], [4099, 9002]);
+    const feet = await open({ records: [text(utm(32)), heights] }, { epsgTable });
+    expect(feet.crs).toMatchObject({ height: { epsg: 8228 }, verticalUnit: { size: 0.3048 } });
+    expect(datumNote(feet)).toMatch(/Foot height .*is taken from the GeoTIFF keys/);
+  });
+
+  it("keeps declared heights under a given plane", async () => {
+    const georeference = await open(withRecords(record), { crs: "EPSG:25832", epsgTable });
+    expect(georeference.crs).toMatchObject({ code: "EPSG:25832+9999", height: { epsg: 9999 } });
   });
 });

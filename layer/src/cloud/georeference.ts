@@ -2,6 +2,7 @@ import {
   type AccuracyPart,
   accuracyParts,
   type Crs,
+  type CrsNote,
   decodeRecord,
   decodeTransformation,
   ENGINE,
@@ -10,25 +11,20 @@ import {
   type GeoreferenceRecord,
   GromaError,
   type OperationReport,
+  type PackedEpsg,
   PlacementError,
   RecordError,
-  resolveCrs,
   type StatedAccuracy,
+  sameHeights,
   statedAccuracy,
   type Truth,
   type TruthSources,
   truthOf,
 } from "@groma/georef";
 import type { PointSource } from "../sources/point-source.js";
+import { declaredCrs, packagedEpsg } from "./declared-crs.js";
 import { type HeightData, packagedHeights } from "./height-data.js";
-import {
-  crsWithHeights,
-  derivedByEgm96,
-  lookupFor,
-  operationRegiven,
-  regiven,
-  sameHeights,
-} from "./heights.js";
+import { crsWithHeights, derivedByEgm96, lookupFor, operationRegiven, regiven } from "./heights.js";
 
 /** What an application says about a data set's coordinates; it goes before what the file says. */
 export interface GeoreferenceOptions {
@@ -40,8 +36,10 @@ export interface GeoreferenceOptions {
    * worth; in plane the conversion's way stays.
    */
   readonly vertical?: string | undefined;
-  /** Table of EPSG codes, where `crs` names one. Vertical codes need none. Default: none. */
+  /** Table of EPSG codes that goes before the one beside this library. Default: none. */
   readonly epsg?: EpsgLookup | undefined;
+  /** Where the table of EPSG codes comes from. Default: the file beside this library, fetched when needed. */
+  readonly epsgTable?: (() => Promise<PackedEpsg>) | undefined;
   /** Where height systems and the geoid come from. Default: the files beside this library, fetched when needed. */
   readonly heightData?: HeightData | undefined;
   /** Greatest distance of a drawn point from its exact place, metres. Default: 0.001. */
@@ -76,7 +74,7 @@ const LOST = "the transformation of the conversion is no longer in the file; der
  * Settles the coordinate system of a data set.
  * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED
  * @throws RecordError where the file's georeference record or its transformation is damaged
- * @throws SourceError SOURCE_HEIGHTS where a height reference is given that needs data which cannot be had
+ * @throws SourceError SOURCE_HEIGHTS, SOURCE_EPSG where a height reference or a code needs data which cannot be had
  */
 export async function georeferenceOf(
   source: PointSource,
@@ -86,7 +84,7 @@ export async function georeferenceOf(
   const record = declared.georeference && decodeRecord(declared.georeference, file);
   const { crs: named, vertical, heightData = packagedHeights } = options;
   if (record && named === undefined && vertical === undefined) return recorded(record, source, options);
-  const { wkt, geoTiff } = declared;
+  const { wkt, geoTiff, las } = declared;
   const epsg =
     vertical === undefined ? options.epsg : await lookupFor(vertical, file, options.epsg, heightData);
   if (record && named === undefined && vertical !== undefined) {
@@ -96,11 +94,14 @@ export async function georeferenceOf(
     if (transformation) return withOtherHeights(record, transformation, crs, source, options);
     return fromCrs(crs, source, options);
   }
-  return fromCrs(
-    resolveCrs({ file, given: named, givenVertical: vertical, wkt, geoTiff }, epsg),
-    source,
-    options,
+  const { crs, notes } = await declaredCrs(
+    {
+      ...{ file, given: named, givenVertical: vertical, wkt, geoTiff, las },
+      recordedHeights: record?.similarity ? undefined : record?.crs,
+    },
+    { epsg, epsgTable: options.epsgTable ?? packagedEpsg, heightData },
   );
+  return fromCrs(crs, source, options, notes);
 }
 
 /** As the conversion settled it in plane, with the heights that the application gives. */
@@ -129,7 +130,12 @@ const UNSTATED = { name: "not stated", accuracy: null, ballpark: false };
 const GIVEN = "given by the user";
 
 /** By proj4js in the page, heights above a geoid by EGM96. */
-async function fromCrs(crs: Crs, source: PointSource, options: GeoreferenceOptions): Promise<Georeference> {
+async function fromCrs(
+  crs: Crs,
+  source: PointSource,
+  options: GeoreferenceOptions,
+  notes: readonly CrsNote[] = [],
+): Promise<Georeference> {
   const { crs: named, vertical, tolerance = 0.001 } = options;
   const given = named !== undefined || vertical !== undefined;
   const overruled = source.crs.georeference && source.crs.transformation;
@@ -145,7 +151,8 @@ async function fromCrs(crs: Crs, source: PointSource, options: GeoreferenceOptio
     geoids: map.geoids,
   };
   const parts = accuracyParts(crs, source.scale, greatestBound(map.truth, source, tolerance), placing);
-  const told = remarked(parts, "datum operation", overruled ? `${whose}; ${OVERRULED}` : whose);
+  const remarks = [whose, ...notes.map(({ text }) => text), ...(overruled ? [OVERRULED] : [])];
+  const told = remarked(parts, "datum operation", remarks.join("; "));
   return {
     ...map,
     ...{ crs, basis: given ? "given" : "file", engine: ENGINE, operation: undefined, tolerance },

@@ -81,13 +81,6 @@ export function crsWithHeights(
   };
 }
 
-/** Whether two systems measure heights from the same zero, in the same unit. */
-export function sameHeights(a: Crs, b: Crs): boolean {
-  if (a.verticalUnit.size !== b.verticalUnit.size) return false;
-  if (a.height.kind !== "geoid" || b.height.kind !== "geoid") return a.height.kind === b.height.kind;
-  return a.height.epsg !== undefined && a.height.epsg === b.height.epsg;
-}
-
 /**
  * The way of a conversion in plane, with the heights of another reference: above a geoid by EGM96, else as they are.
  *

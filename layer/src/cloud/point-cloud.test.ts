@@ -124,7 +124,7 @@ describe("PointCloud", () => {
 
   it("lets the application overrule it, and says so", async () => {
     const { cloud } = await open(withRecord, { crs: UTM, tolerance: 0.01 });
-    expect([cloud.basis, cloud.height.kind, cloud.accuracy.total]).toEqual(["given", "unknown", null]);
+    expect([cloud.basis, cloud.height.kind, cloud.accuracy.total]).toEqual(["given", "ellipsoidal", null]);
     const fit = cloud.accuracy.parts.find((part) => part.name === "fit");
     const datum = cloud.accuracy.parts.find((part) => part.name === "datum operation");
     expect([fit?.metres, datum?.note]).toEqual([0.01, expect.stringContaining("given by the user")]);

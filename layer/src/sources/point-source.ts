@@ -1,4 +1,4 @@
-import type { GeoTiffKeys } from "@groma/georef";
+import type { GeoTiffKeys, LasDeclaration } from "@groma/georef";
 import { FormatError } from "../errors/index.js";
 import type { ReadOptions } from "./bytes/byte-source.js";
 import type { PointAttribute } from "./point-attribute.js";
@@ -71,6 +71,8 @@ export interface CrsDeclaration {
   /** OGC WKT, or whatever else `resolveCrs` understands in its place. */
   readonly wkt?: string;
   readonly geoTiff?: GeoTiffKeys;
+  /** What the header of a LAS file says of which of the two is in force. */
+  readonly las?: LasDeclaration;
   /** Raw bytes of Groma's georeference record. */
   readonly georeference?: Uint8Array;
   /** Raw bytes of the transformation that goes with that record, in a buffer of their own. */

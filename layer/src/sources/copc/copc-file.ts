@@ -89,7 +89,7 @@ type Records = Pick<CopcFile, "crs" | "statistics" | "extraBytes">;
 
 async function readRecords(
   source: ByteSource,
-  { pointFormat, recordLength }: LasHeader,
+  { pointFormat, recordLength, wktBit }: LasHeader,
   entries: readonly VlrEntry[],
   options: ReadOptions,
 ): Promise<Records> {
@@ -102,6 +102,7 @@ async function readRecords(
   const extraBytes = await content("LASF_Spec", 4);
   return {
     crs: {
+      las: { pointFormat, wktBit },
       // LAS allows WKT to end with NULs.
       ...(wkt && {
         wkt: new TextDecoder()
@@ -128,6 +129,7 @@ function geoTiffKeys(directory: Uint8Array, doubles?: Uint8Array, ascii?: Uint8A
   return {
     directory: new Uint16Array(whole(directory, 2)),
     doubles: doubles ? new Float64Array(whole(doubles, 8)) : new Float64Array(0),
-    ascii: ascii ? new TextDecoder().decode(ascii) : "",
+    // The keys address characters by their byte.
+    ascii: ascii ? new TextDecoder("latin1").decode(ascii) : "",
   };
 }

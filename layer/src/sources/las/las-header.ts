@@ -7,6 +7,8 @@ const LAS_HEADER_LENGTH = 375;
 export interface LasHeader {
   readonly systemIdentifier: string;
   readonly generatingSoftware: string;
+  /** Bit 4 of the global encoding: the coordinate reference system is declared as WKT (LAS 1.4 R15, 2.4). */
+  readonly wktBit: boolean;
   /** Offset of the first point data, in bytes from the file's start. */
   readonly pointsOffset: number;
   readonly vlrCount: number;
@@ -50,6 +52,7 @@ export function parseLasHeader(bytes: Uint8Array, file: string): LasHeader {
     throw notCopc(file, `its point format is ${formatByte}; COPC has compressed format 6, 7 or 8`);
   }
   const header: LasHeader = {
+    wktBit: (view.getUint16(6, true) & 0x10) !== 0,
     systemIdentifier: readText(bytes, 26, 32),
     generatingSoftware: readText(bytes, 58, 32),
     pointsOffset: view.getUint32(96, true),

@@ -1,0 +1,64 @@
+import { describe, expect, it } from "vitest";
+import { epsg } from "./epsg.js";
+import { commonGeoreference, georeference, type Named } from "./georeference.js";
+
+const tile = (file: string, more: Partial<Named> = {}): Named => ({
+  ...{
+    file,
+    pointFormat: 6,
+    wktBit: true,
+    wkt: epsg(28992)!.wkt!,
+    min: [155000, 463000, 0],
+    max: [155100, 463100, 9],
+  },
+  ...more,
+});
+
+describe("--vertical in words", () => {
+  const fixFor = (vertical: string, scan = tile("scan.las")) =>
+    georeference(scan, { vertical }).then(
+      () => "accepted",
+      ({ code, fix }: { code: string; fix: string }) => `${code} ${fix}`,
+    );
+
+  it("is answered with the system of that name", async () => {
+    expect(await fixFor("NAP")).toBe(
+      "CRS_UNKNOWN give its EPSG code: EPSG:5709 (NAP height); or ellipsoidal",
+    );
+  });
+
+  it("is answered with those in use there, where no name is like it", async () => {
+    expect(await fixFor("sea level")).toMatch(
+      /^CRS_UNKNOWN give an EPSG code, of those in use there: EPSG:5709 /,
+    );
+  });
+
+  it("is answered without a place too", async () => {
+    const { min: _min, max: _max, ...unplaced } = tile("scan.las");
+    expect(await fixFor("DHHN2016", unplaced)).toMatch(/EPSG:7837/);
+    expect(await fixFor("sea level", unplaced)).toMatch(/such as EPSG:5728/);
+  });
+});
+
+describe("several inputs", () => {
+  const utm = (zone: number) => ({ wkt: epsg(25800 + zone)!.wkt! });
+
+  it("tell what is strange of some, with their names; of all, without", async () => {
+    const geoTiff = { directory: [1, 1, 0, 1, 3072, 0, 1, 25833], doubles: [], ascii: "" };
+    const odd = (file: string) => tile(file, { ...utm(32), geoTiff });
+    const some = await commonGeoreference([tile("a.las", utm(32)), odd("b.las"), odd("c.las")], {});
+    expect(some.notes.map(({ text }) => text)).toEqual([
+      expect.stringMatching(/^b\.las, c\.las: the WKT \(/),
+    ]);
+    const all = await commonGeoreference([odd("b.las"), odd("c.las")], {});
+    expect(all.notes.map(({ text }) => text)).toEqual([expect.stringMatching(/^the WKT \(/)]);
+  });
+
+  it("of many, name a few", async () => {
+    const scans = ["a", "b", "c", "d", "e"].map((file) => tile(file, utm(32)));
+    await expect(commonGeoreference([...scans, tile("f", utm(33))], {})).rejects.toMatchObject({
+      ...{ code: "CRS_MIXED", file: "f" },
+      cause: expect.stringMatching(/2 different systems: .*32N \(a, b, c, 2 more\); .*33N \(f\)/),
+    });
+  });
+});
