@@ -22,13 +22,21 @@ export {
   type RecordValue,
   type StreamLimits,
 } from "./cloud/index.js";
-export { DecodeError, FormatError, SourceError, StyleError } from "./errors/index.js";
+export { DecodeError, FormatError, type Outage, SourceError, StyleError } from "./errors/index.js";
 export { SharedBudget, type SharedBudgetOptions, type VoxelKey } from "./octree/index.js";
 export type {
+  Address,
+  AddressFunction,
   ByteSource,
   CloudStatistics,
+  ExpiringHeaders,
+  HeadersFunction,
+  HeaderValues,
   HttpOptions,
   ReadOptions,
+  RenewalContext,
+  RetryPolicy,
+  ServerWait,
   SourceBox,
   SourceLike,
 } from "./sources/index.js";

@@ -14,6 +14,13 @@ export interface Asked {
   answer(headers?: Record<string, string>, body?: Uint8Array): void;
 }
 
+/** One request as the server remembers it. */
+export interface Remembered {
+  /** `performance.now()` at which it came, and first byte that it asked for. */
+  readonly at: number;
+  readonly first: number;
+}
+
 /** What a server does with a request instead of answering it. */
 export type Misbehaviour = (asked: Asked) => void;
 
@@ -22,7 +29,8 @@ export class BadServer {
   readonly #server: Server;
   readonly #file: Uint8Array;
   misbehave: Misbehaviour | undefined;
-  requests = 0;
+  /** All requests so far. */
+  readonly log: Remembered[] = [];
 
   private constructor(file: Uint8Array, misbehave: Misbehaviour | undefined) {
     this.#file = file;
@@ -36,6 +44,11 @@ export class BadServer {
     return server;
   }
 
+  /** How many requests came so far. */
+  get requests(): number {
+    return this.log.length;
+  }
+
   get url(): string {
     return `http://127.0.0.1:${(this.#server.address() as AddressInfo).port}/scan.copc.laz`;
   }
@@ -46,11 +59,11 @@ export class BadServer {
   }
 
   #handle(request: IncomingMessage, response: ServerResponse): void {
-    this.requests++;
+    const [, from, to] = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "") ?? [];
+    this.log.push({ at: performance.now(), first: Number(from) });
     // Pages of another origin may read every answer, the bad ones too.
     response.setHeader("Access-Control-Allow-Origin", "*");
     response.setHeader("Access-Control-Expose-Headers", "Content-Range, Content-Length, ETag, Accept-Ranges");
-    const [, from, to] = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "") ?? [];
     if (from === undefined) {
       response.writeHead(400).end("a client that asks without a Range, or for bytes=0--1, is at fault");
       return;

@@ -1,4 +1,5 @@
 import { readFileSync } from "node:fs";
+import { gzipSync } from "node:zlib";
 import { PointCloud, SourceError } from "@groma/layer";
 import { afterEach, describe, expect, it } from "vitest";
 import { data } from "../project.js";
@@ -60,7 +61,6 @@ describe.skipIf(scan.missing)(
       ["SOURCE_DENIED", "refuses access", ({ response }) => response.writeHead(403).end()],
       ["SOURCE_HTTP", "does not like the request", ({ response }) => response.writeHead(400).end()],
       ["SOURCE_EMPTY", "has an empty file", ({ response }) => response.writeHead(416).end()],
-      ["SOURCE_SHORT", "sends less than it says", ({ answer }) => answer({}, file.subarray(0, 100))],
       [
         "SOURCE_LONG",
         "sends more than it says",
@@ -80,6 +80,17 @@ describe.skipIf(scan.missing)(
         "SOURCE_RANGE",
         "does not say which range it sends",
         ({ response }) => response.writeHead(206).end(file.subarray(0, 65536)),
+      ],
+      [
+        "SOURCE_ENCODED",
+        "compresses its answer",
+        ({ answer, first, last }) =>
+          answer({ "Content-Encoding": "gzip" }, gzipSync(file.subarray(first, last + 1))),
+      ],
+      [
+        "SOURCE_HEADERS",
+        "sends headers too large",
+        ({ answer }) => answer({ "X-Padding": "x".repeat(64 * 1024) }),
       ],
     ])("%s: it %s", async (code, _, misbehave) => {
       const error = await open(misbehave).catch((thrown: unknown) => thrown);
@@ -117,6 +128,7 @@ describe.skipIf(scan.missing)(
           response.writeHead(206, headers).write(file.subarray(0, 1000), () => request.socket.destroy());
         },
       ],
+      ["SOURCE_SHORT", "sends less than it says", ({ answer }) => answer({}, file.subarray(0, 100))],
       ["SOURCE_NETWORK", "hangs up", ({ request }) => request.socket.destroy()],
     ])("%s after three attempts: it %s", async (code, _, misbehave) => {
       await expect(open(misbehave)).rejects.toThrow(coded(code));

@@ -37,7 +37,19 @@ export {
   type SizeMode,
   type StyleParts,
 } from "../effects/index.js";
+export type { Outage } from "../errors/index.js";
 export { SharedBudget, type SharedBudgetOptions } from "../octree/index.js";
+export type {
+  Address,
+  AddressFunction,
+  ExpiringHeaders,
+  HeadersFunction,
+  HeaderValues,
+  HttpOptions,
+  RenewalContext,
+  RetryPolicy,
+  ServerWait,
+} from "../sources/index.js";
 export type { LayerSource, LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
 export type { PickOptions } from "./layer-renderer.js";
 export { PointCloudLayer } from "./point-cloud-layer.js";

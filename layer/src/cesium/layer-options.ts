@@ -1,4 +1,4 @@
-import { Resource, TrustedServers } from "cesium";
+import { RequestErrorEvent, Resource, TrustedServers } from "cesium";
 import type { ClipSet } from "../clips/index.js";
 import type { PointCloud, PointRecord } from "../cloud/index.js";
 import type { GpuMilliseconds } from "../drawing/frame.js";
@@ -70,16 +70,27 @@ export interface ResolvedSource {
 
 /**
  * Takes a `Resource` apart: address with query and proxy, headers, and credentials where the server is one of
- * Cesium's `TrustedServers`. Anything else is left as it is.
+ * Cesium's `TrustedServers`. Where it has a `retryCallback`, that is called when the server refuses access (401, 403),
+ * and address and headers are read again. Anything else is left as it is.
  */
 export function resolveSource(source: LayerSource): ResolvedSource {
   if (!(source instanceof Resource)) return { from: source, http: {} };
   const url = source.getUrlComponent(true, true);
-  const headers: Record<string, string> = {};
-  for (const [name, value] of Object.entries(source.headers ?? {})) headers[name] = String(value);
   const address = new URL(url, globalThis.location?.href).href;
+  const credentials = TrustedServers.contains(address) && { credentials: "include" as const };
+  const { retryCallback } = source;
+  if (!retryCallback) return { from: url, http: { headers: headersOf(source), ...credentials } };
   return {
-    from: url,
-    http: { headers, ...(TrustedServers.contains(address) && { credentials: "include" }) },
+    from: async ({ reason, status }) => {
+      if (reason === "denied") await retryCallback(source, new RequestErrorEvent(status));
+      return source.getUrlComponent(true, true);
+    },
+    // Asked for after the address, so that they are what the callback has left.
+    http: { headers: () => headersOf(source), ...credentials },
   };
+}
+
+function headersOf({ headers }: Resource): Record<string, string> {
+  const entries = Object.entries(headers ?? {}).map(([name, value]) => [name, String(value)]);
+  return Object.fromEntries(entries);
 }

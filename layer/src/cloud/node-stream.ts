@@ -1,4 +1,4 @@
-import { isAbort } from "../errors/index.js";
+import { isAbort, SourceError } from "../errors/index.js";
 import {
   type BoundsOf,
   type HierarchyPage,
@@ -11,7 +11,9 @@ import {
   type TraversalOptions,
   type View,
 } from "../octree/index.js";
+import type { ServerWait } from "../sources/point-source.js";
 import type { NodeVertices } from "../workers/index.js";
+import { Comeback } from "./comeback.js";
 
 /** What the stream needs of a data set. */
 export interface StreamSource {
@@ -21,11 +23,14 @@ export interface StreamSource {
   loadVertices(node: OctreeNode, signal: AbortSignal): Promise<NodeVertices>;
   /** Reads the page that a node stands for and puts its entries into the store. */
   openPage(node: OctreeNode, signal: AbortSignal): Promise<void>;
+  /** Why its server is waited for, where it is. */
+  readonly wait?: ServerWait | undefined;
 }
 
 /** Who wants to hear of the stream; each is called outside any frame, as answers arrive. */
 export interface StreamListener {
   nodeLoaded?(node: OctreeNode): void;
+  /** A node cannot be had; not called for what is asked for again by itself. */
   nodeFailed?(node: OctreeNode, error: Error): void;
   /** A node's vertices are given up: free whatever was made of them. */
   nodeEvicted?(node: OctreeNode): void;
@@ -54,8 +59,10 @@ export interface StreamProgress {
   readonly ready: number;
   /** Of these, failed; pages that cannot be read count as well. */
   readonly failed: number;
-  /** Nodes and pages of the view that are still to come. */
+  /** Nodes and pages of the view that are still to come, those among them that a server cannot give for now. */
   readonly pending: number;
+  /** Why the server gives nothing for now, and when it is asked again; undefined: it answers, or nothing is to come. */
+  readonly waiting?: ServerWait | undefined;
 }
 
 /**
@@ -72,6 +79,7 @@ export class NodeStream {
   readonly #queued = new Set<OctreeNode>();
   readonly #active = new Map<OctreeNode, AbortController>();
   readonly #failed = new Set<OctreeNode>();
+  readonly #comeback = new Comeback((node) => this.#askAgain(node));
   readonly #listeners = new Set<StreamListener>();
   /** Nodes and pages that views want, first in rank first; each carries the number of this round, and its rank. */
   #wanted: OctreeNode[] = [];
@@ -149,27 +157,26 @@ export class NodeStream {
     let failed = 0;
     for (const node of selection?.nodes ?? []) {
       if (node.state === "ready") ready++;
-      if (node.state === "failed") failed++;
+      if (this.#hasFailed(node)) failed++;
     }
-    const failedPages = selection?.pages.filter((node) => node.state === "failed").length ?? 0;
+    const failedPages = selection?.pages.filter((node) => this.#hasFailed(node)).length ?? 0;
     const wanted = selection?.nodes.length ?? 0;
     const pages = selection?.pages.length ?? 0;
+    const pending = wanted - ready - failed + pages - failedPages;
     return {
       wanted,
       ready,
       failed: failed + failedPages,
-      pending: wanted - ready - failed + pages - failedPages,
+      pending,
+      waiting: pending > 0 ? this.#waiting : undefined,
     };
   }
 
-  /** Lets what failed be tried again, once a view wants it. */
+  /** Lets what failed be tried again, once a view wants it, and what is waited for now. */
   retryFailed(): void {
-    for (const node of this.#failed) {
-      if (node.state !== "failed") continue;
-      node.become(node.pageFailed ? "page" : "listed");
-      node.pageFailed = false;
-    }
+    for (const node of this.#failed) restore(node);
     this.#failed.clear();
+    this.#comeback.hasten();
   }
 
   /** Gives up what is beyond the limits and no view wants; each update does. */
@@ -184,6 +191,7 @@ export class NodeStream {
     this.#cache.limits = { points: 0, bytes: 0 };
     this.trim();
     this.#budget?.cpu.report(this, 0);
+    this.#comeback.clear();
     this.#listeners.clear();
   }
 
@@ -277,9 +285,12 @@ export class NodeStream {
     node.become("opening");
     try {
       await this.#source.openPage(node, controller.signal);
+      this.#comeback.arrived(node);
     } catch (thrown) {
-      if (controller.signal.aborted || isAbort(thrown)) node.become("page");
-      else {
+      if (controller.signal.aborted || isAbort(thrown)) {
+        node.become("page");
+        this.#comeback.forget(node);
+      } else {
         node.pageFailed = true;
         this.#fail(node, thrown);
       }
@@ -298,10 +309,13 @@ export class NodeStream {
       this.#cache.set(node, vertices, { points: vertices.count, bytes: vertices.bytes });
       this.#budget?.cpu.report(this, this.#cache.bytes);
       node.become("ready");
+      this.#comeback.arrived(node);
       for (const listener of this.#listeners) listener.nodeLoaded?.(node);
     } catch (thrown) {
-      if (controller.signal.aborted || isAbort(thrown)) node.become("listed");
-      else this.#fail(node, thrown);
+      if (controller.signal.aborted || isAbort(thrown)) {
+        node.become("listed");
+        this.#comeback.forget(node);
+      } else this.#fail(node, thrown);
     }
     this.#settle(node);
   }
@@ -319,9 +333,30 @@ export class NodeStream {
 
   #fail(node: OctreeNode, thrown: unknown): void {
     node.become("failed");
-    this.#failed.add(node);
     const error = thrown instanceof Error ? thrown : new Error(String(thrown));
+    const passing = error instanceof SourceError && error.outage !== undefined;
+    if (passing && this.#comeback.add(node, error, this.#source.wait?.until)) return;
+    this.#failed.add(node);
     for (const listener of this.#listeners) listener.nodeFailed?.(node, error);
+  }
+
+  /** Whether a node failed for good, as far as nobody asks for it again. */
+  #hasFailed(node: OctreeNode): boolean {
+    return node.state === "failed" && !this.#comeback.has(node);
+  }
+
+  get #waiting(): ServerWait | undefined {
+    const { wait } = this.#source;
+    return this.#active.size > 0 ? (wait ?? this.#comeback.wait) : (this.#comeback.wait ?? wait);
+  }
+
+  /** Asks again for a node that could not be had for now. @returns whether a view wants it */
+  #askAgain(node: OctreeNode): boolean {
+    if (!restore(node) || !this.#wants(node)) return false;
+    this.#queue(node);
+    this.#next = 0;
+    this.#pump();
+    return true;
   }
 
   #trimVertices(): void {
@@ -341,6 +376,14 @@ export class NodeStream {
     if (!store.trim(inUse)) return;
     for (const node of this.#failed) if (node.page?.dropped) this.#failed.delete(node);
   }
+}
+
+/** Puts a node that failed back to where it was. @returns false where it did not fail or has left the octree */
+function restore(node: OctreeNode): boolean {
+  if (node.state !== "failed" || node.page?.dropped) return false;
+  node.become(node.pageFailed ? "page" : "listed");
+  node.pageFailed = false;
+  return true;
 }
 
 /** Requests that are started at once: to start one takes a browser up to a millisecond of the main thread. */

@@ -145,6 +145,9 @@ export class PointCloud {
         boundsOf: (node) => this.#geometry.bounds(node.key) ?? this.bounds,
         loadVertices: (node, signal) => this.#loader.vertices(node, signal),
         openPage: (node, signal) => this.#openPage(node, signal),
+        get wait() {
+          return source.wait;
+        },
       },
       { ...options.limits, ...(options.budget && { budget: options.budget }) },
     );

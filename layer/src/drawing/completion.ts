@@ -69,5 +69,6 @@ export class Completion {
 }
 
 function sameProgress(a: StreamProgress, b: StreamProgress): boolean {
-  return a.wanted === b.wanted && a.ready === b.ready && a.failed === b.failed && a.pending === b.pending;
+  const sameNumbers = a.wanted === b.wanted && a.ready === b.ready && a.failed === b.failed;
+  return sameNumbers && a.pending === b.pending && a.waiting === b.waiting;
 }

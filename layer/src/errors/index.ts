@@ -1,7 +1,24 @@
-import { CrsError, type FaultWire, GromaError, PlacementError, RecordError } from "@groma/georef";
+import { CrsError, type Fault, type FaultWire, GromaError, PlacementError, RecordError } from "@groma/georef";
+
+/**
+ * What keeps bytes away for a time, so that asking again helps.
+ * - `busy`: the server asks for a pause (HTTP 429 or 503)
+ * - `failing`: the server fails, or its answers break off
+ * - `silent`: the server was asked, and sends nothing
+ * - `unreachable`: there is no connection to the server
+ */
+export type Outage = "busy" | "failing" | "silent" | "unreachable";
 
 /** The bytes of a data set cannot be had: server, network or file. Codes start with `SOURCE_`. */
-export class SourceError extends GromaError {}
+export class SourceError extends GromaError {
+  /** Why asking again later may help; undefined: it does not. */
+  readonly outage: Outage | undefined;
+
+  constructor(fault: Fault & { readonly outage?: Outage | undefined }) {
+    super(fault);
+    this.outage = fault.outage;
+  }
+}
 
 /** The bytes are there, but they are not what the format's specification says. Codes start with `FORMAT_`. */
 export class FormatError extends GromaError {}

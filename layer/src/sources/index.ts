@@ -1,8 +1,16 @@
 export { BlobSource } from "./bytes/blob-source.js";
 export type { ByteSource, ReadOptions } from "./bytes/byte-source.js";
-export { type HttpOptions, HttpSource } from "./bytes/http-source.js";
+export type {
+  Address,
+  AddressFunction,
+  ExpiringHeaders,
+  HeadersFunction,
+  HeaderValues,
+} from "./bytes/credentials.js";
+export type { ServerWait } from "./bytes/host-schedule.js";
+export { type HttpOptions, HttpSource, type RetryPolicy } from "./bytes/http-source.js";
 export { openBytes, type SourceLike } from "./bytes/open-bytes.js";
-export type { RetryPolicy } from "./bytes/retry.js";
+export type { RenewalContext } from "./bytes/renewable.js";
 export { checkChecksum } from "./checksum.js";
 export { type Encoding, type OpenedSource, type OpenOptions, openSource } from "./open-source.js";
 export type { NumberType, PointAttribute } from "./point-attribute.js";

@@ -1,8 +1,11 @@
 import type { GeoTiffKeys, LasDeclaration } from "@groma/georef";
 import { FormatError } from "../errors/index.js";
 import type { ReadOptions } from "./bytes/byte-source.js";
+import type { ServerWait } from "./bytes/host-schedule.js";
 import type { PointAttribute } from "./point-attribute.js";
 import type { CloudStatistics } from "./statistics.js";
+
+export type { ServerWait } from "./bytes/host-schedule.js";
 
 /**
  * One data set in a format of point clouds: what it says of itself before any point is read, the pages of its octree,
@@ -32,6 +35,8 @@ export interface PointSource<Address = unknown, Encoding extends AnyEncoding = A
   /** What a converter counted of all points; undefined where none did. */
   readonly statistics: CloudStatistics | undefined;
   readonly encoding: Encoding;
+  /** Why its bytes are waited for, where a server cannot serve for now. */
+  readonly wait?: ServerWait | undefined;
   /** Page of the hierarchy that begins with the root. */
   readonly rootPage: Address;
   /**

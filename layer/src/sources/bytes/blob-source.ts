@@ -1,6 +1,5 @@
 import { SourceError } from "../../errors/index.js";
-import type { ByteSource, ReadOptions } from "./byte-source.js";
-import { checkRange } from "./http-source.js";
+import { type ByteSource, checkRange, type ReadOptions } from "./byte-source.js";
 
 /** A `File` that the user chose, or any `Blob`. */
 export class BlobSource implements ByteSource {

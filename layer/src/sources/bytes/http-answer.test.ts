@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { looksLikeHtml, parseContentRange } from "./http-answer.js";
+import { looksLikeHtml, parseContentRange, parseRetryAfter } from "./http-answer.js";
 
 describe("parseContentRange", () => {
   it.each([
@@ -21,4 +21,23 @@ describe("looksLikeHtml", () => {
   );
 
   it.each(["LASF", "<?xml", ""])("leaves %j alone", (text) => expect(looksLikeHtml(bytes(text))).toBe(false));
+});
+
+describe("parseRetryAfter", () => {
+  const now = Date.UTC(2026, 10, 6, 8, 49, 37);
+
+  it.each([
+    ["3", 3000],
+    [" 120 ", 120_000],
+    ["Fri, 06 Nov 2026 08:49:41 GMT", 4000],
+    ["Friday, 06-Nov-26 08:49:41 GMT", 4000],
+    ["Fri Nov  6 08:49:41 2026 GMT", 4000],
+    ["Fri, 06 Nov 2026 08:00:00 GMT", 0],
+    ["-3", undefined],
+    ["1.5", undefined],
+    ["soon", undefined],
+    ["2026", 2_026_000],
+    ["", undefined],
+    [null, undefined],
+  ])("of %s", (header, expected) => expect(parseRetryAfter(header, now)).toBe(expected));
 });

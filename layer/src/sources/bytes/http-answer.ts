@@ -50,29 +50,47 @@ export async function peekBody(response: Response, length: number): Promise<Uint
   }
 }
 
-/** A body ended or broke off before its time. Kept apart from {@link SourceError} because a retry may mend it. */
-export class BrokenBody extends Error {
-  constructor(readonly received: number) {
-    super(`the body broke off after ${received} bytes`);
+/** Milliseconds that a `Retry-After` header asks to wait: seconds, or until a date (RFC 9110, section 10.2.3). */
+export function parseRetryAfter(header: string | null, now: number = Date.now()): number | undefined {
+  if (header === null) return undefined;
+  const text = header.trim();
+  if (/^\d+$/.test(text)) return 1000 * Number(text);
+  // All three forms of an HTTP date begin with the name of a day; `Date.parse` takes much else for a date.
+  const time = /^[A-Z][a-z]{2,8},? /.test(text) ? Date.parse(text) : Number.NaN;
+  return Number.isNaN(time) ? undefined : Math.max(0, time - now);
+}
+
+/** A body ended before its time. */
+export class ShortBody extends Error {
+  /** @param broke whether the connection broke off, with the reason where it is known */
+  constructor(
+    readonly received: number,
+    readonly broke: { readonly reason: unknown } | undefined,
+  ) {
+    super(`the body ended after ${received} bytes`);
   }
 }
 
 /**
  * The body of an answer, which must be exactly `expected` bytes; never more than that is allocated.
- * @throws BrokenBody when the connection broke off
- * @throws SourceError SOURCE_SHORT when it ended cleanly but early, SOURCE_LONG when it goes on
+ * @param heard called as bytes come
+ * @throws ShortBody when it ended early
+ * @throws SourceError SOURCE_LONG when it goes on
  */
-export async function readExactly(response: Response, expected: number, name: string): Promise<Uint8Array> {
+export async function readExactly(
+  response: Response,
+  expected: number,
+  { name, heard }: { readonly name: string; readonly heard: () => void },
+): Promise<Uint8Array> {
   const bytes = new Uint8Array(expected);
   const reader = response.body?.getReader();
   let received = 0;
   while (reader) {
-    const step = await reader.read().catch((thrown: unknown) => {
-      if (thrown instanceof Error && (thrown.name === "AbortError" || thrown.name === "TimeoutError"))
-        throw thrown;
-      throw new BrokenBody(received);
+    const step = await reader.read().catch((reason: unknown) => {
+      throw new ShortBody(received, { reason });
     });
     if (step.done) break;
+    heard();
     if (received + step.value.length > expected) {
       await reader.cancel().catch(() => undefined);
       throw new SourceError({
@@ -85,13 +103,6 @@ export async function readExactly(response: Response, expected: number, name: st
     bytes.set(step.value, received);
     received += step.value.length;
   }
-  if (received < expected) {
-    throw new SourceError({
-      code: "SOURCE_SHORT",
-      file: name,
-      cause: `the server sent ${received} of ${expected} bytes`,
-      fix: "Check that the file on the server is complete",
-    });
-  }
+  if (received < expected) throw new ShortBody(received, undefined);
   return bytes;
 }

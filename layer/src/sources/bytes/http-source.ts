@@ -1,40 +1,68 @@
-import { SourceError } from "../../errors/index.js";
-import type { ByteSource, ReadOptions } from "./byte-source.js";
-import {
-  BrokenBody,
-  discardBody,
-  looksLikeHtml,
-  parseContentRange,
-  peekBody,
-  readExactly,
-} from "./http-answer.js";
-import { type RetryPolicy, Transient, withRetries } from "./retry.js";
+import { type Outage, SourceError } from "../../errors/index.js";
+import { type ByteSource, checkRange, type ReadOptions } from "./byte-source.js";
+import { type AddressFunction, Credentials, type HeadersFunction, type HeaderValues } from "./credentials.js";
+import { HostSchedule, type ServerWait, type Turn } from "./host-schedule.js";
+import { discardBody, parseContentRange, readExactly, ShortBody } from "./http-answer.js";
+import { changedError, type Refusal, refusalOf } from "./http-refusal.js";
+import { encodingFault, nameNetworkFault, networkError, redirectError } from "./network-fault.js";
+import { SilenceWatch } from "./silence-watch.js";
+
+/** How often and how patiently one read is repeated while the server cannot serve it. */
+export interface RetryPolicy {
+  /** Attempts in all, the first included. Default: 6. */
+  readonly attempts?: number | undefined;
+  /** Pause before the second attempt, milliseconds; doubled before each further one, up to a minute. Default: 250. */
+  readonly backoff?: number | undefined;
+  /** Milliseconds after its begin at which a read makes no further attempt. Default: 30,000. */
+  readonly patience?: number | undefined;
+}
 
 /** How an {@link HttpSource} asks. */
 export interface HttpOptions {
-  /** Request headers, e.g. `{ Authorization: "Bearer …" }`. Default: none. */
-  readonly headers?: Readonly<Record<string, string>> | undefined;
+  /**
+   * Request headers, e.g. `{ Authorization: "Bearer …" }`, or a function that gives them. It is called again once they
+   * have expired, or the server refuses them (401, 403). Default: none.
+   */
+  readonly headers?: HeaderValues | HeadersFunction | undefined;
   /** As in `fetch`. Default: `"same-origin"`. */
   readonly credentials?: RequestCredentials | undefined;
-  /** Time limit of one attempt, body included, in milliseconds. Default: 30,000. */
+  /** Longest silence of the server in an attempt, milliseconds; the whole may take twelve times that. Default: 10,000. */
   readonly timeout?: number | undefined;
-  /** Repeats after 5xx, timeouts and network failures. Default: 3 attempts, 250 ms. */
+  /** Repeats while the server is busy, fails, is silent or out of reach. */
   readonly retry?: RetryPolicy | undefined;
   /** Bytes that the opening request fetches at once. Default: 65,536. */
   readonly headLength?: number | undefined;
+  /** Called whenever the opening begins to wait for the server, for another reason or time, and when it no longer does. */
+  readonly onWait?: ((wait: ServerWait | undefined) => void) | undefined;
 }
 
 /** Opening bytes of a COPC file: header, VLRs with the WKT and, in small files, the whole hierarchy. */
 const HEAD_LENGTH = 65_536;
 
-/** Bytes of an answer that are looked at to tell a web page from data. */
-const PEEK_LENGTH = 256;
+/** Milliseconds for which redirects that led nowhere are not followed again. */
+const REDIRECTS_KEPT = 10_000;
 
 /** What identifies one state of a file on a server: a change between two requests means another file. */
 interface Version {
   readonly etag: string | null;
   readonly modified: string | null;
   readonly size: number | undefined;
+}
+
+/** One read. */
+interface Asked {
+  readonly begin: number;
+  readonly end: number;
+  /** Whether it is the opening one, which may get less than it asks for. */
+  readonly opening: boolean;
+  readonly signal: AbortSignal | undefined;
+}
+
+/** What a read is made with. */
+interface Target {
+  readonly address: string;
+  readonly url: URL;
+  readonly headers: HeaderValues;
 }
 
 /**
@@ -44,11 +72,20 @@ interface Version {
 export class HttpSource implements ByteSource {
   readonly name: string;
   readonly #options: HttpOptions;
+  readonly #credentials: Credentials;
+  #schedule: HostSchedule | undefined;
   #version: Version | undefined;
   #head: Uint8Array = new Uint8Array(0);
+  /** Whether redirects are followed at once: in the opening, and where one has led to the file. */
+  #follows = true;
+  /** The last look at where redirects lead, and until when it holds. */
+  #redirects: { readonly until: number; readonly followed: Promise<void> } | undefined;
+  /** What the application was told last. */
+  #told: ServerWait | undefined;
 
-  private constructor(url: string, options: HttpOptions) {
-    this.name = url;
+  private constructor(name: string, credentials: Credentials, options: HttpOptions) {
+    this.name = name;
+    this.#credentials = credentials;
     this.#options = options;
   }
 
@@ -57,53 +94,203 @@ export class HttpSource implements ByteSource {
     return this.#version?.size;
   }
 
+  /** Why the server is waited for; undefined while it answers. */
+  get wait(): ServerWait | undefined {
+    return this.#schedule?.wait;
+  }
+
   /**
    * Makes the opening request: one read that serves the header, the VLRs and often the hierarchy.
+   * @param from the file's address, or a function that gives it; errors name such a file without its query
    * @throws SourceError with a code for each way in which a server can fail
    */
-  static async open(url: string, options: HttpOptions = {}, read: ReadOptions = {}): Promise<HttpSource> {
-    const source = new HttpSource(url, options);
-    source.#head = await source.#request(0, options.headLength ?? HEAD_LENGTH, true, read.signal);
+  static async open(
+    from: string | AddressFunction,
+    options: HttpOptions = {},
+    { signal }: ReadOptions = {},
+  ): Promise<HttpSource> {
+    const credentials = new Credentials(
+      from,
+      options.headers,
+      typeof from === "string" ? from : "the address",
+    );
+    // A signature is a secret: it does not go into messages.
+    const name = typeof from === "string" ? from : (await credentials.get()).address.replace(/[?#].*$/, "");
+    const source = new HttpSource(name, credentials, options);
+    const end = options.headLength ?? HEAD_LENGTH;
+    source.#head = await source.#request({ begin: 0, end, opening: true, signal });
     return source;
   }
 
-  async read(begin: number, end: number, options: ReadOptions = {}): Promise<Uint8Array> {
+  async read(begin: number, end: number, { signal }: ReadOptions = {}): Promise<Uint8Array> {
     checkRange(begin, end, this.size, this.name);
-    options.signal?.throwIfAborted();
+    signal?.throwIfAborted();
     if (end <= this.#head.length) return this.#head.slice(begin, end);
-    return this.#request(begin, end, false, options.signal);
+    return this.#request({ begin, end, opening: false, signal });
   }
 
-  #request(begin: number, end: number, opening: boolean, signal?: AbortSignal): Promise<Uint8Array> {
-    const retry = this.#options.retry ?? { attempts: 3, backoff: 250 };
-    return withRetries(retry, signal, () => this.#attempt(begin, end, opening, signal));
-  }
-
-  async #attempt(begin: number, end: number, opening: boolean, signal?: AbortSignal): Promise<Uint8Array> {
-    const limit = this.#options.timeout ?? 30_000;
-    const timeout = AbortSignal.timeout(limit);
-    try {
-      const response = await fetch(this.name, {
-        headers: { ...this.#options.headers, Range: `bytes=${begin}-${end - 1}` },
-        credentials: this.#options.credentials ?? "same-origin",
-        signal: signal ? AbortSignal.any([signal, timeout]) : timeout,
-        // Browsers lock a cache entry while one request for its address runs: parallel ranges would queue up.
-        cache: "no-store",
-      });
-      if (response.status !== 206) throw await this.#refusal(response, begin);
-      const length = await this.#checkedLength(response, begin, end, opening);
-      return await readExactly(response, length, this.name);
-    } catch (thrown) {
-      signal?.throwIfAborted();
-      if (thrown instanceof SourceError || thrown instanceof Transient) throw thrown;
-      throw this.#interrupted(thrown, timeout.aborted, limit);
+  async #request(asked: Asked): Promise<Uint8Array> {
+    const { attempts = 6, backoff = 250, patience = 30_000 } = this.#options.retry ?? {};
+    const deadline = Date.now() + patience;
+    let last: SourceError | undefined;
+    let renewed = false;
+    for (let tried = 1; ; tried++) {
+      const target = await this.#target();
+      const schedule = HostSchedule.of(target.url);
+      this.#schedule = schedule;
+      const unsubscribe = schedule.subscribe(() => this.#tell());
+      try {
+        const turn = await schedule.enter(deadline, asked.signal);
+        if (!turn) throw last ?? this.#overdue(schedule.wait);
+        const outcome = await this.#attempt(target, turn, asked).catch((thrown) => {
+          turn.left();
+          throw thrown;
+        });
+        if (outcome instanceof Uint8Array) {
+          turn.answered();
+          return outcome;
+        }
+        const { error, pause, denied } = outcome;
+        if (error.outage) turn.failed(error, { backoff, asked: pause });
+        else turn.answered();
+        last = error;
+        if (denied !== undefined && !renewed) {
+          renewed = true;
+          if (await this.#credentials.replace(target, denied)) continue;
+        }
+        if (!error.outage || tried >= attempts) throw error;
+      } finally {
+        unsubscribe();
+        this.#tell();
+      }
     }
   }
 
+  /** @throws SourceError SOURCE_RENEWAL, SOURCE_ADDRESS, SOURCE_REQUEST */
+  async #target(): Promise<Target> {
+    const { address, headers } = await this.#credentials.get();
+    let url: URL;
+    try {
+      url = new URL(address, globalThis.location?.href);
+    } catch {
+      throw this.#error(
+        "SOURCE_ADDRESS",
+        "this is not an address",
+        "Give an address such as https://…/scan.copc.laz",
+      );
+    }
+    try {
+      new Headers(headers);
+    } catch (thrown) {
+      const cause = `these request headers cannot be sent (${thrown instanceof Error ? thrown.message : thrown})`;
+      throw this.#error("SOURCE_REQUEST", cause, "Check the names and values in the option headers");
+    }
+    return { address, url, headers };
+  }
+
+  /** One request. @throws the signal's reason when aborted, and nothing else */
+  async #attempt(target: Target, turn: Turn, asked: Asked): Promise<Uint8Array | Refusal> {
+    const { signal } = asked;
+    const limit = this.#options.timeout ?? 10_000;
+    const watch = new SilenceWatch(limit, () => turn.silent(this.#silent(limit / 3)));
+    const heard = () => {
+      watch.heard();
+      turn.heard();
+    };
+    try {
+      const response = await this.#fetch(
+        target,
+        asked,
+        signal ? AbortSignal.any([signal, watch.signal]) : watch.signal,
+      );
+      heard();
+      if (response.status !== 206) {
+        return await refusalOf(response, {
+          name: this.name,
+          known: this.#version !== undefined,
+          first: asked.begin,
+        });
+      }
+      const length = await this.#checkedLength(response, asked);
+      return await readExactly(response, length, { name: this.name, heard });
+    } catch (thrown) {
+      signal?.throwIfAborted();
+      if (thrown instanceof SourceError) return { error: thrown };
+      if (watch.signal.aborted)
+        return { error: watch.signal.reason === "slow" ? this.#slow() : this.#silent(limit) };
+      if (thrown instanceof ShortBody) return { error: await this.#short(thrown) };
+      const options = { headers: target.headers, credentials: this.#options.credentials ?? "same-origin" };
+      const probed = asked.opening
+        ? { ...options, address: target.address, signal: AbortSignal.timeout(limit) }
+        : undefined;
+      return { error: networkError(await nameNetworkFault(thrown, probed), this.name) };
+    } finally {
+      watch.stop();
+    }
+  }
+
+  /** Asks, and follows redirects as far as they lead to the file. */
+  async #fetch(
+    { address, headers }: Target,
+    { begin, end, opening }: Asked,
+    signal: AbortSignal,
+  ): Promise<Response> {
+    const ask = (redirect: RequestRedirect) =>
+      fetch(address, {
+        headers: { ...headers, Range: `bytes=${begin}-${end - 1}` },
+        credentials: this.#options.credentials ?? "same-origin",
+        signal,
+        // Browsers lock a cache entry while one request for its address runs: parallel ranges would queue up.
+        cache: "no-store",
+        redirect,
+      });
+    if (this.#follows) {
+      const response = await ask("follow");
+      if (opening) this.#follows = response.redirected;
+      return response;
+    }
+    const response = await ask("manual");
+    if (!isRedirect(response)) return response;
+    await discardBody(response);
+    await this.#followOnce(address, headers);
+    return ask("follow");
+  }
+
+  /**
+   * Follows the redirects of a file that had none before, once for all reads that meet them: where they go in a circle,
+   * a browser follows twenty of them each time.
+   * @throws SourceError SOURCE_REDIRECT
+   */
+  #followOnce(address: string, headers: HeaderValues): Promise<void> {
+    const follow = async () => {
+      const limit = this.#options.timeout ?? 10_000;
+      const signal = AbortSignal.timeout(limit);
+      const credentials = this.#options.credentials ?? "same-origin";
+      try {
+        const range = { ...headers, Range: "bytes=0-0" };
+        await discardBody(await fetch(address, { headers: range, credentials, signal, cache: "no-store" }));
+        this.#follows = true;
+      } catch (thrown) {
+        if (signal.aborted) throw this.#silent(limit);
+        throw redirectError(thrown, this.name);
+      }
+    };
+    if (!this.#redirects || this.#redirects.until < Date.now()) {
+      this.#redirects = { until: Date.now() + REDIRECTS_KEPT, followed: follow() };
+    }
+    return this.#redirects.followed;
+  }
+
   /** Length of a 206 answer's body, after its range and the file's version were held against what is known. */
-  async #checkedLength(response: Response, begin: number, end: number, opening: boolean): Promise<number> {
+  async #checkedLength(response: Response, { begin, end, opening }: Asked): Promise<number> {
+    const encoding = encodingFault(response);
+    if (encoding) {
+      await discardBody(response);
+      throw networkError(encoding, this.name);
+    }
     const header = response.headers.get("Content-Range");
-    if (header === null && response.type === "cors") return this.#hiddenLength(response, begin, end, opening);
+    if (header === null && response.type === "cors")
+      return this.#hiddenLength(response, { begin, end, opening });
     const range = header === null ? undefined : parseContentRange(header);
     const wrongEnd = range && (opening ? range.last >= end : range.last !== end - 1);
     if (!range || range.first !== begin || wrongEnd) {
@@ -119,7 +306,10 @@ export class HttpSource implements ByteSource {
   }
 
   /** Another origin that does not expose `Content-Range`: the length alone can be checked. */
-  async #hiddenLength(response: Response, begin: number, end: number, opening: boolean): Promise<number> {
+  async #hiddenLength(
+    response: Response,
+    { begin, end, opening }: Pick<Asked, "begin" | "end" | "opening">,
+  ): Promise<number> {
     await this.#checkVersion(response, undefined);
     const declared = response.headers.get("Content-Length");
     const length = declared === null ? end - begin : Number(declared);
@@ -139,111 +329,52 @@ export class HttpSource implements ByteSource {
       a !== null && a !== undefined && b !== null && b !== undefined && a !== b;
     if (differ(then.etag, now.etag) || differ(then.modified, now.modified) || differ(then.size, now.size)) {
       await discardBody(response);
-      throw this.#changed();
+      throw changedError(this.name);
     }
   }
 
-  /** The error, or the {@link Transient}, for an answer that is not 206. */
-  async #refusal(response: Response, begin: number): Promise<Error> {
-    const { status } = response;
-    if (status === 200) {
-      const html = looksLikeHtml(await peekBody(response, PEEK_LENGTH));
-      return html ? this.#html() : this.#noRange();
-    }
-    await discardBody(response);
-    if (status === 404 || status === 410) {
-      const cause = this.#version ? "the file vanished while it was being read" : "there is no such file";
-      return this.#error("SOURCE_NOT_FOUND", `${cause} (HTTP ${status})`, "Check the address");
-    }
-    if (status === 401 || status === 403) {
-      return this.#error(
-        "SOURCE_DENIED",
-        `the server refuses access (HTTP ${status})`,
-        "Pass headers or credentials, or renew the signed address",
-      );
-    }
-    if (status === 416) {
-      if (this.#version) return this.#changed();
-      return this.#error(
-        "SOURCE_EMPTY",
-        `byte ${begin} lies outside the file (HTTP 416)`,
-        "Check that the file on the server is complete",
-      );
-    }
-    const error = this.#error(
-      "SOURCE_HTTP",
-      `the server answered HTTP ${status}`,
-      "Look into the server's log",
-    );
-    return status >= 500 || status === 429 ? new Transient(error) : error;
+  /** Tells the application of waiting, whenever there is something new. */
+  #tell(): void {
+    const { wait } = this;
+    if (wait === this.#told) return;
+    this.#told = wait;
+    this.#options.onWait?.(wait);
   }
 
-  /** The failure for a request that ended without an answer, or in the middle of one. */
-  #interrupted(thrown: unknown, timedOut: boolean, limit: number): Transient {
-    if (timedOut) {
-      return new Transient(
-        this.#error(
-          "SOURCE_TIMEOUT",
-          `the server did not answer in full within ${limit} ms`,
-          "Try again later, or raise the timeout",
-        ),
-      );
-    }
-    if (thrown instanceof BrokenBody) {
-      return new Transient(
-        this.#error(
-          "SOURCE_SHORT",
-          `the connection broke off after ${thrown.received} bytes of the answer`,
-          "Check the connection and that the file on the server is complete",
-        ),
-      );
-    }
-    return new Transient(
-      this.#error(
-        "SOURCE_NETWORK",
-        "the server cannot be reached, or it does not allow this page to ask (CORS)",
-        "Check the address and the connection; another origin must send Access-Control-Allow-Origin",
-      ),
-    );
+  #silent(milliseconds: number): SourceError {
+    const cause = `the server has sent nothing for ${Math.round(milliseconds / 100) / 10} s`;
+    return this.#error("SOURCE_TIMEOUT", cause, "Try again later, or raise the option timeout", "silent");
   }
 
-  #html(): SourceError {
+  #slow(): SourceError {
+    const cause = "the server sends so slowly that the answer was given up";
+    return this.#error("SOURCE_TIMEOUT", cause, "Try again later, or raise the option timeout", "failing");
+  }
+
+  async #short({ received, broke }: ShortBody): Promise<SourceError> {
+    if (broke) {
+      const fault = await nameNetworkFault(broke.reason, undefined);
+      if (!fault.passing) return networkError(fault, this.name);
+    }
     return this.#error(
-      "SOURCE_HTML",
-      "the server returned HTML, not a point cloud",
-      "Check the address; a login or error page may stand in for the file",
+      "SOURCE_SHORT",
+      `the answer ${broke ? "broke off" : "ended"} after ${received} bytes, before its end`,
+      "Check the connection and that the file on the server is complete",
+      "failing",
     );
   }
 
-  #noRange(): SourceError {
-    return this.#error(
-      "SOURCE_NO_RANGE",
-      "the server answers a Range request with the whole file (HTTP 200)",
-      "Serve the file from a server with Range requests, for example: groma serve DIR",
-    );
+  /** The error for a read that would come too late. */
+  #overdue(wait: ServerWait | undefined): SourceError {
+    const { code = "SOURCE_TIMEOUT", cause = "the server does not answer", outage = "failing" } = wait ?? {};
+    return this.#error(code, cause, "Try again later", outage);
   }
 
-  #changed(): SourceError {
-    return this.#error("SOURCE_CHANGED", "the file changed while it was being read", "Open it again");
-  }
-
-  #error(code: string, cause: string, fix: string): SourceError {
-    return new SourceError({ code, file: this.name, cause, fix });
+  #error(code: string, cause: string, fix: string, outage?: Outage): SourceError {
+    return new SourceError({ code, file: this.name, cause, fix, outage });
   }
 }
 
-/**
- * Holds a wanted range against the file before anything is asked for: an empty or negative range would make
- * `bytes=0--1`, which servers answer with the whole file.
- * @throws SourceError SOURCE_RANGE
- */
-export function checkRange(begin: number, end: number, size: number | undefined, name: string): void {
-  const valid = Number.isSafeInteger(begin) && Number.isSafeInteger(end) && begin >= 0 && begin < end;
-  if (valid && (size === undefined || end <= size)) return;
-  throw new SourceError({
-    code: "SOURCE_RANGE",
-    file: name,
-    cause: `bytes ${begin} to ${end} do not lie in the file${size === undefined ? "" : ` of ${size} bytes`}`,
-    fix: "Check that the file is complete",
-  });
+function isRedirect({ type, status }: Response): boolean {
+  return type === "opaqueredirect" || [301, 302, 303, 307, 308].includes(status);
 }

@@ -60,6 +60,10 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
     return readText(opening, 0, 4) === "LASF";
   }
 
+  get wait(): PointSource["wait"] {
+    return this.#bytes.wait;
+  }
+
   async page(address: ByteRange, options: ReadOptions = {}): Promise<Iterable<HierarchyEntry<ChunkRange>>> {
     checkPageAddress(address, this.#limits);
     const { offset, length } = address;
