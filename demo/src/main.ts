@@ -1,7 +1,7 @@
 import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
 import { CrsError } from "@groma/georef";
-import type { PointCloudLayer } from "@groma/layer/cesium";
+import type { PointCloudLayer, ServerWait } from "@groma/layer/cesium";
 import type { Viewer } from "cesium";
 import { cloudAddress, PageError, type PageOptions, readPageOptions } from "./address.js";
 import { CloudSlot, type OpenOptions } from "./open.js";
@@ -143,7 +143,8 @@ function start(viewer: Viewer): void {
     message.clear();
     progress.opening(name);
     try {
-      const layer = await slot.open(from, how);
+      const onWait = (wait: ServerWait | undefined) => progress.openingWaits(name, wait);
+      const layer = await slot.open(from, how, onWait);
       if (layer) {
         const { crs, crsIfMissing, vertical } = how;
         // A system for clouds without one was taken where nothing else could have been given.

@@ -1,5 +1,10 @@
 import { CrsError } from "@groma/georef";
-import { PointCloudLayer, type PointCloudLayerOptions, type PointCloudOptions } from "@groma/layer/cesium";
+import {
+  PointCloudLayer,
+  type PointCloudLayerOptions,
+  type PointCloudOptions,
+  type ServerWait,
+} from "@groma/layer/cesium";
 import type { PrimitiveCollection } from "cesium";
 
 /** How a cloud is opened and drawn. */
@@ -25,16 +30,26 @@ export class CloudSlot {
 
   /**
    * Opens a cloud in place of the one that is there; what was being opened before is given up.
+   * @param waits told while its server is waited for, as long as this call goes on
    * @returns undefined where another call of `open` came before this one was done
    * @throws GromaError where it cannot be opened; the cloud that is there stays
    */
-  async open(from: string | File, options: OpenOptions): Promise<PointCloudLayer | undefined> {
+  async open(
+    from: string | File,
+    options: OpenOptions,
+    waits: (wait: ServerWait | undefined) => void,
+  ): Promise<PointCloudLayer | undefined> {
     this.#opening?.abort();
     const opening = new AbortController();
     this.#opening = opening;
     let layer: PointCloudLayer;
+    let opened = false;
     try {
-      layer = await fromUrl(from, options, opening.signal);
+      const onWait = (wait: ServerWait | undefined) => {
+        if (this.#opening === opening && !opened) waits(wait);
+      };
+      layer = await fromUrl(from, { ...options, onWait }, opening.signal);
+      opened = true;
     } catch (thrown) {
       if (opening.signal.aborted) return undefined;
       throw thrown;
@@ -52,7 +67,7 @@ export class CloudSlot {
 
 async function fromUrl(
   from: string | File,
-  { crsIfMissing, ...options }: OpenOptions,
+  { crsIfMissing, ...options }: OpenOptions & Pick<PointCloudOptions, "onWait">,
   signal: AbortSignal,
 ): Promise<PointCloudLayer> {
   try {

@@ -1,5 +1,6 @@
-import type { PointCloudLayer, StreamProgress } from "@groma/layer/cesium";
+import type { PointCloudLayer, ServerWait, StreamProgress } from "@groma/layer/cesium";
 import { byId } from "./elements.js";
+import { againWords, outageWords } from "./wait-words.js";
 import { counted, countWords } from "./words.js";
 
 /** Milliseconds between two looks at what is drawn: what has come is drawn some frames later. */
@@ -21,6 +22,20 @@ export class Progress {
     this.#bar.removeAttribute("value");
     this.#bar.hidden = false;
     this.#count.textContent = "";
+  }
+
+  /**
+   * The server of the cloud that is being opened is waited for.
+   * @param wait undefined: it answers
+   */
+  openingWaits(name: string, wait: ServerWait | undefined): void {
+    this.opening(name);
+    if (!wait) return;
+    this.#say(outageWords(wait));
+    const count = () => this.#count.replaceChildren(againWords(wait, Date.now()));
+    count();
+    const timer = setInterval(count, INTERVAL);
+    this.#unfollow = () => clearInterval(timer);
   }
 
   /** Shows what a layer loads, until another call. */
@@ -48,18 +63,20 @@ export class Progress {
     this.#place.hidden = true;
   }
 
-  #tell(layer: PointCloudLayer, { wanted, ready, failed, pending }: StreamProgress): void {
+  #tell(layer: PointCloudLayer, { wanted, ready, failed, pending, waiting }: StreamProgress): void {
     const { pointsDrawn, budgetReached } = layer.statistics;
     const waits = pending > 0 || (wanted > failed && pointsDrawn === 0 && !layer.settled);
     this.#bar.hidden = !waits;
     this.#bar.max = Math.max(wanted, 1);
     this.#bar.value = ready;
-    if (waits) this.#say("Loading this view…");
+    if (waits && waiting) this.#say(outageWords(waiting));
+    else if (waits) this.#say("Loading this view…");
     else if (failed > 0) this.#say(`This view is drawn without ${counted(failed, "node")} that failed.`);
     else this.#say(wanted > 0 ? "This view is complete." : "No points in this view.");
     const nodes = `${countWords(ready)} of ${counted(wanted, "node")}`;
     const limit = budgetReached ? ", all that the budget allows" : "";
-    const count = `${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`;
+    const again = waits && waiting ? `${againWords(waiting, Date.now())} · ` : "";
+    const count = `${again}${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`;
     if (this.#count.textContent !== count) this.#count.textContent = count;
   }
 

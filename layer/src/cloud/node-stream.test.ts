@@ -1,4 +1,5 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
+import { SourceError } from "../errors/index.js";
 import { NodeStore, type OctreeNode, SharedBudget, type View } from "../octree/index.js";
 import { insertPage } from "../octree/insert-page.fixture.js";
 import type { HierarchyEntry } from "../sources/point-source.js";
@@ -80,6 +81,12 @@ function viewAt(x?: number): View {
   };
 }
 
+const fault = {
+  code: "SOURCE_HTTP",
+  file: "a.copc.laz",
+  cause: "the server is busy",
+  fix: "Try again later",
+};
 const traversal = { maximumScreenSpaceError: 0.1, pointBudget: 1e6 };
 const viewer = {};
 
@@ -151,6 +158,42 @@ describe("NodeStream", () => {
     stream.retryFailed();
     stream.update(viewer, viewAt(), traversal);
     expect([...calls.keys()].sort()).toEqual(["1-0-0-0", "page 1-1-0-0"]);
+  });
+
+  it("asks again for what its server cannot give for now, page or node, as long as a view wants it", async () => {
+    vi.useFakeTimers();
+    try {
+      const { stream, calls, answer } = setUp({ page: true });
+      const failures: string[] = [];
+      stream.subscribe({ nodeFailed: (node) => failures.push(node.name) });
+      const busy = new SourceError({ ...fault, outage: "busy" });
+      const later = async (name: string, error?: Error) => {
+        const answered = answer(name, error);
+        await vi.advanceTimersByTimeAsync(0);
+        return answered;
+      };
+      stream.update(viewer, viewAt(), traversal);
+      await vi.advanceTimersByTimeAsync(0);
+      for (const name of ["0-0-0-0", "1-0-0-0", "page 1-1-0-0"]) await later(name, busy);
+      expect(stream.progress(viewer)).toMatchObject({
+        ...{ wanted: 2, ready: 0, failed: 0, pending: 3, waiting: { outage: "busy", code: "SOURCE_HTTP" } },
+      });
+      calls.clear();
+      // The view moves on from the second child: only what it wants still is asked for.
+      stream.update(viewer, viewAt(0), traversal);
+      await vi.advanceTimersByTimeAsync(1300);
+      expect([...calls.keys()].sort()).toEqual(["0-0-0-0", "1-0-0-0"]);
+      await later("0-0-0-0");
+      await later("1-0-0-0");
+      expect(stream.progress(viewer)).toEqual({ wanted: 2, ready: 2, failed: 0, pending: 0 });
+      calls.clear();
+      stream.update(viewer, viewAt(), traversal);
+      expect([...calls.keys()]).toEqual(["page 1-1-0-0"]);
+      stream.destroy();
+      expect([failures, vi.getTimerCount()]).toEqual([[], 0]);
+    } finally {
+      vi.useRealTimers();
+    }
   });
 
   it("gives up what was not wanted for longest once the cache is full, never what is wanted", async () => {

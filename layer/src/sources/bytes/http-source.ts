@@ -32,7 +32,7 @@ export interface HttpOptions {
   readonly retry?: RetryPolicy | undefined;
   /** Bytes that the opening request fetches at once. Default: 65,536. */
   readonly headLength?: number | undefined;
-  /** Called whenever the opening begins to wait for the server, for another reason or time, and when it no longer does. */
+  /** Called when the server begins to be waited for, for another reason or time, and with undefined once it answers. */
   readonly onWait?: ((wait: ServerWait | undefined) => void) | undefined;
 }
 
