@@ -41,6 +41,20 @@ describe("Credentials", () => {
     expect(reasons).toEqual(["open", "expired"]);
   });
 
+  it("reads from a signed address when it ends", async () => {
+    let signed = 0;
+    const address = () => `https://a.example/a?Expires=${Date.now() / 1000 + 60}&Signature=${++signed}`;
+    const credentials = new Credentials(address, undefined, "a");
+    for (const [milliseconds, expected] of [
+      [0, 1],
+      [54_000, 1],
+      [2_000, 2],
+    ]) {
+      vi.advanceTimersByTime(milliseconds);
+      expect((await credentials.get()).address).toMatch(new RegExp(`Signature=${expected}$`));
+    }
+  });
+
   it("names a function that fails, and asks it again later", async () => {
     let failing = true;
     const address = () => {
