@@ -90,6 +90,23 @@ describe("HostSchedule", () => {
     expect(schedule.wait?.until).toBe(Date.now() + 315_000);
   });
 
+  it("ends a pause of its own where somebody wants to know, never one that the server asked for", async () => {
+    const schedule = new HostSchedule();
+    const { turns, ask, pass } = queue(schedule);
+    ask();
+    await pass();
+    turns[0].failed(fault(), pause(50_000));
+    ask();
+    expect(await pass()).toBe(0);
+    schedule.hasten();
+    expect(await pass()).toBe(1);
+    turns[1].failed(fault("busy"), pause(50_000, 1000));
+    ask();
+    schedule.hasten();
+    expect(await pass(1049)).toBe(0);
+    expect(await pass(1)).toBe(1);
+  });
+
   it("opens step by step once the server answers again", async () => {
     const schedule = new HostSchedule();
     const { turns, ask, pass } = queue(schedule);

@@ -58,6 +58,8 @@ export class HostSchedule {
   /** Grows with each failure: what began before it says nothing of how the server is after it. */
   #round = 0;
   #until = 0;
+  /** Until when the server itself asked not to be asked. */
+  #asked = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   /** The one schedule of all who ask the server of an address. */
@@ -115,6 +117,12 @@ export class HostSchedule {
     });
   }
 
+  /** Ends a pause that the server did not ask for: somebody wants to know whether it is back. */
+  hasten(): void {
+    this.#until = Math.min(this.#until, this.#asked);
+    this.#next();
+  }
+
   /** Lets through whom there is room for. */
   #next(): void {
     const pause = this.#until - Date.now();
@@ -154,11 +162,9 @@ export class HostSchedule {
           this.#width = 1;
           const grown = Math.min(backoff * 2 ** (this.#failures - 1), LONGEST_PAUSE);
           // Those who share an outage must not come back all at once.
-          const pause = Math.max(
-            grown * (0.75 + 0.5 * Math.random()),
-            asked === undefined ? 0 : bounded(asked),
-          );
-          this.#until = Math.max(this.#until, Date.now() + pause);
+          const pause = grown * (0.75 + 0.5 * Math.random());
+          if (asked !== undefined) this.#asked = Math.max(this.#asked, Date.now() + bounded(asked));
+          this.#until = Math.max(this.#until, this.#asked, Date.now() + pause);
           this.#say(waitFor(fault, this.#until));
         }),
       left: () =>

@@ -139,6 +139,7 @@ export class HttpSource implements ByteSource {
       const schedule = HostSchedule.of(target.url);
       this.#schedule = schedule;
       const unsubscribe = schedule.subscribe(() => this.#tell());
+      if (asked.opening && tried === 1) schedule.hasten();
       try {
         const turn = await schedule.enter(deadline, asked.signal);
         if (!turn) throw last ?? this.#overdue(schedule.wait);
