@@ -355,7 +355,7 @@ export class HttpSource implements ByteSource {
   async #short({ received, broke }: ShortBody): Promise<SourceError> {
     if (broke) {
       const fault = await nameNetworkFault(broke.reason, undefined);
-      if (!fault.passing) return networkError(fault, this.name);
+      if (!fault.outage) return networkError(fault, this.name);
     }
     return this.#error(
       "SOURCE_SHORT",

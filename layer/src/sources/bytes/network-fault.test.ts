@@ -22,37 +22,38 @@ function browser(seen: Partial<Response> | undefined, opaque: boolean) {
 
 describe("nameNetworkFault", () => {
   it.each([
-    ["redirect count exceeded", undefined, "SOURCE_REDIRECT", false],
-    ["Headers Overflow Error", "UND_ERR_HEADERS_OVERFLOW", "SOURCE_HEADERS", false],
-    ["incorrect header check", "Z_DATA_ERROR", "SOURCE_ENCODED", false],
-    ["self-signed certificate", "DEPTH_ZERO_SELF_SIGNED_CERT", "SOURCE_NETWORK", false],
-    ["getaddrinfo ENOTFOUND a.example", "ENOTFOUND", "SOURCE_NETWORK", true],
-    ["connect ECONNREFUSED 127.0.0.1:9", "ECONNREFUSED", "SOURCE_NETWORK", true],
-    ["other side closed", "UND_ERR_SOCKET", "SOURCE_NETWORK", true],
-  ])("says what Node says: %s", async (message, code, named, passing) => {
+    ["redirect count exceeded", undefined, "SOURCE_REDIRECT", undefined],
+    ["Headers Overflow Error", "UND_ERR_HEADERS_OVERFLOW", "SOURCE_HEADERS", undefined],
+    ["incorrect header check", "Z_DATA_ERROR", "SOURCE_ENCODED", undefined],
+    ["self-signed certificate", "DEPTH_ZERO_SELF_SIGNED_CERT", "SOURCE_NETWORK", undefined],
+    ["getaddrinfo ENOTFOUND a.example", "ENOTFOUND", "SOURCE_NETWORK", "unreachable"],
+    ["connect ECONNREFUSED 127.0.0.1:9", "ECONNREFUSED", "SOURCE_NETWORK", "unreachable"],
+    ["other side closed", "UND_ERR_SOCKET", "SOURCE_NETWORK", "unreachable"],
+  ])("says what Node says: %s", async (message, code, named, outage) => {
     const fetch = browser(undefined, false);
     const cause = Object.assign(new Error(message), code && { code });
     const fault = await nameNetworkFault(new TypeError("fetch failed", { cause }), probed());
-    expect(fault).toMatchObject({ code: named, passing });
+    expect([fault.code, fault.outage]).toEqual([named, outage]);
     expect(fault.cause).not.toMatch(/CORS/);
     expect(fetch).not.toHaveBeenCalled();
   });
 
   it.each([
-    ["a redirect", { type: "opaqueredirect" as const }, false, "SOURCE_REDIRECT", false],
+    ["a redirect", { type: "opaqueredirect" as const }, false, "SOURCE_REDIRECT", undefined],
     [
       "a compressed answer",
       { headers: new Headers({ "Content-Encoding": "gzip" }) },
       false,
       "SOURCE_ENCODED",
-      false,
+      undefined,
     ],
-    ["an answer to this, but none to ranges", {}, true, "SOURCE_NETWORK", true],
-    ["an answer that it hides from the page", undefined, true, "SOURCE_CORS", false],
-    ["nothing", undefined, false, "SOURCE_NETWORK", true],
-  ])("finds out in a browser that there is %s", async (_, seen, opaque, code, passing) => {
+    ["an answer to this, but none to ranges", {}, true, "SOURCE_NETWORK", "failing"],
+    ["an answer that it hides from the page", undefined, true, "SOURCE_CORS", undefined],
+    ["nothing", undefined, false, "SOURCE_NETWORK", "unreachable"],
+  ])("finds out in a browser that there is %s", async (_, seen, opaque, code, outage) => {
     const fetch = browser(seen, opaque);
-    expect(await nameNetworkFault(hidden, probed())).toMatchObject({ code, passing });
+    const fault = await nameNetworkFault(hidden, probed());
+    expect([fault.code, fault.outage]).toEqual([code, outage]);
     expect(fetch.mock.calls.every(([, { method }]) => method === "HEAD")).toBe(true);
     expect(fetch.mock.calls.length).toBeLessThanOrEqual(2);
   });
@@ -61,7 +62,7 @@ describe("nameNetworkFault", () => {
     const fetch = browser(undefined, true);
     expect(await nameNetworkFault(hidden, undefined)).toMatchObject({
       code: "SOURCE_NETWORK",
-      passing: true,
+      outage: "unreachable",
     });
     expect(fetch).not.toHaveBeenCalled();
   });

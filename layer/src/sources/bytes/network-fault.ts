@@ -1,19 +1,18 @@
-import { SourceError } from "../../errors/index.js";
+import { type Outage, SourceError } from "../../errors/index.js";
 
 /** Why a request ended without an answer. */
 export interface NetworkFault {
   readonly code: string;
   readonly cause: string;
   readonly fix: string;
-  /** Whether another attempt may mend it. */
-  readonly passing: boolean;
+  /** Why another attempt may mend it; undefined: it does not. */
+  readonly outage?: Outage;
 }
 
 const REDIRECT: NetworkFault = {
   code: "SOURCE_REDIRECT",
   cause: "the server redirects the request in a circle, or to where it cannot be followed",
   fix: "Check the address, and the redirects of the server",
-  passing: false,
 };
 
 const ENCODED: NetworkFault = {
@@ -21,7 +20,6 @@ const ENCODED: NetworkFault = {
   cause:
     "the server compresses the answer to a Range request (Content-Encoding), so its bytes are not those of the file",
   fix: "Switch off compression on the server for this kind of file",
-  passing: false,
 };
 
 /** Names of errors of Node's `fetch` by the code of what caused them; the first pattern that fits. */
@@ -34,7 +32,6 @@ const NODE_FAULTS: readonly (readonly [RegExp, NetworkFault])[] = [
       code: "SOURCE_HEADERS",
       cause: "the headers of the server's answer are too large",
       fix: "Check the server or proxy for what it adds to the headers",
-      passing: false,
     },
   ],
   [
@@ -43,7 +40,6 @@ const NODE_FAULTS: readonly (readonly [RegExp, NetworkFault])[] = [
       code: "SOURCE_NETWORK",
       cause: "no secure connection to the server: its certificate is not accepted",
       fix: "Check the address and the server's certificate",
-      passing: false,
     },
   ],
   [
@@ -52,7 +48,7 @@ const NODE_FAULTS: readonly (readonly [RegExp, NetworkFault])[] = [
       code: "SOURCE_NETWORK",
       cause: "no server of that name is found",
       fix: "Check the address and the connection",
-      passing: true,
+      outage: "unreachable",
     },
   ],
   [
@@ -61,7 +57,7 @@ const NODE_FAULTS: readonly (readonly [RegExp, NetworkFault])[] = [
       code: "SOURCE_NETWORK",
       cause: "the computer at that address refuses the connection",
       fix: "Check the address and its port, and that the server runs",
-      passing: true,
+      outage: "unreachable",
     },
   ],
 ];
@@ -89,9 +85,9 @@ export async function nameNetworkFault(thrown: unknown, probed: Probed | undefin
     code: "SOURCE_NETWORK",
     cause: offline
       ? "this computer is offline"
-      : "no answer that this page may read: the server is out of reach, its certificate is not accepted, or something on the way blocks the request",
+      : "no answer that this page may read: the server is out of reach, its certificate is not accepted, its redirects lead nowhere, its headers are too large, or something on the way blocks the request",
     fix: offline ? "Connect to the network" : "Check the address and the connection",
-    passing: true,
+    outage: "unreachable",
   };
 }
 
@@ -102,8 +98,8 @@ export function encodingFault(response: Response): NetworkFault | undefined {
 }
 
 /** The error for a fault of the network. */
-export function networkError({ passing, ...fault }: NetworkFault, file: string): SourceError {
-  return new SourceError({ ...fault, file, ...(passing && { outage: "unreachable" as const }) });
+export function networkError(fault: NetworkFault, file: string): SourceError {
+  return new SourceError({ ...fault, file });
 }
 
 /** The error for redirects that `fetch` rejected to follow. */
@@ -123,7 +119,7 @@ function toldByNode(thrown: unknown): NetworkFault | undefined {
       code: "SOURCE_NETWORK",
       cause: `the connection failed (${parts.at(-1)})`,
       fix: "Check the address and the connection",
-      passing: true,
+      outage: "unreachable",
     }
   );
 }
@@ -140,7 +136,7 @@ async function probe({ address, ...options }: Probed): Promise<NetworkFault | un
         cause:
           "the server can be reached, but its answer to a Range request could not be read: it breaks off, or it is compressed although it must not be",
         fix: "Check the server or proxy for rewriting and compression of Range answers",
-        passing: true,
+        outage: "failing",
       }
     );
   }
@@ -154,5 +150,4 @@ const FOREIGN: NetworkFault = {
   cause:
     "the server answers, but its answers do not allow this page to read them (CORS), or it is failing and its error pages do not",
   fix: "Let the server send Access-Control-Allow-Origin for this page, with its error pages too",
-  passing: false,
 };
