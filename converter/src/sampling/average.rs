@@ -123,6 +123,16 @@ mod tests {
         assert_eq!(means, [([15; 3], 2)]);
     }
 
+    /// Otherwise the result is the same, and each candidate is compared with all chosen points.
+    #[test]
+    fn only_chosen_points_within_reach_are_chained() {
+        let points: Vec<_> = (0..18).map(|i| [f64::from(i) * 7.0 + 1.0, 64.0, 64.0]).collect();
+        let chosen: Vec<_> = (0..18).collect();
+        let cell = cube([0.0; 3], 1.0);
+        let chains = Chains::new(&cell, &points, &chosen);
+        assert!(chains.next.iter().all(|next| *next == EMPTY), "{:?}", chains.next);
+    }
+
     #[test]
     fn weights_beyond_32_bits_stay_at_the_most() {
         let means = average(&cube([0.0; 3], 1.0), &[[1.0; 3]; 2], &[[4; 3]; 2], &[u32::MAX; 2], &[0]);

@@ -73,3 +73,29 @@ pub fn distance2(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     let [x, y, z] = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     x * x + y * y + z * z
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::scene::cube;
+    use super::*;
+
+    /// Otherwise the result is the same, and each point is compared with all others.
+    #[test]
+    fn only_discs_within_reach_share_a_cell() {
+        let mut discs = Discs::default();
+        for (min, spacing) in [([0.0; 3], 1.0), ([1e6, -5e5, 40.0], 0.125), ([-3.0; 3], 1000.0)] {
+            discs.begin(&cube(min, spacing), &[]);
+            let cell = |discs: &Discs, spacings: f64| {
+                discs.lattice.cell(discs.place(&min.map(|from| from + spacings * spacing)))
+            };
+            let cells: std::collections::HashSet<_> =
+                (0..64).map(|i| cell(&discs, 2.0 * f64::from(i) + 1.0)).collect();
+            assert_eq!(cells.len(), 64);
+            assert_eq!(cell(&discs, 0.1), cell(&discs, 1.9));
+        }
+        // A cube of more cells than there may be has larger ones.
+        discs.begin(&Cell { min: [0.0; 3], side: 4096.0, spacing: 1.0 }, &[]);
+        assert_eq!(discs.lattice.cell(discs.place(&[4095.9; 3])), MOST.powi(3) as u32 - 1);
+        assert_ne!(discs.lattice.cell(discs.place(&[4070.0; 3])), MOST.powi(3) as u32 - 1);
+    }
+}

@@ -73,3 +73,65 @@ impl Lattice {
         before
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grid whose cells hold their own x, y and z.
+    fn numbered(along: u32) -> Lattice {
+        let mut lattice = Lattice::default();
+        lattice.lay(f64::from(along));
+        for number in 0..along.pow(3) {
+            let place = [number % along, number / along % along, number / along.pow(2)].map(f64::from);
+            let cell = lattice.cell(place);
+            assert_eq!(lattice.replace(cell, number), EMPTY);
+        }
+        lattice
+    }
+
+    #[test]
+    fn around_a_place_its_own_cell_comes_first_then_those_that_share_a_face() {
+        let along = 5;
+        let lattice = numbered(along);
+        let values: [f64; 12] = [0.0, 0.3, 0.5, 0.8, 1.0, 1.5, 2.4, 2.6, 3.9, 4.1, 4.4, 4.9];
+        for (x, y, z) in values.iter().flat_map(|x| values.map(|y| (*x, y, 5.0 - x.max(y)))) {
+            let place = [x, y, z.min(4.9)];
+            let own = place.map(|v| v as u32);
+            let found: Vec<_> = lattice.around(place).collect();
+            let apart = |number: &u32| {
+                let cell = [number % along, number / along % along, number / along.pow(2)];
+                (0..3).map(|i| cell[i].abs_diff(own[i])).collect::<Vec<_>>()
+            };
+            assert!(found.iter().flat_map(apart).all(|steps| steps < 2), "{place:?}: {found:?}");
+            let steps: Vec<u32> = found.iter().map(|number| apart(number).iter().sum()).collect();
+            assert_eq!(steps, [0, 1, 1, 1, 2, 2, 2, 3], "{place:?}");
+            for axis in 0..3 {
+                for step in [-0.499, 0.499] {
+                    let mut nearby = place;
+                    nearby[axis] += step;
+                    let number = lattice.get(lattice.cell(nearby));
+                    assert!(found.contains(&number), "{place:?} {nearby:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn places_outside_belong_to_the_nearest_cell() {
+        let lattice = numbered(3);
+        let at = |place| lattice.get(lattice.cell(place));
+        assert_eq!(at([-7.0, 1.5, 2.5]), at([0.0, 1.0, 2.0]));
+        assert_eq!(at([1.5, 99.0, -1.0]), at([1.0, 2.0, 0.0]));
+    }
+
+    #[test]
+    fn laid_anew_it_is_empty_and_has_two_cells_along_an_axis_at_least() {
+        let mut lattice = numbered(4);
+        lattice.lay(0.1);
+        assert_eq!(lattice.cell([9.0; 3]), 7);
+        assert!((0..64).all(|cell| lattice.get(cell) == EMPTY));
+        lattice.lay(1e9);
+        assert_eq!(lattice.cell([1e9; 3]), MOST.powi(3) as u32 - 1);
+    }
+}
