@@ -1,4 +1,5 @@
-import type { Fault } from "@groma/georef";
+import { type Fault, GromaError } from "@groma/georef";
+import type { CloudStatistics } from "@groma/layer/sources";
 import { coreFailed, runCore } from "./core-process.js";
 
 export { CoreError, coreProgram } from "./core-process.js";
@@ -29,7 +30,7 @@ export interface Scan {
   readonly wktBit: boolean;
   readonly wkt?: string;
   readonly geoTiff?: { readonly directory: number[]; readonly doubles: number[]; readonly ascii: string };
-  /** The records of user id `groma`: base64 of georeference and transformation, the statistics as they are. */
+  /** The records of user id `groma`: base64 of georeference and transformation, and the statistics. */
   readonly groma?: { readonly "1"?: string; readonly "2"?: ScanStatistics; readonly "3"?: string };
   /** How the checksums of the nodes were made; null where there are none. */
   readonly checksums: "CRC-32C" | null;
@@ -39,13 +40,7 @@ export interface Scan {
 }
 
 /** The statistics record (docs/record.md). */
-export interface ScanStatistics {
-  readonly points: number;
-  readonly rgbBits: 8 | 16 | null;
-  readonly attributes: readonly { name: string; min: number; max: number; mean: number }[];
-  readonly classes: Readonly<Record<string, number>>;
-  readonly returns: Readonly<Record<string, number>>;
-}
+export type ScanStatistics = CloudStatistics;
 
 /** What was found in a file whose points are all as they were written. */
 export interface Verified {
@@ -125,7 +120,21 @@ export async function scanFile(file: string, signal?: AbortSignal): Promise<Scan
   };
   await runCore(["scan", file], onLine, signal);
   if (scan === undefined) throw coreFailed("it said nothing of the file");
-  return scan;
+  return withCheckedStatistics(scan);
+}
+
+/** The core passes on the statistics record as JSON that somebody wrote; one that is damaged is left out, and told. */
+async function withCheckedStatistics(scan: Scan): Promise<Scan> {
+  const { "2": statistics, ...records } = scan.groma ?? {};
+  if (statistics === undefined) return scan;
+  const { decodeStatistics } = await import("@groma/layer/sources");
+  try {
+    const bytes = new TextEncoder().encode(JSON.stringify(statistics));
+    return { ...scan, groma: { ...records, "2": decodeStatistics(bytes, scan.file) } };
+  } catch (error) {
+    if (!(error instanceof GromaError)) throw error;
+    return { ...scan, groma: records, warnings: [...scan.warnings, `${error.cause}; it is ignored`] };
+  }
 }
 
 /**

@@ -1,4 +1,4 @@
-import { execFile } from "node:child_process";
+import { execFile, spawn } from "node:child_process";
 import {
   copyFileSync,
   existsSync,
@@ -34,6 +34,19 @@ function run(program: string, args: readonly string[]): Promise<Outcome> {
 
 const groma = (...args: string[]) => run(main, args);
 
+/** Runs a command whose output nobody reads, as after `| head` has had its lines. */
+function unread(...args: string[]): Promise<Pick<Outcome, "code" | "stderr">> {
+  return new Promise((resolve) => {
+    const child = spawn(process.execPath, [main, ...args], { cwd: folder });
+    child.stdout.destroy();
+    let stderr = "";
+    child.stderr.on("data", (chunk) => {
+      stderr += chunk;
+    });
+    child.on("close", (code) => resolve({ code: code ?? -1, stderr }));
+  });
+}
+
 /** Bytes of the sample with its WKT record renamed, so that nobody finds a CRS in it. */
 function withoutCrs(): string {
   const bytes = readFileSync(sample);
@@ -51,6 +64,19 @@ beforeAll(async () => {
 });
 
 afterAll(() => rmSync(folder, { recursive: true }));
+
+describe("a command whose output nobody reads any more", () => {
+  it("ends without a word", async () => {
+    expect(await unread("info", sample)).toEqual({ code: 0, stderr: "" });
+  });
+
+  it("stops a conversion as a signal does", async () => {
+    const { code, stderr } = await unread("convert", sample, "unread.copc.laz", "--progress", "json");
+    expect(code).toBe(1);
+    expect(stderr).toMatch(/^INTERRUPTED: /);
+    expect(existsSync(join(folder, "unread.copc.laz"))).toBe(false);
+  });
+});
 
 describe("groma convert", () => {
   it("makes a COPC that groma info describes with the CRS of the input", async () => {
@@ -266,7 +292,12 @@ describe("the command line", () => {
       }
     };
     follow("main.js");
-    expect([...loaded].sort()).toEqual(["./choices.js", "./output.js", "commander"]);
+    expect([...loaded].sort()).toEqual([
+      "./choices.js",
+      "./output.js",
+      "@groma/georef/printable",
+      "commander",
+    ]);
   });
 
   it("helps with exit code 0", async () => {

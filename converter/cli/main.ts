@@ -2,7 +2,7 @@
 // What a command needs is loaded when it is run, so that help and refused options come at once.
 import { Command, CommanderError, InvalidArgumentError, Option } from "commander";
 import { PROGRESS_KINDS, SAMPLINGS } from "./choices.js";
-import { fail } from "./output.js";
+import { complain, endWithReader, fail } from "./output.js";
 import type { EngineChoice } from "./place/engine.js";
 
 const ENGINES: readonly NonNullable<EngineChoice["engine"]>[] = ["proj", "proj4js"];
@@ -161,6 +161,7 @@ for (const command of [convert, view]) {
 }
 for (const command of program.commands) command.copyInheritedSettings(program);
 
+endWithReader();
 try {
   await program.parseAsync();
 } catch (error) {
@@ -177,5 +178,5 @@ try {
 /** An error like all others, told without what they need. */
 function refuse(cause: string): void {
   process.exitCode = 1;
-  process.stderr.write(`OPTION_INVALID: groma: ${cause}. Run groma --help.\n`);
+  complain([`OPTION_INVALID: groma: ${cause}. Run groma --help.`]);
 }

@@ -1,4 +1,56 @@
 import type { Fault } from "@groma/georef";
+import { printable } from "@groma/georef/printable";
+
+// The one place where the commands write to the terminal: whatever a line holds of files, their names and other
+// programs is made safe here, so that no caller has to think of it.
+
+/** Prints lines for people on standard output. A line break within a line is shown, not made. */
+export function print(lines: readonly string[]): void {
+  process.stdout.write(shown(lines));
+}
+
+/** Prints lines for people on standard error. */
+export function complain(lines: readonly string[]): void {
+  process.stderr.write(shown(lines));
+}
+
+function shown(lines: readonly string[]): string {
+  return lines.map((line) => `${printable(line)}\n`).join("");
+}
+
+/** Characters that JSON leaves as they are although they steer a terminal. */
+const UNSEEN_IN_JSON = /[\x7f-\x9f\p{Cf}\p{Zl}\p{Zp}]/gu;
+
+/**
+ * Prints a value for programs on standard output: JSON that reads back exactly, in ASCII where a terminal would not show
+ * the character.
+ *
+ * @param indent spaces per level; on one line without
+ */
+export function printJson(value: unknown, indent?: number): void {
+  const escaped = (text: string) =>
+    text.replace(/./gs, (unit) => `\\u${unit.charCodeAt(0).toString(16).padStart(4, "0")}`);
+  process.stdout.write(`${JSON.stringify(value, undefined, indent).replace(UNSEEN_IN_JSON, escaped)}\n`);
+}
+
+/** Lines of a table of two columns. @param width of the first column, characters */
+export function labelled(rows: readonly (readonly [label: string, text: string])[], width = 8): string[] {
+  return rows.map(([label, text]) => `${label.padEnd(width)} ${text}`);
+}
+
+/**
+ * Ends the command quietly once whoever reads its output has gone, as `head` does after its last line. Work that has to
+ * tidy up is stopped as by a signal.
+ */
+export function endWithReader(): void {
+  for (const stream of [process.stdout, process.stderr]) {
+    stream.on("error", (error: NodeJS.ErrnoException) => {
+      if (error.code !== "EPIPE") throw error;
+      if (process.listenerCount("SIGTERM") > 0) process.emit("SIGTERM");
+      else process.exit();
+    });
+  }
+}
 
 /** What every error of Groma has; told by its members, so that nothing has to be loaded to tell it. */
 interface Told {
@@ -15,11 +67,12 @@ function isTold(error: unknown): error is Told {
 export function fail(error: unknown): void {
   process.exitCode = 1;
   if (isTold(error)) {
-    process.stderr.write(`${error.message}\n`);
+    complain([error.message]);
     return;
   }
-  const text = error instanceof Error ? (error.stack ?? error.message) : String(error);
-  process.stderr.write(`INTERNAL: groma: ${text}. Report this with the command that you ran.\n`);
+  const message = error instanceof Error ? `${error.name}: ${error.message}` : String(error);
+  const frames = error instanceof Error ? (error.stack?.match(/^ {4}at .*$/gm) ?? []) : [];
+  complain([`INTERNAL: groma: ${message}. Report this with the command that you ran.`, ...frames]);
 }
 
 /** 10653336 → `10,653,336`. */

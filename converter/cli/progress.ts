@@ -1,6 +1,6 @@
 import type { ProgressKind } from "./choices.js";
 import type { CoreEvent } from "./core.js";
-import { count } from "./output.js";
+import { complain, count, printJson } from "./output.js";
 import { createPace, type Pace } from "./pace.js";
 
 /** Shows the events of a conversion; `stop` leaves the terminal tidy, however it ended. */
@@ -49,7 +49,8 @@ async function bar(): Promise<Progress> {
   return {
     show(event) {
       if (event.event === "warning") {
-        process.stderr.write(`\r\x1b[Kwarning: ${event.text}\n`);
+        process.stderr.write("\r\x1b[K");
+        complain([`warning: ${event.text}`]);
         return;
       }
       const { stage, done, total } = event;
@@ -67,14 +68,14 @@ async function plain(): Promise<Progress> {
   return {
     show(event) {
       if (event.event === "warning") {
-        process.stderr.write(`warning: ${event.text}\n`);
+        complain([`warning: ${event.text}`]);
         return;
       }
       const { stage, done, total } = event;
       const now = pace.advance(stage, done, total);
       const tenth = total > 0 ? Math.floor((10 * done) / total) : 10;
       const text = `${stage} ${10 * tenth} %`;
-      if (text !== last) process.stderr.write(`${`${text}  ${paceInWords(stage, now)}`.trimEnd()}\n`);
+      if (text !== last) complain([`${text}  ${paceInWords(stage, now)}`.trimEnd()]);
       last = text;
     },
     stop: () => undefined,
@@ -84,15 +85,14 @@ async function plain(): Promise<Progress> {
 /** `{ event, stage, done, total, rate, eta }` on standard output: points per second, seconds to the end of the whole. */
 async function json(): Promise<Progress> {
   const pace = createPace();
-  const print = (line: object) => process.stdout.write(`${JSON.stringify(line)}\n`);
   return {
     show(event) {
       if (event.event === "warning") {
-        print(event);
+        printJson(event);
         return;
       }
       const { rate, eta } = pace.advance(event.stage, event.done, event.total);
-      print({ ...event, rate, eta });
+      printJson({ ...event, rate, eta });
     },
     stop: () => undefined,
   };

@@ -69,6 +69,7 @@ export { place } from "./georeference/place.js";
 export { placeIntegers } from "./georeference/place-integers.js";
 export type { Placement, Scheme } from "./georeference/placement.js";
 export { type Bounds, cutWindow, type Grid, type GridWindow } from "./grid/window.js";
+export { printable } from "./printable.js";
 export {
   type AccuracyPart,
   accuracyParts,

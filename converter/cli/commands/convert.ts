@@ -4,6 +4,7 @@ import { dryRun, planForMachines, planInWords } from "../conversion/dry-run.js";
 import type { ConvertOptions } from "../conversion/options.js";
 import { summaryForMachines, summaryInWords } from "../conversion/summary.js";
 import { interruptible } from "../interruption.js";
+import { print, printJson } from "../output.js";
 import { createProgress, defaultProgress } from "../progress.js";
 
 export interface ConvertCommandOptions extends ConvertOptions {
@@ -19,23 +20,22 @@ export async function runConvert(files: readonly string[], options: ConvertComma
   const forMachines = options.progress === "json" || options.json === true;
   const progress = await createProgress(options.progress ?? (options.dryRun ? "plain" : defaultProgress()));
   try {
-    const text = await interruptible(async (signal) => {
+    const tell = await interruptible(async (signal) => {
       if (options.dryRun) {
         const plan = await dryRun(inputs, output, options, (event) => progress.show(event), signal);
-        return forMachines ? line(planForMachines(plan)) : planInWords(plan);
+        return () => (forMachines ? printJson(planForMachines(plan)) : print(planInWords(plan)));
       }
       const converted = await convert(inputs, output, options, (event) => progress.show(event), signal);
-      return forMachines ? line(summaryForMachines(converted)) : summaryInWords(converted);
+      return () =>
+        forMachines ? printJson(summaryForMachines(converted)) : print(summaryInWords(converted));
     });
     progress.stop();
-    process.stdout.write(text);
+    tell();
   } catch (error) {
     progress.stop();
     if (options.progress === "json" && error instanceof GromaError) {
-      process.stdout.write(line({ event: "error", ...error.toWire() }));
+      printJson({ event: "error", ...error.toWire() });
     }
     throw error;
   }
 }
-
-const line = (object: object): string => `${JSON.stringify(object)}\n`;

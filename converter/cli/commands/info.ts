@@ -1,4 +1,5 @@
 import { inspect } from "../inspect/inspect.js";
+import { print, printJson } from "../output.js";
 
 /**
  * The `info` command. A file without a usable CRS is described all the same; what is wrong with it is said.
@@ -9,10 +10,10 @@ export async function runInfo(file: string, options: { json?: boolean; verify?: 
   const { json = false, verify = false } = options;
   const inspection = await inspect(file, verify);
   if (json) {
-    const { machineForm } = await import("../inspect/machine-form.js");
-    process.stdout.write(`${JSON.stringify(machineForm(inspection), undefined, 2)}\n`);
+    const { reportJson } = await import("../inspect/report-json.js");
+    printJson(reportJson(inspection), 2);
     return;
   }
-  const { personForm } = await import("../inspect/person-form.js");
-  process.stdout.write(personForm(inspection));
+  const { report } = await import("../inspect/report.js");
+  print(report(inspection));
 }

@@ -1,6 +1,7 @@
 import { ecefToGeodetic, GromaError, PlacementError, placePoint, statedAccuracy } from "@groma/georef";
 import { scanFile } from "../core.js";
 import { placeInWords } from "../describe.js";
+import { print, printJson } from "../output.js";
 import { type Placed, placed } from "../placed.js";
 import { type Row, readRows } from "../rows.js";
 
@@ -63,16 +64,17 @@ export async function runLocate(file: string, { points, json = false }: LocateOp
   const rows = await readRows(points, { kind: "POINTS", columns: "x y z", fewest: 2, most: 3 });
   const place = await placed(await scanFile(file));
   const located = locate(place, rows, file);
-  process.stdout.write(json ? machineForm(place, located) : personForm(place, located));
+  if (json) printJson(locatedJson(place, located));
+  else print(locatedLines(place, located));
 }
 
-function machineForm({ engine, operation, basis }: Placed, points: readonly Located[]): string {
-  return `${JSON.stringify({ points, engine, operation: operation ?? null, crsFrom: basis })}\n`;
+function locatedJson({ engine, operation, basis }: Placed, points: readonly Located[]) {
+  return { points, engine, operation: operation ?? null, crsFrom: basis };
 }
 
-function personForm(place: Placed, points: readonly Located[]): string {
+function locatedLines(place: Placed, points: readonly Located[]): string[] {
   const whence = place.basis === "Groma's record" ? "" : `, derived here from the file's ${place.basis}`;
-  const lines = [
+  return [
     `# ${placeInWords(place)}${whence}`,
     "# X Y Z (ECEF, m)  longitude latitude (degrees)  height (m)  accuracy (m)",
     ...points.map(({ ecef, geodetic: [longitude, latitude, height], accuracy }) => {
@@ -81,5 +83,4 @@ function personForm(place: Placed, points: readonly Located[]): string {
       return `${ecef.map((value) => value.toFixed(4)).join(" ")}  ${degrees}  ${height.toFixed(4)}  ${worth}`;
     }),
   ];
-  return lines.map((line) => `${line}\n`).join("");
 }

@@ -1,5 +1,6 @@
 import { statSync } from "node:fs";
 import { resolve } from "node:path";
+import { print } from "../output.js";
 import { ServerError, type ServingOptions, serve } from "../server/server.js";
 
 /**
@@ -16,5 +17,5 @@ export async function runServe(folder: string, options: ServingOptions): Promise
     });
   }
   const { address } = await serve([{ path: "/", folder: root }], options);
-  process.stdout.write(`serve    ${root} at ${address}\n`);
+  print([`serve    ${root} at ${address}`]);
 }

@@ -11,7 +11,7 @@ import { coreProgram, type Scan, scanFile } from "../core.js";
 import { crsInWords, heightInWords } from "../describe.js";
 import { georeference } from "../georeference.js";
 import { interruptible } from "../interruption.js";
-import { count } from "../output.js";
+import { count, print } from "../output.js";
 import { chosenProj } from "../place/engine.js";
 import { placed } from "../placed.js";
 import { createProgress, defaultProgress } from "../progress.js";
@@ -49,11 +49,11 @@ export async function runView(file: string, options: ViewOptions): Promise<void>
     tell(file, shown, crsInWords(crs), heightInWords(crs, geoids));
   }
   const { address } = await serve([mountFile("/data/", copc), { path: "/", folder: page }], options);
-  process.stdout.write(`globe    ${address}?cloud=${encodeURIComponent(`/data/${basename(copc)}`)}\n`);
+  print([`globe    ${address}?cloud=${encodeURIComponent(`/data/${basename(copc)}`)}`]);
 }
 
 function tell(file: string, { points }: Scan, name: string, height: string): void {
-  process.stdout.write(`${basename(file)}  ${count(points)} points  ${name}  height: ${height}\n`);
+  print([`${basename(file)}  ${count(points)} points  ${name}  height: ${height}`]);
 }
 
 /** What the user says of reading, coordinates and engine: it makes a conversion necessary, and another when it changes. */
@@ -89,7 +89,7 @@ async function cached(file: string, options: ViewOptions): Promise<string> {
   const converted = await interruptible((signal) =>
     convert([file], copc, { ...options, overwrite: true }, (event) => progress.show(event), signal),
   ).finally(() => progress.stop());
-  process.stdout.write(`convert  ${copc}  ${converted.seconds.toFixed(1)} s\n${placeSummary(converted)}`);
+  print([`convert  ${copc}  ${converted.seconds.toFixed(1)} s`, ...placeSummary(converted)]);
   return copc;
 }
 

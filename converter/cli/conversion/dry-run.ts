@@ -4,7 +4,7 @@ import type { Fault } from "@groma/georef";
 import { type CoreEvent, type Plan, planFiles } from "../core.js";
 import { crsInWords, heightInWords } from "../describe.js";
 import type { Georeferenced } from "../georeference.js";
-import { count, size, skippedRow } from "../output.js";
+import { count, counted, labelled, size, skippedRow } from "../output.js";
 import { type PdalReport, pdalInWords, pdalReport } from "../pdal/report.js";
 import { centreRow, type Whereabouts } from "../place/whereabouts.js";
 import { freeBytes, withScratch } from "../scratch.js";
@@ -89,7 +89,7 @@ export function planForMachines({ georeferenced, whereabouts, core, ...rest }: D
 }
 
 /** The plan, a line for each thing. */
-export function planInWords(plan: DryRun): string {
+export function planInWords(plan: DryRun): string[] {
   const { output, inputs, skipped, points, georeferenced, whereabouts, core, pdal, pdalTemp } = plan;
   const { crs, basis, notes } = georeferenced;
   const rows: [string, string][] = [
@@ -105,7 +105,7 @@ export function planInWords(plan: DryRun): string {
     rows.push(
       [
         "octree",
-        `about ${core.levels} levels, ${core.recordLength} bytes a point, sampling ${core.sampling}`,
+        `about ${counted(core.levels, "level")}, ${core.recordLength} bytes a point, sampling ${core.sampling}`,
       ],
       ["memory", `at most ${size(core.memory)}`],
       ["temp", tempInWords(core)],
@@ -117,7 +117,7 @@ export function planInWords(plan: DryRun): string {
       ["output", `${output}; the octree is planned when PDAL has read the inputs`],
     );
   }
-  return rows.map(([label, text]) => `${label.padEnd(8)} ${text}\n`).join("");
+  return labelled(rows);
 }
 
 function tempInWords({ tempBytes, tempDir, tempFree }: Plan): string {

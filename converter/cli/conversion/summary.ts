@@ -1,7 +1,7 @@
 import { basename } from "node:path";
 import { type AccuracyPart, type Crs, statedAccuracy } from "@groma/georef";
 import { placeInWords, remarks, unknownTotal } from "../describe.js";
-import { count, counted, length, size, skippedRow } from "../output.js";
+import { count, counted, labelled, length, size, skippedRow } from "../output.js";
 import { pdalInWords } from "../pdal/report.js";
 import { centreRow } from "../place/whereabouts.js";
 import type { Converted } from "./convert.js";
@@ -25,16 +25,16 @@ export function summaryForMachines({ georeferenced, whereabouts, records, ...sum
 }
 
 /** What a conversion made, for people. */
-export function summaryInWords(converted: Converted): string {
+export function summaryInWords(converted: Converted): string[] {
   const { output, points, nodes, bytes, seconds } = converted;
   const each = `${(bytes / points).toPrecision(2)} bytes a point`;
   const rate = seconds > 0 ? `, ${count(Math.round(points / seconds))} points/s` : "";
-  const first = `${basename(output)}  ${counted(points, "point")} in ${counted(nodes, "node")}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}\n`;
-  return `${first}${placeSummary(converted)}`;
+  const first = `${basename(output)}  ${counted(points, "point")} in ${counted(nodes, "node")}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}`;
+  return [first, ...placeSummary(converted)];
 }
 
 /** Where the points are, what that is worth, and what has to be known of it, a line each. */
-export function placeSummary(converted: Converted): string {
+export function placeSummary(converted: Converted): string[] {
   const { georeferenced, whereabouts, records, rgbBits, pdal, skipped } = converted;
   const { crs, engine, operation, accuracy } = records.georeference;
   const lines: [string, string][] = [
@@ -54,7 +54,7 @@ export function placeSummary(converted: Converted): string {
     lines.push(["colours", "8-bit colours in 16-bit fields; values unchanged"]);
   }
   lines.push(...skipped.map(skippedRow));
-  return lines.map(([label, text]) => `${label.padEnd(8)} ${text}\n`).join("");
+  return labelled(lines);
 }
 
 function accuracyInWords(parts: readonly AccuracyPart[], crs: Crs): string {

@@ -16,18 +16,20 @@ const i32: Reader = (view, at) => view.getInt32(at, true);
 const f64: Reader = (view, at) => view.getFloat64(at, true);
 
 /** Readers and sizes of the data types of extra bytes, by their names (LAS 1.4 R15, table 24). */
-const TYPES: Readonly<Record<string, readonly [Reader, number]>> = {
-  uint8: [u8, 1],
-  int8: [(view, at) => view.getInt8(at), 1],
-  uint16: [u16, 2],
-  int16: [i16, 2],
-  uint32: [(view, at) => view.getUint32(at, true), 4],
-  int32: [i32, 4],
-  uint64: [(view, at) => Number(view.getBigUint64(at, true)), 8],
-  int64: [(view, at) => Number(view.getBigInt64(at, true)), 8],
-  float32: [(view, at) => view.getFloat32(at, true), 4],
-  float64: [f64, 8],
-};
+const TYPES: ReadonlyMap<string, readonly [Reader, number]> = new Map(
+  Object.entries<readonly [Reader, number]>({
+    uint8: [u8, 1],
+    int8: [(view, at) => view.getInt8(at), 1],
+    uint16: [u16, 2],
+    int16: [i16, 2],
+    uint32: [(view, at) => view.getUint32(at, true), 4],
+    int32: [i32, 4],
+    uint64: [(view, at) => Number(view.getBigUint64(at, true)), 8],
+    int64: [(view, at) => Number(view.getBigInt64(at, true)), 8],
+    float32: [(view, at) => view.getFloat32(at, true), 4],
+    float64: [f64, 8],
+  }),
+);
 
 /** Bytes of a record without extra bytes, by point format. */
 export const BASE_LENGTH = [20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67];
@@ -61,7 +63,7 @@ export function fields({ pointFormat, recordLength, scale, offset, extraBytes }:
   let at = BASE_LENGTH[pointFormat] ?? recordLength;
   for (const { name, type } of extraBytes) {
     const [, base, count] = /^(\w+?)(?:\[(\d+)\])?$/.exec(type) ?? [];
-    const known = TYPES[base ?? ""];
+    const known = TYPES.get(base ?? "");
     const size = (known?.[1] ?? 1) * Number(count ?? 1);
     if (at + size > recordLength) break;
     if (known && count === undefined) all.push(field(name, at, known[0]));

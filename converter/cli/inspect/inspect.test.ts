@@ -5,8 +5,8 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { afterAll, describe, expect, it } from "vitest";
 import { inspect } from "./inspect.js";
-import { machineForm } from "./machine-form.js";
-import { personForm } from "./person-form.js";
+import { report } from "./report.js";
+import { reportJson } from "./report-json.js";
 
 const data = fileURLToPath(new URL("../../../../shared/data/", import.meta.url));
 const missing = existsSync(data) ? "" : " (skipped: ../shared/data is not there)";
@@ -76,7 +76,7 @@ describe.skipIf(missing)(`what is told of a file${missing}`, () => {
 
   it("is told to people in lines, to machines as one object", async () => {
     const inspection = await inspect(join(data, "las-variants/las__autzen_trim.las"));
-    const text = personForm(inspection);
+    const text = report(inspection).join("\n");
     expect(text).toMatch(/^returns +1: 99,257 {3}2: 9,021 {3}3: 1,623 {3}4: 99$/m);
     expect(text).toMatch(/^classes +1 unclassified: \d+/m);
     expect(text).toMatch(/^ +2 ground: \d+/m);
@@ -86,7 +86,7 @@ describe.skipIf(missing)(`what is told of a file${missing}`, () => {
     );
     expect(text).toMatch(/^density +1\.79 points per m², 74\.8 cm apart/m);
     expect(text).toMatch(/^records +LASF_Projection 34735: 184 B, GeoTiff GeoKeyDirectoryTag$/m);
-    expect(machineForm(inspection)).toMatchObject({
+    expect(reportJson(inspection)).toMatchObject({
       points: 110_000,
       pointsByReturn: [99_257, 9021, 1623, 99, 0],
       statisticsOf: "evenly spread",
@@ -94,6 +94,15 @@ describe.skipIf(missing)(`what is told of a file${missing}`, () => {
       gpsTime: { kind: "week", from: null },
       octree: null,
     });
+  });
+
+  it("shows a mean between the ends of its range, and lengths in the units of the file", async () => {
+    const inspection = await inspect(join(data, "las-variants/las__autzen_trim.las"));
+    const attributes = [{ name: "gpsTime", min: 245_385.71, max: 245_385.89, mean: 245_385.8 }];
+    const statistics = { ...inspection.statistics!, attributes };
+    const text = report({ ...inspection, statistics }).join("\n");
+    expect(text).toMatch(/^attributes +gpsTime 245385\.71 … 245385\.89, mean 245385\.8$/m);
+    expect(text).toMatch(/^step +x 0\.01 foot {3}y 0\.01 foot {3}z 0\.01 foot$/m);
   });
 
   it("is still told where points and octree are damaged", async () => {
@@ -104,6 +113,6 @@ describe.skipIf(missing)(`what is told of a file${missing}`, () => {
     writeFileSync(join(folder, "damaged.copc.laz"), bytes);
     const inspection = await inspect(join(folder, "damaged.copc.laz"));
     expect(inspection.octree).toBeUndefined();
-    expect(personForm(inspection)).toMatch(/^octree +FORMAT_HIERARCHY: /m);
+    expect(report(inspection).join("\n")).toMatch(/^octree +FORMAT_HIERARCHY: /m);
   });
 });

@@ -115,10 +115,14 @@ async function chunkSize(source: FileSource, records: HeaderDetails["records"]):
 }
 
 function statisticsOf(scan: Scan, taken: readonly Records[], points: number): ScanStatistics {
-  const classes: Record<string, number> = {};
-  const returns: Record<string, number> = {};
+  const classes: Record<number, number> = {};
+  const returns: Record<number, number> = {};
+  const tallies = new Map([
+    ["classification", classes],
+    ["returnNumber", returns],
+  ]);
   const attributes = fields(scan).map((field) => {
-    const tally = { classification: classes, returnNumber: returns }[field.name];
+    const tally = tallies.get(field.name);
     let [min, max, sum, count] = [Infinity, -Infinity, 0, 0];
     for (const { bytes, count: records } of taken) {
       const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -132,7 +136,8 @@ function statisticsOf(scan: Scan, taken: readonly Records[], points: number): Sc
         count++;
       }
     }
-    return { name: field.name, min, max, mean: sum / count };
+    // A sum of many equal values may round to a mean just outside of them.
+    return { name: field.name, min, max, mean: Math.min(max, Math.max(min, sum / count)) };
   });
   const known = attributes.filter(({ mean }) => Number.isFinite(mean));
   const brightest = Math.max(

@@ -16,26 +16,28 @@ export interface Form extends Stored {
 }
 
 /** Fields of the point formats 6 to 8 by PDAL's names, with the least and greatest value that they hold. */
-const FIELDS: Readonly<Record<string, readonly [number, number]>> = {
-  Intensity: [0, 65535],
-  ReturnNumber: [0, 15],
-  NumberOfReturns: [0, 15],
-  ScanChannel: [0, 3],
-  ScanDirectionFlag: [0, 1],
-  EdgeOfFlightLine: [0, 1],
-  ClassFlags: [0, 15],
-  Synthetic: [0, 1],
-  KeyPoint: [0, 1],
-  Withheld: [0, 1],
-  Overlap: [0, 1],
-  Classification: [0, 255],
-  UserData: [0, 255],
-  PointSourceId: [0, 65535],
-  Red: [0, 65535],
-  Green: [0, 65535],
-  Blue: [0, 65535],
-  Infrared: [0, 65535],
-};
+const FIELDS: ReadonlyMap<string, readonly [number, number]> = new Map(
+  Object.entries<readonly [number, number]>({
+    Intensity: [0, 65535],
+    ReturnNumber: [0, 15],
+    NumberOfReturns: [0, 15],
+    ScanChannel: [0, 3],
+    ScanDirectionFlag: [0, 1],
+    EdgeOfFlightLine: [0, 1],
+    ClassFlags: [0, 15],
+    Synthetic: [0, 1],
+    KeyPoint: [0, 1],
+    Withheld: [0, 1],
+    Overlap: [0, 1],
+    Classification: [0, 255],
+    UserData: [0, 255],
+    PointSourceId: [0, 65535],
+    Red: [0, 65535],
+    Green: [0, 65535],
+    Blue: [0, 65535],
+    Infrared: [0, 65535],
+  }),
+);
 
 /** Dimensions that LAS holds as the numbers that they are, coordinates aside; scan angles to 0.006 degrees. */
 const AS_THEY_ARE = new Set(["X", "Y", "Z", "GpsTime", "ScanAngleRank"]);
@@ -58,9 +60,9 @@ export function formOf({ dimensions, stored: before }: Probe, stored: Stored): F
   const pointFormat = has("Infrared") ? 8 : ["Red", "Green", "Blue"].some(has) ? 7 : 6;
   const keptAside = dimensions.filter(isTooMuch).map(({ name }) => name);
   const rounded = dimensions
-    .filter(({ name, type }) => name in FIELDS && type === "floating" && !keptAside.includes(name))
+    .filter(({ name, type }) => FIELDS.has(name) && type === "floating" && !keptAside.includes(name))
     .map(({ name }) => name);
-  const extra = dimensions.filter(({ name }) => !(name in FIELDS) && !AS_THEY_ARE.has(name));
+  const extra = dimensions.filter(({ name }) => !FIELDS.has(name) && !AS_THEY_ARE.has(name));
   const extraBytes = extra.reduce((sum, { size }) => sum + size, 0);
   const recordLength = BASE_LENGTH[pointFormat] + extraBytes + 8 * keptAside.length;
   const { scale, offset } = stored;
@@ -69,7 +71,7 @@ export function formOf({ dimensions, stored: before }: Probe, stored: Stored): F
 }
 
 function isTooMuch({ name, type, min, max }: Dimension): boolean {
-  const range = FIELDS[name];
+  const range = FIELDS.get(name);
   if (range === undefined) return false;
   const share = type === "floating" && SHARES.has(name) && max > 0 && max <= 1;
   return share || min < range[0] || max > range[1];

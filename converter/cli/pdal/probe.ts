@@ -164,12 +164,20 @@ function keepsCoordinates({ stages }: Job): boolean {
   });
 }
 
+/** What PDAL tells of a reader of LAS, as far as it is used. */
+type ReaderMetadata = Readonly<Record<`${"scale" | "offset"}_${"x" | "y" | "z"}`, unknown>>;
+
 /** The scale and offset of readers of LAS, if there are no others and all of them agree. */
 function storedAlike(stages: Metadata["stages"], readers: readonly string[]): Stored | undefined {
   if (readers.length !== 1 || !/^readers\.(las|copc)$/.test(readers[0]!)) return undefined;
-  const all = [stages[readers[0]!]].flat() as Record<string, unknown>[];
-  const three = (what: string) => (one: Record<string, unknown>) =>
-    ["x", "y", "z"].map((axis) => Number(one[`${what}_${axis}`])) as unknown as [number, number, number];
+  const entry = Object.entries(stages).find(([name]) => name === readers[0]);
+  const all = [entry?.[1]].flat() as ReaderMetadata[];
+  const three = (what: "scale" | "offset") => (one: ReaderMetadata) =>
+    (["x", "y", "z"] as const).map((axis) => Number(one[`${what}_${axis}`])) as unknown as [
+      number,
+      number,
+      number,
+    ];
   const [first] = all;
   if (first === undefined) return undefined;
   const stored = { scale: three("scale")(first), offset: three("offset")(first) };

@@ -9,7 +9,10 @@ export class Classes {
 
   attach(layer: PointCloudLayer): void {
     const counts = layer.cloud.statistics?.classes ?? {};
-    const numbers = Object.keys(counts).map(Number);
+    // A damaged record may count what is no class.
+    const numbers = Object.keys(counts)
+      .map(Number)
+      .filter((number) => layer.style.classes[number] !== undefined);
     this.#list.replaceChildren(...numbers.map((number) => rowOf(layer, number, counts[number] ?? 0)));
     this.#place.hidden = numbers.length === 0;
   }

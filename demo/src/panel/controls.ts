@@ -1,6 +1,6 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import type { Aspect } from "../scene/camera.js";
-import { byId } from "./elements.js";
+import { byId, setText } from "./elements.js";
 import { liftWords } from "./words.js";
 
 /** The switches for whether a cloud is drawn, how high, and from where it is seen. */
@@ -38,6 +38,6 @@ export class Controls {
   }
 
   #writeLift({ heightOffset }: PointCloudLayer): void {
-    this.#liftNote.textContent = liftWords(heightOffset);
+    setText(this.#liftNote, liftWords(heightOffset));
   }
 }

@@ -1,6 +1,7 @@
 import type { AccuracyPart, OperationReport } from "@groma/georef";
+import { printable } from "@groma/georef/printable";
 import type { PointCloud } from "@groma/layer/cesium";
-import { byId, textElement } from "./elements.js";
+import { byId, setText, textElement } from "./elements.js";
 import {
   accuracyWords,
   counted,
@@ -20,8 +21,8 @@ import {
  */
 export function showFacts(cloud: PointCloud, { given }: { given: boolean }): void {
   const { name, pointCount, crs, geoids, operation, accuracy } = cloud;
-  byId("title", HTMLHeadingElement).textContent = name;
-  document.title = `${name} · Groma`;
+  setText(byId("title", HTMLHeadingElement), name);
+  document.title = `${printable(name)} · Groma`;
   const remark = accuracy.parts.find((part) => part.name === "height")?.note;
   const facts = byId("facts", HTMLDListElement);
   facts.replaceChildren(

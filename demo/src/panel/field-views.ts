@@ -1,5 +1,5 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
-import { textElement } from "./elements.js";
+import { optionElement, textElement } from "./elements.js";
 import type { CheckField, ChoiceField, Field, FieldView, RangeField, SliderField } from "./field.js";
 
 /** Called when the reader changes a field; the change is carried out by what is handed over. */
@@ -67,7 +67,7 @@ function choice(field: ChoiceField, apply: Apply): FieldView {
       const options = field.options(layer);
       const there = [...select.options].map(({ value }) => value).join("\n");
       if (there !== options.map(({ value }) => value).join("\n")) {
-        select.replaceChildren(...options.map(({ value, label }) => new Option(label, value)));
+        select.replaceChildren(...options.map(({ value, label }) => optionElement({ value, label })));
       }
       select.value = field.read(layer);
     },

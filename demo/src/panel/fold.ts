@@ -1,5 +1,5 @@
 import type { ScreenRectangle } from "../scene/framing.js";
-import { byId } from "./elements.js";
+import { byId, setText } from "./elements.js";
 
 /** Screens narrower than this (CSS pixels) begin with the panel folded; as in style.css. */
 const NARROW = 640;
@@ -21,7 +21,7 @@ function setFolded(folded: boolean): void {
   const button = byId("fold", HTMLButtonElement);
   byId("body", HTMLDivElement).hidden = folded;
   button.setAttribute("aria-expanded", String(!folded));
-  button.textContent = folded ? "More" : "Less";
+  setText(button, folded ? "More" : "Less");
 }
 
 /** The part of the window beside or below the panel; the whole window where that would be too small. */

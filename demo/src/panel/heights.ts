@@ -1,7 +1,7 @@
 import type { HeightGuess } from "@groma/georef";
 import { guessHeights, type PointCloud } from "@groma/layer/cesium";
 import { chooseHeight, type HeightWish } from "../scene/height-choice.js";
-import { byId, textElement } from "./elements.js";
+import { byId, optionElement, setText, textElement } from "./elements.js";
 
 /** The switch for what heights are measured from, with what they may be where nobody has said it. */
 export class Heights {
@@ -28,7 +28,7 @@ export class Heights {
       this.#codeField.hidden = wish !== "code";
       if (wish === "code") void this.#offer();
       const choice = chooseHeight(wish, this.#code.value);
-      this.#note.textContent = choice.kind === "refused" ? choice.words : "";
+      setText(this.#note, choice.kind === "refused" ? choice.words : "");
       if (choice.kind === "refused" || choice.vertical === this.#vertical) return;
       if (!(await reopen(choice.vertical))) this.#write();
     };
@@ -59,7 +59,7 @@ export class Heights {
     this.#wish.value = known ? "ellipsoidal" : this.#vertical === undefined ? "declared" : "code";
     this.#code.value = known ? "" : (this.#vertical ?? "");
     this.#codeField.hidden = this.#wish.value !== "code";
-    this.#note.textContent = "";
+    setText(this.#note, "");
   }
 
   /** Offers the height systems in use where the cloud lies; of an unknown one it says what is at stake. */
@@ -71,15 +71,10 @@ export class Heights {
     const guess = await this.#guess;
     if (!guess || this.#cloud !== cloud) return;
     this.#likely.replaceChildren(
-      ...guess.systems.map(({ code, name }) => {
-        const option = document.createElement("option");
-        option.value = `EPSG:${code}`;
-        option.label = name;
-        return option;
-      }),
+      ...guess.systems.map(({ code, name }) => optionElement({ value: `EPSG:${code}`, label: name })),
     );
     if (cloud.height.kind !== "unknown" || this.#wish.value !== "declared") return;
-    this.#note.textContent = `Not said by the file: ${guess.note}.`;
+    setText(this.#note, `Not said by the file: ${guess.note}.`);
     const [first] = guess.systems;
     if (!first) return;
     const take = textElement("button", `Take ${first.name}`);

@@ -1,5 +1,5 @@
 import type { LedgerRow, PointCloudLayer } from "@groma/layer/cesium";
-import { byId, textElement } from "./elements.js";
+import { byId, setText, textElement } from "./elements.js";
 import { costWords, effectWords, frameWords, magnitudeWords, stateWords } from "./ledger-words.js";
 
 /** Milliseconds between two writings: quick enough to be live, slow enough to be read. */
@@ -27,7 +27,7 @@ export class Ledger {
     const layer = this.#layer;
     if (!this.#place.open || !layer || layer.isDestroyed() || document.hidden) return;
     this.#rows.replaceChildren(...layer.ledger.map(rowOf));
-    this.#frame.textContent = frameWords(layer.statistics.gpuMilliseconds);
+    setText(this.#frame, frameWords(layer.statistics.gpuMilliseconds));
   }
 }
 

@@ -20,7 +20,7 @@ export class Message {
     buttons.append(this.#button({ label: "Dismiss", run: () => undefined }));
     this.#place.replaceChildren(
       textElement("p", code, "code"),
-      textElement("p", `${file}: ${sentence(cause)}`),
+      isolated(file, ": ", sentence(cause)),
       textElement("p", sentence(fix.charAt(0).toUpperCase() + fix.slice(1)), "fix"),
       buttons,
     );
@@ -39,6 +39,13 @@ export class Message {
     });
     return button;
   }
+}
+
+/** A paragraph whose first and last part cannot change each other's direction of writing. */
+function isolated(first: string, between: string, last: string): HTMLElement {
+  const paragraph = document.createElement("p");
+  paragraph.append(textElement("bdi", first), between, textElement("bdi", last));
+  return paragraph;
 }
 
 function faultOf(thrown: unknown): Fault {

@@ -1,5 +1,5 @@
 import type { PointCloudLayer, ServerWait, StreamProgress } from "@groma/layer/cesium";
-import { byId } from "./elements.js";
+import { byId, setText } from "./elements.js";
 import { againWords, outageWords } from "./wait-words.js";
 import { counted, countWords } from "./words.js";
 
@@ -18,10 +18,10 @@ export class Progress {
   opening(name: string): void {
     this.rest();
     this.#place.hidden = false;
-    this.#say(`Opening ${name}…`);
+    setText(this.#stage, `Opening ${name}…`);
     this.#bar.removeAttribute("value");
     this.#bar.hidden = false;
-    this.#count.textContent = "";
+    setText(this.#count, "");
   }
 
   /**
@@ -31,8 +31,8 @@ export class Progress {
   openingWaits(name: string, wait: ServerWait | undefined): void {
     this.opening(name);
     if (!wait) return;
-    this.#say(outageWords(wait));
-    const count = () => this.#count.replaceChildren(againWords(wait, Date.now()));
+    setText(this.#stage, outageWords(wait));
+    const count = () => setText(this.#count, againWords(wait, Date.now()));
     count();
     const timer = setInterval(count, INTERVAL);
     this.#unfollow = () => clearInterval(timer);
@@ -69,19 +69,14 @@ export class Progress {
     this.#bar.hidden = !waits;
     this.#bar.max = Math.max(wanted, 1);
     this.#bar.value = ready;
-    if (waits && waiting) this.#say(outageWords(waiting));
-    else if (waits) this.#say("Loading this view…");
-    else if (failed > 0) this.#say(`This view is drawn without ${counted(failed, "node")} that failed.`);
-    else this.#say(wanted > 0 ? "This view is complete." : "No points in this view.");
+    if (waits && waiting) setText(this.#stage, outageWords(waiting));
+    else if (waits) setText(this.#stage, "Loading this view…");
+    else if (failed > 0)
+      setText(this.#stage, `This view is drawn without ${counted(failed, "node")} that failed.`);
+    else setText(this.#stage, wanted > 0 ? "This view is complete." : "No points in this view.");
     const nodes = `${countWords(ready)} of ${counted(wanted, "node")}`;
     const limit = budgetReached ? ", all that the budget allows" : "";
     const again = waits && waiting ? `${againWords(waiting, Date.now())} · ` : "";
-    const count = `${again}${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`;
-    if (this.#count.textContent !== count) this.#count.textContent = count;
-  }
-
-  /** Speaks only when there is something new, since screen readers read each change. */
-  #say(text: string): void {
-    if (this.#stage.textContent !== text) this.#stage.textContent = text;
+    setText(this.#count, `${again}${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`);
   }
 }

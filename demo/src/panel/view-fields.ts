@@ -66,7 +66,7 @@ export const VIEW_GROUPS: readonly FieldGroup[] = [
   },
 ];
 
-function range(name: string, label: string): RangeField {
+function range(name: "elevation" | "intensity" | "gpsTime", label: string): RangeField {
   const attribute = ({ cloud }: Layer) => cloud.attributes.find((each) => each.name === name);
   return {
     kind: "range",

@@ -13,8 +13,14 @@ import { CrsError } from "../errors/errors.js";
  */
 export type ExactTransform = (x: number, y: number, out: Float64Array, offset: number) => void;
 
-/** What computes the exact transform, for the georeference record. */
-export const ENGINE = { name: "proj4js", version: proj4.version } as const;
+/**
+ * What computes the exact transform, for the georeference record. Bundlers take proj4js from its sources, which have a
+ * placeholder for the version: there it is only known to be one that this package accepts (peerDependencies).
+ */
+export const ENGINE = {
+  name: "proj4js",
+  version: /^\d/.test(proj4.version) ? proj4.version : "2.22+",
+} as const;
 
 /** The part of proj4js's projection object that is used here and that its own types do not tell. */
 interface Projection {

@@ -12,6 +12,7 @@ export { type HttpOptions, HttpSource, type RetryPolicy } from "./bytes/http-sou
 export { openBytes, type SourceLike } from "./bytes/open-bytes.js";
 export type { RenewalContext } from "./bytes/renewable.js";
 export { checkChecksum } from "./checksum.js";
+export { decodeStatistics } from "./copc/statistics-record.js";
 export { type Encoding, type OpenedSource, type OpenOptions, openSource } from "./open-source.js";
 export type { NumberType, PointAttribute } from "./point-attribute.js";
 export type { CrsDeclaration, EncodedChunk, HierarchyEntry, PointSource, SourceBox } from "./point-source.js";

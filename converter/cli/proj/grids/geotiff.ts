@@ -13,11 +13,11 @@ import {
 
 const DEGREE = Math.PI / 180;
 /** Radians per unit of shifts (Geodetic TIFF grids, UNITTYPE); arc-seconds where nothing is said. */
-const ANGLES: Readonly<Record<string, number>> = {
-  "arc-second": DEGREE / 3600,
-  degree: DEGREE,
-  radian: 1,
-};
+const ANGLES: ReadonlyMap<string, number> = new Map([
+  ["arc-second", DEGREE / 3600],
+  ["degree", DEGREE],
+  ["radian", 1],
+]);
 const HEIGHTS = ["geoid_undulation", "vertical_offset", "hydroid_height", "ellipsoidal_height_offset"];
 /** Nodes read beyond the bounds on each side. */
 const MARGIN = 4;
@@ -63,11 +63,14 @@ export async function openGeoTiff(path: string, name: string, kind: GridKind): P
 }
 
 async function gridImage(image: GeoTIFFImage, first: GeoTIFFImage, name: string, kind: GridKind) {
-  const metadata = (await image.getGDALMetadata()) ?? {};
+  const metadata = new Map(Object.entries((await image.getGDALMetadata()) ?? {}));
   const lattice = checkedLattice(name, latticeOf(image, name));
   const bands =
     kind === "vertical" ? [await verticalBand(image, first, name)] : await shiftBands(image, first, name);
-  const text = (key: string) => (typeof metadata[key] === "string" ? metadata[key] : undefined);
+  const text = (key: string) => {
+    const value = metadata.get(key);
+    return typeof value === "string" ? value : undefined;
+  };
   return {
     ...lattice,
     name: text("grid_name") ?? "",
@@ -97,20 +100,21 @@ function latticeOf(image: GeoTIFFImage, name: string): Lattice {
   };
 }
 
-type Tags = Record<string, unknown>;
+type Tags = ReadonlyMap<string, unknown>;
 
 /** What is said of each band; grids after the first may leave it to the first. */
 async function bandTags(image: GeoTIFFImage, first: GeoTIFFImage): Promise<{ own: Tags; shared: Tags }[]> {
   const tags: { own: Tags; shared: Tags }[] = [];
   for (let sample = 0; sample < image.getSamplesPerPixel(); sample++) {
     const shared = sample < first.getSamplesPerPixel() ? await first.getGDALMetadata(sample) : null;
-    tags.push({ own: (await image.getGDALMetadata(sample)) ?? {}, shared: shared ?? {} });
+    const own = await image.getGDALMetadata(sample);
+    tags.push({ own: new Map(Object.entries(own ?? {})), shared: new Map(Object.entries(shared ?? {})) });
   }
   return tags;
 }
 
 function tag({ own, shared }: { own: Tags; shared: Tags }, key: string): string {
-  const value = own[key] ?? shared[key];
+  const value = own.get(key) ?? shared.get(key);
   return typeof value === "string" ? value.trim() : "";
 }
 
@@ -137,7 +141,7 @@ async function shiftBands(image: GeoTIFFImage, first: GeoTIFFImage, name: string
     const found = tags.findIndex((band) => tag(band, "DESCRIPTION") === description);
     const sample = found < 0 && !described ? otherwise : found;
     if (!tags[sample]) throw unreadable(name, `it has no band "${description}"`);
-    const unit = ANGLES[tag(tags[sample], "UNITTYPE") || "arc-second"];
+    const unit = ANGLES.get(tag(tags[sample], "UNITTYPE") || "arc-second");
     if (unit === undefined) throw unreadable(name, `its shifts are in ${tag(tags[sample], "UNITTYPE")}`);
     const west = description === "longitude_offset" && tag(tags[sample], "positive_value") === "west";
     return { sample, unit, sign: west ? -1 : 1, ...scaling(tags[sample]) };

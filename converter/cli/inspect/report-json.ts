@@ -4,7 +4,7 @@ import { className } from "./classes.js";
 import type { Inspection } from "./inspect.js";
 
 /** What is known of a file as one JSON object (docs/cli.md). */
-export function machineForm(inspection: Inspection) {
+export function reportJson(inspection: Inspection) {
   const { scan, header, place, problem, bounds, whereabouts, accuracy, statistics, sampled, gps, octree } =
     inspection;
   const { groma, wktBit: _, wkt: __, geoTiff: ___, ...rest } = scan;

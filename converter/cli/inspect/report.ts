@@ -8,7 +8,7 @@ import {
   remarks,
   unknownTotal,
 } from "../describe.js";
-import { count, counted, length, size } from "../output.js";
+import { count, counted, labelled, length, size } from "../output.js";
 import { centreRow } from "../place/whereabouts.js";
 import { className } from "./classes.js";
 import { gpsSpanInWords } from "./gps-time.js";
@@ -19,7 +19,7 @@ import type { Octree } from "./octree.js";
 type Row = readonly [label: string, text: string];
 
 /** What is known of a file, a line for each thing. */
-export function personForm(inspection: Inspection): string {
+export function report(inspection: Inspection): string[] {
   const { scan, header, statistics, sampled, gps, octree, octreeProblem } = inspection;
   const rows: Row[] = [
     ...fileRows(scan),
@@ -27,14 +27,14 @@ export function personForm(inspection: Inspection): string {
     ...boundsRows(inspection),
     ...contentRows(scan, header, statistics, sampled),
     ...(gps ? [["gps time", gpsSpanInWords(gps)] as const] : []),
-    ...(octree ? octreeRows(octree, scan.points) : []),
+    ...(octree ? octreeRows(octree, scan.points, unitOf(0, inspection.place)) : []),
     ...(scan.copc || inspection.verified ? [["checksums", checksumsInWords(inspection)] as const] : []),
     ...(octreeProblem ? [["octree", octreeProblem] as const] : []),
     ...headed("records", header.records.map(recordInWords)),
     ...scan.warnings.map((text) => ["warning", text] as const),
   ];
   const width = Math.max(...rows.map(([label]) => label.length));
-  return rows.map(([label, text]) => `${label.padEnd(width)}  ${text}\n`).join("");
+  return labelled(rows, width + 1);
 }
 
 /** The first row has the label, the others stand below it. */
@@ -92,7 +92,7 @@ function boundsRows({ scan, place, bounds }: Inspection): Row[] {
     ...(place
       ? [["on earth", bounds ? onEarth(bounds) : "no corner of the bounds has a place"] as const]
       : []),
-    ["step", `${scan.scale.join(", ")} source units`],
+    ["step", axes.map((name, axis) => `${name} ${scan.scale[axis]} ${unitOf(axis, place)}`).join("   ")],
     ...(perArea === undefined
       ? []
       : [
@@ -102,6 +102,12 @@ function boundsRows({ scan, place, bounds }: Inspection): Row[] {
           ] as const,
         ]),
   ];
+}
+
+/** Name of the unit of an axis. */
+function unitOf(axis: number, place: Inspection["place"]): string {
+  if (!place) return "(unit unknown)";
+  return (axis < 2 ? place.crs.horizontalUnit : place.crs.verticalUnit).name;
 }
 
 function onEarth({ west, east, south, north, lowest, highest }: GeodeticBounds): string {
@@ -149,7 +155,10 @@ function statisticsRows(scan: Scan, { classes, rgbBits, attributes }: ScanStatis
     ["colours", coloured ? (rgbBits === null ? "all black" : depth) : "none"],
     ...headed(
       "attributes",
-      told.map(({ name, min, max, mean }) => `${name} ${short(min)} … ${short(max)}, mean ${short(mean, 6)}`),
+      told.map(
+        ({ name, min, max, mean }) =>
+          `${name} ${short(min)} … ${short(max)}, mean ${meanWithin(min, max, mean)}`,
+      ),
     ),
   ];
 }
@@ -157,6 +166,17 @@ function statisticsRows(scan: Scan, { classes, rgbBits, attributes }: ScanStatis
 /** A number without the noise of binary fractions. */
 function short(value: number, digits = 12): string {
   return String(Number(value.toPrecision(digits)));
+}
+
+/** A mean with the digits that tell it from both ends of its range: with six, that of GPS times may lie outside. */
+function meanWithin(min: number, max: number, mean: number): string {
+  const [low, high] = [Number(short(min)), Number(short(max))];
+  for (let digits = 6; digits < 12; digits++) {
+    const rounded = Number(mean.toPrecision(digits));
+    if (rounded >= low && rounded <= high && Math.abs(rounded - mean) <= (max - min) / 1000)
+      return String(rounded);
+  }
+  return short(Math.min(high, Math.max(low, mean)));
 }
 
 function countsInWords(counts: readonly (readonly [number, number])[]): string {
@@ -170,14 +190,15 @@ function checksumsInWords({ scan, verified }: Inspection): string {
   return verified.checksums ? `${what}, each as its checksum says` : `none stored; ${what} decode`;
 }
 
-function octreeRows({ levels, whole }: Octree, expected: number): Row[] {
+/** @param unit of x and y, in which the spacing is */
+function octreeRows({ levels, whole }: Octree, expected: number, unit: string): Row[] {
   const nodes = levels.reduce((sum, level) => sum + level.nodes, 0);
   const points = levels.reduce((sum, level) => sum + level.points, 0);
   const missing = whole && points !== expected ? `, though the header announces ${count(expected)}` : "";
   const rest = whole ? "" : "; the rest of its hierarchy is not read";
   const rows = levels.map(
     (one) =>
-      `level ${one.level}: ${counted(one.nodes, "node")}, ${counted(one.points, "point")}, ${short(one.spacing, 3)} source units apart`,
+      `level ${one.level}: ${counted(one.nodes, "node")}, ${counted(one.points, "point")}, spacing ${short(one.spacing, 3)} ${unit}`,
   );
   return headed("octree", [
     `${counted(nodes, "node")} with ${counted(points, "point")}${missing}${rest}`,
