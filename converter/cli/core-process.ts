@@ -6,7 +6,9 @@ import { fileURLToPath } from "node:url";
 import { type Fault, GromaError } from "@groma/georef";
 
 /** The converter core, the file system or the points made a command fail; the code says which. */
-export class CoreError extends GromaError {}
+export class CoreError extends GromaError {
+  static override readonly kind = "CoreError";
+}
 
 /** Path of the converter core: that of this package, or the one that GROMA_CORE names. */
 export const coreProgram =
@@ -64,7 +66,7 @@ export async function runCore<Line extends { readonly event?: string }>(
     await answers.end();
     if (fault) throw new CoreError(fault);
     signal?.throwIfAborted();
-    if (code !== 0) throw coreFailed(complaint.trim().split("\n").at(-1) || `it ended with ${code}`);
+    if (code !== 0) throw coreFailed(complaint.trim().split("\n").at(-1) || `exit code ${code}`);
   } finally {
     signal?.removeEventListener("abort", stop);
   }

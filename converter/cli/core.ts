@@ -119,7 +119,7 @@ export async function scanFile(file: string, signal?: AbortSignal): Promise<Scan
     return undefined;
   };
   await runCore(["scan", file], onLine, signal);
-  if (scan === undefined) throw coreFailed("it said nothing of the file");
+  if (scan === undefined) throw coreFailed("no answer about the file");
   return withCheckedStatistics(scan);
 }
 

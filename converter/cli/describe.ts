@@ -5,6 +5,7 @@ import {
   ecefToGeodetic,
   type OperationReport,
   pointTransform,
+  statedAccuracy,
   type Truth,
 } from "@groma/georef";
 import type { Scan } from "./core.js";
@@ -75,7 +76,7 @@ export function heightInWords({ height }: Crs, geoids?: readonly string[]): stri
 
 function geoidInWords(geoids: readonly string[]): string {
   if (geoids.length === 0) return "geoid not applied: shown as ellipsoidal";
-  if (geoids.includes(EGM96)) return `geoid ${EGM96} applied in place of the country's own`;
+  if (geoids.includes(EGM96)) return `geoid ${EGM96} applied instead of the national one`;
   return `geoid ${geoids.map(stem).join(", ")} applied`;
 }
 
@@ -90,7 +91,8 @@ export function placeInWords(
 ): string {
   const { crs, engine, operation, fitBound, accuracy } = place;
   const whole = crsInWords(crs);
-  if (engine.name === "similarity") return `${whole} → ECEF by a similarity${residualsInWords(accuracy)}`;
+  if (engine.name === "similarity")
+    return `${whole} → ECEF by a similarity transformation${residualsInWords(accuracy)}`;
   const grids = operation?.grids ?? [];
   const by = `${engine.name} ${engine.version}${grids.length > 0 ? ` (${grids.map(stem).join(", ")})` : ""}`;
   const fit = fitBound === undefined ? "" : `, fit ≤ ${length(fitBound)}`;
@@ -107,8 +109,14 @@ function residualsInWords(accuracy: readonly AccuracyPart[]): string {
   return typeof worst === "number" ? `, residuals ≤ ${length(worst)}` : "";
 }
 
+/** The total of an accuracy, or why it is unknown. */
+export function accuracyInWords(parts: readonly AccuracyPart[], crs: Pick<Crs, "height">): string {
+  const { total } = statedAccuracy(parts);
+  return total === null ? unknownTotal(parts, crs) : `${length(total)} in total`;
+}
+
 /** Why the accuracies of the parts do not add up: `total accuracy unknown: height reference not declared`. */
-export function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "height">): string {
+function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "height">): string {
   const lacks: ReadonlyMap<string, string> = new Map([
     ["height", height.kind === "unknown" ? "height reference not declared" : "geoid not applied"],
     ["datum operation", "accuracy of the datum operation not stated"],
@@ -123,7 +131,7 @@ export function remarks(operation: OperationReport | undefined): string[] {
   if (!operation) return [];
   const lacking = operation.lacking.map(({ name, accuracy, grids }) => {
     const worth = accuracy === null ? "" : ` (${length(accuracy)})`;
-    return `better with ${grids.join(", ")}: ${name}${worth}`;
+    return `more accurate with ${grids.join(", ")}: ${name}${worth}`;
   });
   const missing = [...new Set(operation.lacking.flatMap(({ grids }) => grids))];
   const way = missing.length === 0 ? [] : [`missing grids: ${howToGet(missing)}`];

@@ -138,14 +138,14 @@ function wktOnEarth({ wkt }: Named): string | undefined {
 function missing(file: string, cause: string): CrsError {
   return new CrsError({
     ...{ code: "CRS_MISSING", file, cause },
-    fix: "give it with --crs, e.g. --crs EPSG:2056+5728, or say where the scan is with --anchor or --control",
+    fix: "give it with --crs, e.g. --crs EPSG:2056+5728, or give the position of the scan with --anchor or --control",
   });
 }
 
 function refuseSecondPlace(scan: Named, { crs, vertical }: Given): void {
   const file = scan.file;
-  const fix = "leave one of them out; --crs none ignores what the file declares";
-  const cause = "has a place of its own, and --anchor or --control gives another";
+  const fix = "omit one of them; --crs none ignores the file's CRS";
+  const cause = "already places the scan, and --anchor or --control places it elsewhere";
   const second =
     vertical !== undefined ? "--vertical" : crs !== undefined && crs !== NONE ? "--crs" : undefined;
   if (second) throw new CrsError({ code: "CRS_TWICE", file, cause: `what ${second} names ${cause}`, fix });

@@ -1,7 +1,9 @@
 import { GromaError } from "@groma/georef";
 
 /** The user, or the machine, stopped the command. Code: INTERRUPTED. */
-class InterruptionError extends GromaError {}
+class InterruptionError extends GromaError {
+  static override readonly kind = "InterruptionError";
+}
 
 const SIGNALS = ["SIGINT", "SIGTERM", "SIGHUP"] as const;
 

@@ -11,23 +11,24 @@ const ENGINES: readonly NonNullable<EngineChoice["engine"]>[] = ["proj", "proj4j
 const placing = () => [
   new Option(
     "--crs <X>",
-    "coordinate reference system: EPSG code, PROJ string, WKT or PROJJSON; none ignores the file's CRS",
+    'coordinate reference system: EPSG code, PROJ string, WKT or PROJJSON; "none" ignores the file\'s CRS',
   ),
   new Option("--vertical <X>", "height reference: a vertical EPSG code, or ellipsoidal"),
   new Option(
     "--anchor <lon,lat,height,heading>",
-    "for a scan without CRS, where its origin is: degrees, metres above the ellipsoid, degrees clockwise from north to +y; metres per unit may follow",
+    "for a scan without CRS: position of its origin (degrees, metres above the ellipsoid) and heading of +y (degrees clockwise from north); metres per unit may follow",
   ).conflicts("control"),
-  new Option("--anchor-at <x,y,z>", "the point of the scan that stands at the anchor, instead of its origin"),
+  new Option("--anchor-at <x,y,z>", "point of the scan that lies at the anchor, instead of its origin"),
   new Option(
     "--control <FILE>",
-    "for a scan without CRS, three or more lines: x y z lon lat height (degrees, metres above the ellipsoid)",
+    "for a scan without CRS: file of three or more lines x y z lon lat height (degrees, metres above the ellipsoid)",
   ).conflicts("anchorAt"),
-  new Option("--engine <name>", "who places the points: PROJ with its grids, or proj4js with EGM96").choices(
-    ENGINES,
-  ),
+  new Option(
+    "--engine <name>",
+    "what transforms the coordinates: PROJ with its grids, or proj4js with EGM96",
+  ).choices(ENGINES),
   new Option("--proj <DIR>", "folder of PROJ's programs projinfo and cct, if they are not on PATH"),
-  new Option("--grids <DIR>", "folder of grid files for PROJ, before its own"),
+  new Option("--grids <DIR>", "folder of grid files, searched before PROJ's own"),
 ];
 const progress = () => new Option("--progress <kind>", "how progress is shown").choices(PROGRESS_KINDS);
 const host = () => new Option("--host <address>", "address to listen on").default("127.0.0.1");
@@ -42,30 +43,30 @@ const cors = () =>
 
 /** What may be said of inputs that PDAL reads. */
 const reading = () => [
-  new Option("--pipeline <FILE>", "PDAL pipeline that the inputs go through; it may name them itself"),
-  new Option("--pdal <PATH>", "program of PDAL, if it is not on PATH"),
+  new Option("--pipeline <FILE>", "PDAL pipeline to run on the inputs; it may name its own inputs"),
+  new Option("--pdal <PATH>", "path of the pdal program, if it is not on PATH"),
   new Option(
     "--scale <STEP>",
-    "step of the stored integers for inputs that PDAL reads, in their own units",
+    "scale factor of the stored integers for inputs read by PDAL, in their own units",
   ).argParser(positive),
 ];
 
 function positive(text: string): number {
   const number = Number(text);
   if (Number.isFinite(number) && number > 0) return number;
-  throw new InvalidArgumentError("a step is a number greater than 0");
+  throw new InvalidArgumentError("Expected a number greater than 0");
 }
 
 function threadCount(text: string): number {
   const number = Number(text);
   if (Number.isInteger(number) && number >= 1 && number <= 1024) return number;
-  throw new InvalidArgumentError("a number of threads is a whole number from 1 to 1024");
+  throw new InvalidArgumentError("Expected a whole number from 1 to 1024");
 }
 
 function portNumber(text: string): number {
   const number = Number(text);
   if (Number.isInteger(number) && number >= 0 && number <= 65535) return number;
-  throw new InvalidArgumentError("a port is a number from 0 to 65535");
+  throw new InvalidArgumentError("Expected a whole number from 0 to 65535");
 }
 
 /** Options with `--cors` alone read as all origins. */
@@ -86,7 +87,7 @@ function originList(text: string): string[] {
 }
 
 const program = new Command("groma")
-  .description("From a laser scan to the globe: one COPC file that knows where it is.")
+  .description("Convert laser scans to georeferenced COPC files and show them on the globe.")
   .version("0.1.0")
   .configureOutput({ writeErr: () => undefined })
   .exitOverride();
@@ -94,24 +95,24 @@ const program = new Command("groma")
 const convert = program
   .command("convert")
   .description(
-    "convert scans into one COPC file with its georeference; LAS and LAZ by itself, others through PDAL",
+    "convert scans to one georeferenced COPC file; LAS and LAZ directly, other formats through PDAL",
   )
-  .argument("<paths...>", "files, patterns or folders, then the output")
-  .addOption(new Option("--sampling <S>", "how the points of a node are chosen").choices(SAMPLINGS))
-  .option("--average-colors", "let points of coarse levels have the mean colour of those that they stand for")
-  .addOption(new Option("--threads <N>", "cores to use, all by default").argParser(threadCount))
-  .option("--memory <SIZE>", "most memory to use, e.g. 2GB")
-  .option("--temp-dir <DIR>", "folder for temporary files, by default that of the output")
-  .option("--dry-run", "print the plan and write nothing")
-  .option("--json", "with --dry-run: for machines")
+  .argument("<paths...>", "input files, patterns or folders, then the output file")
+  .addOption(new Option("--sampling <S>", "how the points of each node are chosen").choices(SAMPLINGS))
+  .option("--average-colors", "give points of coarse levels the mean colour of the points they represent")
+  .addOption(new Option("--threads <N>", "number of threads (default: all cores)").argParser(threadCount))
+  .option("--memory <SIZE>", "memory limit, e.g. 2GB")
+  .option("--temp-dir <DIR>", "folder for temporary files (default: the folder of the output)")
+  .option("--dry-run", "print the plan without writing anything")
+  .option("--json", "with --dry-run: print the plan as JSON")
   .addOption(progress())
-  .option("--overwrite", "replace an output that already exists")
+  .option("--overwrite", "replace an existing output")
   .option("--strict", "refuse an empty or damaged input instead of converting what can be read")
   .action(async (paths: string[], options, command: Command) => {
     const least = options.pipeline === undefined ? 2 : 1;
-    if (paths.length < least) command.error("error: inputs and an output are needed");
+    if (paths.length < least) command.error("error: inputs and an output are required");
     if (options.json && !options.dryRun) {
-      command.error("error: --json goes with --dry-run; a conversion has --progress json");
+      command.error("error: --json requires --dry-run; use --progress json for a conversion");
     }
     const { runConvert } = await import("./commands/convert.js");
     return runConvert(paths, options);
@@ -119,18 +120,21 @@ const convert = program
 
 program
   .command("info")
-  .description("tell what a LAS, LAZ or COPC file is, what is in it, where it is, and what that is worth")
+  .description("show contents, location and accuracy of a LAS, LAZ or COPC file")
   .argument("<file>")
-  .option("--json", "for machines")
+  .option("--json", "print JSON")
   .option("--verify", "read all points and hold them against their checksums")
   .action(async (file: string, options) => (await import("./commands/info.js")).runInfo(file, options));
 
 program
   .command("locate")
-  .description("place points as the page does: ECEF, longitude, latitude, height, and what that is worth")
+  .description("convert points to ECEF, longitude, latitude and height as the page does, with their accuracy")
   .argument("<file>")
-  .requiredOption("--points <FILE>", "one x y z per line in the file's own coordinates; - for standard input")
-  .option("--json", "for machines")
+  .requiredOption(
+    "--points <FILE>",
+    "file of one x y z per line in the coordinates of the scan; - for standard input",
+  )
+  .option("--json", "print JSON")
   .action(async (file: string, options) => (await import("./commands/locate.js")).runLocate(file, options));
 
 program
@@ -146,7 +150,7 @@ program
 
 const view = program
   .command("view")
-  .description("show a scan on the globe: convert if needed, serve, print the address")
+  .description("show a scan on the globe: convert it if needed, serve it, print the address")
   .argument("<file>")
   .addOption(progress())
   .addOption(host())
@@ -171,7 +175,7 @@ try {
       .replace(/^error: /, "")
       .replace(/\.$/, "")
       .replace(/\s*\n\s*/g, " ");
-    refuse(cause || "a command is needed");
+    refuse(cause || "no command given");
   }
 }
 

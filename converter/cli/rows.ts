@@ -3,7 +3,9 @@ import { text } from "node:stream/consumers";
 import { GromaError } from "@groma/georef";
 
 /** A file of numbers cannot be read. Codes: POINTS_* for points, CONTROL_* for control points. */
-class RowsError extends GromaError {}
+class RowsError extends GromaError {
+  static override readonly kind = "RowsError";
+}
 
 /** One line of numbers. */
 export interface Row {

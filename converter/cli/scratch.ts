@@ -4,7 +4,9 @@ import { join } from "node:path";
 import { GromaError } from "@groma/georef";
 
 /** There is no room for temporary files. Codes: TEMP_SPACE, TEMP_DIR. */
-class ScratchError extends GromaError {}
+class ScratchError extends GromaError {
+  static override readonly kind = "ScratchError";
+}
 
 /** Names of the folders of this machine, before the number of the process. */
 const PREFIX = `.groma_scratch-${hostname().replace(/[^A-Za-z0-9]/g, "")}-`;
@@ -25,7 +27,7 @@ export async function withScratch<T>(parent: string, work: (folder: string) => P
     throw new ScratchError({
       code: "TEMP_DIR",
       file: parent,
-      cause: `it takes no temporary folder (${error instanceof Error ? error.message : error})`,
+      cause: `no temporary folder can be created in it (${error instanceof Error ? error.message : error})`,
       fix: "name another folder with --temp-dir",
     });
   }
@@ -67,7 +69,7 @@ export async function requireSpace(folder: string, needed: number): Promise<void
   throw new ScratchError({
     code: "TEMP_SPACE",
     file: folder,
-    cause: `temporary files take ${needed} bytes, ${free} are free`,
-    fix: "make room, or name another folder with --temp-dir",
+    cause: `temporary files need ${needed} bytes, ${free} are free`,
+    fix: "free some space, or name another folder with --temp-dir",
   });
 }

@@ -62,7 +62,7 @@ struct Convert {
     /// File with the WKT that the output carries instead of the input's
     #[arg(long)]
     wkt: Option<PathBuf>,
-    /// Replace an output that is there already
+    /// Replace an existing output
     #[arg(long)]
     overwrite: bool,
     /// Refuse a damaged input whose points can be read in part, or only by other ways than its own tables

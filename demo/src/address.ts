@@ -1,7 +1,9 @@
 import { GromaError } from "@groma/georef";
 
 /** An address or an option in the page's own address cannot be used. Codes start with `PAGE_`. */
-export class PageError extends GromaError {}
+export class PageError extends GromaError {
+  static override readonly kind = "PageError";
+}
 
 /** What the page's own address asks for. */
 export interface PageOptions {
@@ -59,13 +61,14 @@ export function cloudAddress(text: string, page: string): string {
   try {
     address = new URL(trimmed, page);
   } catch {
-    throw badAddress(trimmed, "this is not an address");
+    throw badAddress(trimmed, "this is not a valid address");
   }
   const { protocol, username, password } = address;
   if (protocol !== "http:" && protocol !== "https:") {
-    throw badAddress(trimmed, `the page opens no addresses that begin with ${protocol}`);
+    throw badAddress(trimmed, `addresses that begin with ${protocol} are not supported`);
   }
-  if (username || password) throw badAddress(`${address.host}…`, "the address carries a login");
+  if (username || password)
+    throw badAddress(`${address.host}…`, "the address contains a user name or password");
   return address.href;
 }
 
@@ -106,7 +109,7 @@ function badOption(name: string, text: string, wanted: string): PageError {
   return new PageError({
     code: "PAGE_OPTION",
     file: `the option ${name} of the page's address`,
-    cause: text === "" ? "it is empty" : `"${text.slice(0, 60)}" is not what it takes`,
+    cause: text === "" ? "it is empty" : `"${text.slice(0, 60)}" is not a valid value`,
     fix: `Give ${wanted}`,
   });
 }

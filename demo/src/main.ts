@@ -228,7 +228,7 @@ function watchDrawing({ scene, canvas }: Viewer): void {
   scene.renderError.addEventListener((_scene: unknown, thrown: unknown) =>
     stopped(thrown instanceof Error ? thrown.message : String(thrown)),
   );
-  canvas.addEventListener("webglcontextlost", () => stopped("the browser took the graphics card away"));
+  canvas.addEventListener("webglcontextlost", () => stopped("the browser lost the graphics context"));
 }
 
 try {

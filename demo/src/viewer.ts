@@ -58,7 +58,7 @@ export async function addBaseMap(viewer: Viewer): Promise<void> {
     throw new PageError({
       code: "PAGE_BASE_MAP",
       file: url,
-      cause: "the base map cannot be had; the globe stays plain",
+      cause: "the base map cannot be loaded; the globe stays plain",
       fix: "Serve the folder cesium beside the page",
     });
   }

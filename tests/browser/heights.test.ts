@@ -152,7 +152,7 @@ describe.skipIf(pythonMissing)(
 
       await page.fill("#lift", "40");
       await settle(page);
-      expect(await page.textContent("#lift-note")).toContain("40 m above its place, for looks only");
+      expect(await page.textContent("#lift-note")).toContain("40 m above its position, display only");
       const after = { told: await told(page), seen: await rowOfCloud(page, "heights-lifted") };
       const [middle, higher] = [
         await pixelOf(page, ecef(...MIDDLE)),
@@ -247,7 +247,7 @@ describe.skipIf(pythonMissing)(
       expect(Math.abs(before.row - after.row - expected)).toBeLessThan(0.05 * expected);
       const facts = await page.textContent("#facts");
       expect(facts).toContain("above NAP");
-      expect(facts).toContain("EGM96 in place of its own");
+      expect(facts).toContain("EGM96 instead of the national one");
       expect(new URL(page.url()).searchParams.get("vertical")).toBe("EPSG:5709");
       expect([watch.errors, watch.foreign]).toEqual([[], []]);
       await page.context().close();
@@ -280,7 +280,7 @@ describe.skipIf(pythonMissing)(
             expect(Math.hypot(to[0]! - longitude!, to[1]! - latitude!)).toBeLessThan(1e-9);
           }
           expect(after.accuracy).toBe(4);
-          expect(await page.textContent("#facts")).toContain("EGM96 in place of its own");
+          expect(await page.textContent("#facts")).toContain("EGM96 instead of the national one");
 
           // The address alone says the same.
           await page.goto(`${own.address}&fly=0&vertical=EPSG:8228`);

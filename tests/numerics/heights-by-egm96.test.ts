@@ -94,11 +94,11 @@ describe("a height system given in the page", () => {
     },
   ] as const;
 
-  it.each(CASES)(
+  it.for(CASES)(
     "$vertical: as PROJ with EGM96 to half a centimetre, and within what is stated of the truth",
-    async ({ table, given, vertical, projection, shift }) => {
+    async ({ table, given, vertical, projection, shift }, { skip }) => {
       const file = data(`truth/${table}`);
-      if (file.missing ?? missing) return console.log(`skipped: ${file.missing ?? missing}`);
+      skip((file.missing ?? missing) !== undefined, file.missing ?? missing);
       const { rows } = JSON.parse(readFileSync(file.path, "utf8")) as { rows: number[][] };
       const axis = (i: number) => rows.map((row) => row[i]);
       const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((i) => most(...axis(i))));

@@ -43,7 +43,7 @@ it("tells people what a conversion takes", () => {
     "centre   longitude 7.4400°, latitude 46.9500°",
     "note     said",
     "note     far",
-    "octree   about 6 levels, 36 bytes a point, sampling poisson",
+    "octree   about 6 levels, 36 bytes per point, sampling poisson",
     "memory   at most 512 MB",
     "temp     at most 480 MB in /scratch, 79 GB free",
     "output   o.copc.laz, about 66 MB",

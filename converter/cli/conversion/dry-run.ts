@@ -105,7 +105,7 @@ export function planInWords(plan: DryRun): string[] {
     rows.push(
       [
         "octree",
-        `about ${counted(core.levels, "level")}, ${core.recordLength} bytes a point, sampling ${core.sampling}`,
+        `about ${counted(core.levels, "level")}, ${core.recordLength} bytes per point, sampling ${core.sampling}`,
       ],
       ["memory", `at most ${size(core.memory)}`],
       ["temp", tempInWords(core)],
@@ -114,13 +114,13 @@ export function planInWords(plan: DryRun): string[] {
   } else if (pdalTemp) {
     rows.push(
       ["temp", `${size(pdalTemp.bytes)} for PDAL in ${pdalTemp.folder}, ${size(pdalTemp.free)} free`],
-      ["output", `${output}; the octree is planned when PDAL has read the inputs`],
+      ["output", `${output}; the octree is planned once PDAL has read the inputs`],
     );
   }
   return labelled(rows);
 }
 
 function tempInWords({ tempBytes, tempDir, tempFree }: Plan): string {
-  if (tempBytes === 0) return "none, the points have room in memory";
+  if (tempBytes === 0) return "none, the points fit into memory";
   return `at most ${size(tempBytes)} in ${resolve(tempDir)}, ${size(tempFree)} free`;
 }

@@ -3,7 +3,9 @@ import { isAbsolute, resolve } from "node:path";
 import { GromaError } from "@groma/georef";
 
 /** Inputs cannot be found. Codes: INPUT_NOT_FOUND, INPUT_NONE. */
-export class InputError extends GromaError {}
+export class InputError extends GromaError {
+  static override readonly kind = "InputError";
+}
 
 /** What a folder is searched for; scans in other formats have to be named. */
 const IN_FOLDERS = "**/*.{las,laz,e57,bpf,pcd,ply,pts}";
@@ -64,7 +66,7 @@ async function matches(
   throw new InputError({
     code: "INPUT_NOT_FOUND",
     file: argument,
-    cause: folder === undefined ? "no file matches the pattern" : "there is no scan in this folder",
+    cause: folder === undefined ? "no file matches the pattern" : "this folder contains no scan",
     fix: "name files, patterns that match files, or folders with LAS, LAZ, E57, BPF, PCD, PLY or PTS files",
   });
 }

@@ -13,7 +13,9 @@ import type { ConvertOptions } from "./options.js";
 import { scanAll, sourcesOf } from "./sources.js";
 
 /** The output cannot be written. Codes: OUTPUT_EXISTS, OUTPUT_NAME, OUTPUT_WRITE, as the core has them. */
-class OutputError extends GromaError {}
+class OutputError extends GromaError {
+  static override readonly kind = "OutputError";
+}
 
 /** An input, and what is known of it before its points are converted. */
 export type Prepared =
@@ -127,10 +129,10 @@ function requireTarget(output: string, overwrite: boolean): void {
   const refuse = (code: string, cause: string, fix: string) =>
     new OutputError({ code, file: output, cause, fix });
   if (statSync(output, { throwIfNoEntry: false })?.isDirectory()) {
-    throw refuse("OUTPUT_WRITE", "this is a folder", "name the file that is to be written");
+    throw refuse("OUTPUT_WRITE", "this is a folder", "name an output file");
   }
   if (!existsSync(dirname(output))) {
-    throw refuse("OUTPUT_WRITE", "its folder is not there", "make the folder, or name another");
+    throw refuse("OUTPUT_WRITE", "its folder does not exist", "create the folder, or name another");
   }
   if (existsSync(output) && !overwrite) {
     throw refuse("OUTPUT_EXISTS", "the file already exists", "give --overwrite, or another name");

@@ -1,6 +1,6 @@
 import { basename } from "node:path";
-import { type AccuracyPart, type Crs, statedAccuracy } from "@groma/georef";
-import { placeInWords, remarks, unknownTotal } from "../describe.js";
+import { statedAccuracy } from "@groma/georef";
+import { accuracyInWords, placeInWords, remarks } from "../describe.js";
 import { count, counted, labelled, length, size, skippedRow } from "../output.js";
 import { pdalInWords } from "../pdal/report.js";
 import { centreRow } from "../place/whereabouts.js";
@@ -27,13 +27,13 @@ export function summaryForMachines({ georeferenced, whereabouts, records, ...sum
 /** What a conversion made, for people. */
 export function summaryInWords(converted: Converted): string[] {
   const { output, points, nodes, bytes, seconds } = converted;
-  const each = `${(bytes / points).toPrecision(2)} bytes a point`;
+  const each = `${(bytes / points).toPrecision(2)} bytes per point`;
   const rate = seconds > 0 ? `, ${count(Math.round(points / seconds))} points/s` : "";
   const first = `${basename(output)}  ${counted(points, "point")} in ${counted(nodes, "node")}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}`;
   return [first, ...placeSummary(converted)];
 }
 
-/** Where the points are, what that is worth, and what has to be known of it, a line each. */
+/** Location, accuracy and notes, a line each. */
 export function placeSummary(converted: Converted): string[] {
   const { georeferenced, whereabouts, records, rgbBits, pdal, skipped } = converted;
   const { crs, engine, operation, accuracy } = records.georeference;
@@ -48,16 +48,11 @@ export function placeSummary(converted: Converted): string[] {
     ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
   ];
   for (const [index, residual] of (georeferenced.local?.fitted?.residuals ?? []).entries()) {
-    lines.push(["control", `point ${index + 1}: ${length(residual)} off`]);
+    lines.push(["control", `point ${index + 1}: residual ${length(residual)}`]);
   }
   if (rgbBits === 8) {
     lines.push(["colours", "8-bit colours in 16-bit fields; values unchanged"]);
   }
   lines.push(...skipped.map(skippedRow));
   return labelled(lines);
-}
-
-function accuracyInWords(parts: readonly AccuracyPart[], crs: Crs): string {
-  const { total } = statedAccuracy(parts);
-  return total === null ? unknownTotal(parts, crs) : `${length(total)} in all`;
 }

@@ -17,14 +17,14 @@ describe("the span of GPS times", () => {
 
   it("has days of an unknown week where seconds are those of a week", () => {
     expect(words("week", 245_379.4, 245_385.9)).toBe(
-      "245379.4 … 245385.9 s of a GPS week that the file does not name: Tuesday 20:09:39 … Tuesday 20:09:45",
+      "245379.4 … 245385.9 s of an unstated GPS week: Tuesday 20:09:39 … Tuesday 20:09:45",
     );
     expect(words("week", 0, 604_800)).toMatch(/Sunday 00:00:00 … Sunday 00:00:00$/);
   });
 
   it("says what is no time of its kind, and nothing where there is none", () => {
-    expect(words("week", 1, 3e8)).toMatch(/though the header says/);
-    expect(words("standard", 1, 1e300)).toMatch(/which is no time/);
+    expect(words("week", 1, 3e8)).toMatch(/although the header declares/);
+    expect(words("standard", 1, 1e300)).toMatch(/not a valid time/);
     expect(gpsSpan("week", { min: 0, max: 0 })).toBeUndefined();
     expect(gpsSpan("week", undefined)).toBeUndefined();
   });

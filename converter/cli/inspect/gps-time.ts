@@ -41,9 +41,10 @@ export function gpsSpan(
 export function gpsSpanInWords({ kind, min, max, from, to }: GpsSpan): string {
   if (from !== null && to !== null) return `${from.replace("T", " ")} … ${to.replace("T", " ")} GPS time`;
   const range = `${Number(min.toFixed(6))} … ${Number(max.toFixed(6))} s`;
-  if (kind === "standard") return `${range}, which is no time`;
-  if (min < 0 || max > WEEK) return `${range}, though the header says that these are seconds of a week`;
-  return `${range} of a GPS week that the file does not name: ${ofWeek(min)} … ${ofWeek(max)}`;
+  if (kind === "standard") return `${range}, not a valid time`;
+  if (min < 0 || max > WEEK)
+    return `${range}, outside of a week although the header declares seconds of the GPS week`;
+  return `${range} of an unstated GPS week: ${ofWeek(min)} … ${ofWeek(max)}`;
 }
 
 /** `Tuesday 20:09:39` */

@@ -1,12 +1,11 @@
-import { statedAccuracy } from "@groma/georef";
 import type { Scan, ScanStatistics } from "../core.js";
 import {
+  accuracyInWords,
   density,
   type GeodeticBounds,
   heightInWords,
   placeInWords,
   remarks,
-  unknownTotal,
 } from "../describe.js";
 import { count, counted, labelled, length, size } from "../output.js";
 import { centreRow } from "../place/whereabouts.js";
@@ -44,16 +43,16 @@ function headed(label: string, texts: readonly string[]): Row[] {
 
 function fileRows(scan: Scan): Row[] {
   const kind = scan.copc ? "COPC" : scan.compressed ? "LAZ" : "LAS";
-  const each = scan.points > 0 ? `, ${(scan.fileSize / scan.points).toPrecision(3)} bytes a point` : "";
+  const each = scan.points > 0 ? `, ${(scan.fileSize / scan.points).toPrecision(3)} bytes per point` : "";
   const written = [scan.generatingSoftware, scan.systemIdentifier, scan.creation].filter(Boolean).join(", ");
   return [
     ["file", `${scan.file}  ${size(scan.fileSize)}${each}`],
     ["points", count(scan.points)],
     [
       "format",
-      `${kind} ${scan.version}, point format ${scan.pointFormat}, ${scan.recordLength} bytes a record`,
+      `${kind} ${scan.version}, point format ${scan.pointFormat}, ${scan.recordLength} bytes per record`,
     ],
-    ["written", written || "not said"],
+    ["written", written || "not stated"],
   ];
 }
 
@@ -61,7 +60,6 @@ function placeRows({ place, problem, whereabouts, accuracy }: Inspection): Row[]
   if (!place) return [["place", problem?.message ?? "unknown"]];
   const { crs, basis, notes, operation } = place;
   const { horizontalUnit, verticalUnit } = crs;
-  const { total } = statedAccuracy(accuracy);
   const assumed = verticalUnit.declared ? "" : " (assumed)";
   return [
     ["place", placeInWords(place)],
@@ -73,7 +71,7 @@ function placeRows({ place, problem, whereabouts, accuracy }: Inspection): Row[]
     ),
     ["units", `${horizontalUnit.name} in plane, ${verticalUnit.name} in height${assumed}`],
     ["height", heightInWords(crs, place.geoids)],
-    ["accuracy", total === null ? unknownTotal(accuracy, crs) : length(total)],
+    ["accuracy", accuracyInWords(accuracy, crs)],
     ...accuracy.map(({ name, metres, note }): Row => {
       const worth = metres === null ? "unknown" : length(metres);
       return [`  ${name}`, `${worth}${note ? `  ${note}` : ""}`];
@@ -90,7 +88,7 @@ function boundsRows({ scan, place, bounds }: Inspection): Row[] {
   return [
     ["bounds", axes.map((name, axis) => `${name} ${range(axis)}`).join("   ")],
     ...(place
-      ? [["on earth", bounds ? onEarth(bounds) : "no corner of the bounds has a place"] as const]
+      ? [["on earth", bounds ? onEarth(bounds) : "no corner of the bounds can be placed"] as const]
       : []),
     ["step", axes.map((name, axis) => `${name} ${scan.scale[axis]} ${unitOf(axis, place)}`).join("   ")],
     ...(perArea === undefined
@@ -98,7 +96,7 @@ function boundsRows({ scan, place, bounds }: Inspection): Row[] {
       : [
           [
             "density",
-            `${perArea.toPrecision(3)} points per m², ${length(1 / Math.sqrt(perArea))} apart, over the whole rectangle`,
+            `${perArea.toPrecision(3)} points per m², ${length(1 / Math.sqrt(perArea))} apart, over the rectangle of the bounds`,
           ] as const,
         ]),
   ];
@@ -135,14 +133,14 @@ function contentRows(
     ...(extra ? [["extra", extra] as const] : []),
     ...(statistics ? statisticsRows(scan, statistics) : []),
     ...(statistics && sampled
-      ? [["", `these and the times are of ${count(statistics.points)} points, ${sampled}`] as const]
+      ? [["", `classes, attributes and times of ${count(statistics.points)} points: ${sampled}`] as const]
       : []),
   ];
 }
 
 function statisticsRows(scan: Scan, { classes, rgbBits, attributes }: ScanStatistics): Row[] {
   const coloured = attributes.some(({ name }) => name === "red");
-  const depth = rgbBits === 8 ? "8-bit colours in 16-bit fields" : "16 bits a channel";
+  const depth = rgbBits === 8 ? "8-bit colours in 16-bit fields" : "16-bit";
   // Where the points are is told already, and in more digits.
   const told = attributes.filter(({ name }) => !["x", "y", "z"].includes(name));
   return [
@@ -194,8 +192,8 @@ function checksumsInWords({ scan, verified }: Inspection): string {
 function octreeRows({ levels, whole }: Octree, expected: number, unit: string): Row[] {
   const nodes = levels.reduce((sum, level) => sum + level.nodes, 0);
   const points = levels.reduce((sum, level) => sum + level.points, 0);
-  const missing = whole && points !== expected ? `, though the header announces ${count(expected)}` : "";
-  const rest = whole ? "" : "; the rest of its hierarchy is not read";
+  const missing = whole && points !== expected ? `, but the header announces ${count(expected)}` : "";
+  const rest = whole ? "" : "; the rest of the hierarchy was not read";
   const rows = levels.map(
     (one) =>
       `level ${one.level}: ${counted(one.nodes, "node")}, ${counted(one.points, "point")}, spacing ${short(one.spacing, 3)} ${unit}`,
@@ -214,5 +212,5 @@ function recordInWords({
   extended,
 }: HeaderDetails["records"][number]): string {
   const text = description ? `, ${description}` : "";
-  return `${userId} ${recordId}: ${size(bytes)}${extended ? ", behind the points" : ""}${text}`;
+  return `${userId} ${recordId}: ${size(bytes)}${extended ? ", after the points" : ""}${text}`;
 }

@@ -7,7 +7,7 @@ import type { Octree } from "./octree.js";
 /** Statistics of some of the points, for a file that has none of all. */
 export interface Sample {
   readonly statistics: ScanStatistics;
-  /** Which points these are, in words: `the first ones`. */
+  /** Which points these are, in words: `first chunk`. */
   readonly of: string;
 }
 
@@ -43,8 +43,8 @@ export async function sample(
     const [taken, of] = !scan.compressed
       ? [await spread(source, scan, pointsOffset, most), "evenly spread"]
       : octree && octree.nodes.length > 0
-        ? [await coarse(octree, scan, most), "those of the coarsest nodes"]
-        : [await first(source, scan, pointsOffset, chunkSize(source, records), most), "the first ones"];
+        ? [await coarse(octree, scan, most), "coarsest nodes"]
+        : [await first(source, scan, pointsOffset, chunkSize(source, records), most), "first chunk"];
     const count = taken.reduce((sum, one) => sum + one.count, 0);
     return count > 0 ? { statistics: statisticsOf(scan, taken, count), of } : undefined;
   } catch {

@@ -43,7 +43,7 @@ export async function probeAll(
     onEvent({ event: "progress", stage: "inspect", done: index, total: jobs.length });
     const found = await probe(pdal, job, signal);
     if (!found.streamed) {
-      const text = `${job.name}: PDAL holds all its points in memory, --memory does not bind it`;
+      const text = `${job.name}: PDAL loads all its points into memory; --memory does not limit PDAL`;
       onEvent({ event: "warning", text });
     }
     probes.push(found);

@@ -36,10 +36,7 @@ export async function findPdal(
       if (!(error instanceof PdalError)) throw error;
     }
   }
-  throw missing(
-    input,
-    "this is no LAS or LAZ file; PDAL reads other formats and runs pipelines, and it is not there",
-  );
+  throw missing(input, "PDAL, which reads formats other than LAS and LAZ and runs pipelines, was not found");
 }
 
 function programIn(path: string): string {
@@ -50,7 +47,6 @@ function programIn(path: string): string {
 async function started(program: string): Promise<Pdal> {
   const outcome = await runPdal(program, ["--version"], "");
   const version = /\bpdal (\d+\.\d+\.\d+)/i.exec(outcome.stdout + outcome.stderr)?.[1];
-  if (outcome.status !== 0 || version === undefined)
-    throw missing(program, "it does not answer as PDAL does");
+  if (outcome.status !== 0 || version === undefined) throw missing(program, "this program is not PDAL");
   return { program, version };
 }

@@ -111,8 +111,8 @@ export function commonScale(probes: readonly Probe[], geographic: boolean, wish?
   throw new PdalError({
     code: "PDAL_SCALE",
     file: probes[0]!.job.name,
-    cause: `with steps of ${plane} the integers of LAS do not suffice for an extent of ${extent}`,
-    fix: "give a coarser --scale, or leave it out",
+    cause: `an extent of ${extent} does not fit into the 32-bit integers of LAS at a scale factor of ${plane}`,
+    fix: "give a larger --scale, or omit it",
   });
 }
 

@@ -137,7 +137,7 @@ describe.skipIf(process.platform === "win32")("a conversion that needs PDAL", ()
   it("refuses points that are not those announced", async () => {
     const { code, stdout, stderr } = await groma("--pdal", pdalThat({ points: 5, gives: fourPoints() }));
     expect(code).toBe(1);
-    expect(stderr).toMatch(/^PDAL_MISMATCH: .*scan\.e57: PDAL announced 5 points, 4 have arrived\. /);
+    expect(stderr).toMatch(/^PDAL_MISMATCH: .*scan\.e57: PDAL announced 5 points but wrote 4\. /);
     expect(JSON.parse(stdout.trim().split("\n").at(-1)!)).toMatchObject({
       event: "error",
       code: "PDAL_MISMATCH",
@@ -153,7 +153,7 @@ describe.skipIf(process.platform === "win32")("a conversion that needs PDAL", ()
   it("refuses before work starts what has no room", async () => {
     const { stderr } = await groma("--pdal", pdalThat({ points: 1e12, gives: fourPoints() }));
     expect(stderr).toMatch(
-      /^TEMP_SPACE: .*: temporary files take 3\d{13} bytes, \d+ are free\. .*--temp-dir/,
+      /^TEMP_SPACE: .*: temporary files need 3\d{13} bytes, \d+ are free\. .*--temp-dir/,
     );
     expect(existsSync(join(folder, "pid"))).toBe(false);
   });

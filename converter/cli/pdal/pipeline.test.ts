@@ -22,12 +22,12 @@ it("takes an array or an object, and puts the inputs in front", async () => {
 });
 
 it.each<[string, unknown, RegExp]>([
-  ["no JSON", "[", /no JSON/],
-  ["no pipeline", { stages: [] }, /no pipeline/],
-  ["numbers", [1], /no pipeline/],
-  ["a writer", ["a.las", { type: "writers.las" }], /has writers\.las\. Leave the writer out/],
-  ["nothing to read", [{ type: "filters.range" }], /reads nothing/],
-  ["nothing at all", [], /reads nothing/],
+  ["no JSON", "[", /not valid JSON/],
+  ["no pipeline", { stages: [] }, /not a PDAL pipeline/],
+  ["numbers", [1], /not a PDAL pipeline/],
+  ["a writer", ["a.las", { type: "writers.las" }], /contains the writer writers\.las\. Remove the writer/],
+  ["nothing to read", [{ type: "filters.range" }], /has no reader/],
+  ["nothing at all", [], /has no reader/],
 ])("refuses %s by name", async (_, content, message) => {
   const refused = pipelineJob(file(content), []);
   await expect(refused).rejects.toMatchObject({

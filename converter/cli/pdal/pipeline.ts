@@ -29,15 +29,16 @@ export async function pipelineJob(file: string, inputs: readonly string[]): Prom
   try {
     parsed = JSON.parse(await readFile(file, "utf8"));
   } catch (error) {
-    throw refuse(error instanceof SyntaxError ? `it is no JSON (${error.message})` : "it cannot be read");
+    throw refuse(error instanceof SyntaxError ? `not valid JSON (${error.message})` : "it cannot be read");
   }
   const stages = isObject(parsed) ? parsed.pipeline : parsed;
-  if (!Array.isArray(stages) || !stages.every(isStage)) throw refuse("it is no pipeline of PDAL");
+  if (!Array.isArray(stages) || !stages.every(isStage)) throw refuse("not a PDAL pipeline");
   const writer = stages.map(typeOf).find((type) => type.startsWith("writers."));
-  if (writer) throw refuse(`it has ${writer}`, "leave the writer out: Groma writes the COPC file");
+  if (writer)
+    throw refuse(`it contains the writer ${writer}`, "remove the writer: Groma writes the COPC file");
   const whole = [...inputs.map((filename) => ({ filename })), ...stages];
   if (whole.length === 0 || typeOf(whole[0]).startsWith("filters.")) {
-    throw refuse("it reads nothing", "name the input before the output, or a reader in the pipeline");
+    throw refuse("it has no reader", "name an input before the output, or add a reader to the pipeline");
   }
   return { name: file, stages: whole };
 }

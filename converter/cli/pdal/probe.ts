@@ -93,8 +93,8 @@ function described(job: Job, { stages }: Metadata, streamed: boolean): Probe {
   const { num_points: points, schema, srs } = stages["filters.info"];
   if (points === 0) {
     throw new PdalError({
-      ...{ code: "PDAL_EMPTY", file: job.name, cause: "PDAL finds no point in it" },
-      fix: "give a file that holds points, or a pipeline that leaves some",
+      ...{ code: "PDAL_EMPTY", file: job.name, cause: "PDAL found no points in it" },
+      fix: "give a file with points, or a pipeline that keeps some",
     });
   }
   const statistics = new Map(stages["filters.stats"].statistic.map((one) => [one.name, one]));
@@ -105,8 +105,8 @@ function described(job: Job, { stages }: Metadata, streamed: boolean): Probe {
     )
   ) {
     throw new PdalError({
-      ...{ code: "PDAL_COORDINATES", file: job.name, cause: "some of its coordinates are no finite numbers" },
-      fix: 'leave these points out by --pipeline with {"type": "filters.range", "limits": "X[-1e9:1e9]"}',
+      ...{ code: "PDAL_COORDINATES", file: job.name, cause: "some coordinates are not finite numbers" },
+      fix: 'remove these points with --pipeline and {"type": "filters.range", "limits": "X[-1e9:1e9]"}',
     });
   }
   const three = (get: (axis: Statistic) => number) =>

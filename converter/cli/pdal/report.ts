@@ -56,9 +56,9 @@ export function pdalInWords(report: PdalReport): string[] {
 
 function coordinatesInWords({ scale: [x, , z], asStored }: PdalReport): string {
   const inWords = (factor: number) =>
-    x === z ? decimal(factor * x) : `${decimal(factor * x)} in plane and ${decimal(factor * z)} in height`;
+    x === z ? decimal(factor * x) : `${decimal(factor * x)} horizontal and ${decimal(factor * z)} vertical`;
   if (asStored) return `as they are stored, in steps of ${inWords(1)}`;
-  return `in steps of ${inWords(1)}: rounded by at most ${inWords(0.5)}`;
+  return `in steps of ${inWords(1)}, rounded by at most ${inWords(0.5)}`;
 }
 
 /** 5e-7 → `0.0000005` */

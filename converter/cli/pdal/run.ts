@@ -41,7 +41,7 @@ export function runPdal(
     child.stdin.end(input);
     child.on("error", (error: NodeJS.ErrnoException) => {
       signal?.removeEventListener("abort", kill);
-      reject(missing(program, error.code === "ENOENT" ? "there is no such program" : error.message));
+      reject(missing(program, error.code === "ENOENT" ? "program not found" : error.message));
     });
     child.on("close", (status, endedBy) => {
       signal?.removeEventListener("abort", kill);

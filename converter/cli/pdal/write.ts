@@ -64,7 +64,7 @@ function writer({ scale, offset, pointFormat }: Form, filename: string): Stage {
 /** What is another than announced, in words. */
 function difference(announced: Probe, { scale }: Form, scan: Scan): string | undefined {
   if (scan.points !== announced.points) {
-    return `PDAL announced ${announced.points} points, ${scan.points} have arrived`;
+    return `PDAL announced ${announced.points} points but wrote ${scan.points}`;
   }
   for (const [axis, name] of ["x", "y", "z"].entries()) {
     const [low, high] = [announced.min[axis]!, announced.max[axis]!];

@@ -5,4 +5,6 @@ import { GromaError } from "@groma/georef";
  * PROJ_FAILED (the program ended with an error), PROJ_OUTPUT (its answer cannot be read), PROJ_GRID (a grid file
  * cannot be found or read).
  */
-export class ProjError extends GromaError {}
+export class ProjError extends GromaError {
+  static override readonly kind = "ProjError";
+}

@@ -69,7 +69,7 @@ function missing(program: string, code: string): ProjError {
   return new ProjError({
     code: "PROJ_MISSING",
     file: program,
-    cause: code === "ENOENT" ? "there is no such program" : "the program may not be executed",
+    cause: code === "ENOENT" ? "program not found" : "no permission to execute the program",
     fix: "install PROJ 9.1 or newer (Debian: proj-bin, Homebrew: proj), or convert with --engine proj4js",
   });
 }

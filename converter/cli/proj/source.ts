@@ -40,7 +40,7 @@ export async function withArgument<T>(
     throw new CrsError({
       code: "CRS_UNKNOWN",
       file: name,
-      cause: `"${trimmed.slice(0, 60)}" is no EPSG code, PROJ string, WKT or PROJJSON`,
+      cause: `"${trimmed.slice(0, 60)}" is not an EPSG code, PROJ string, WKT or PROJJSON`,
       fix: "name the coordinate reference system with --crs, as an EPSG code or as WKT",
     });
   }

@@ -8,7 +8,13 @@ import send from "send";
 import { type ByteRange, bytesAsked } from "./byte-ranges.js";
 
 /** Headers that make an answer depend on what the client has already. */
-const CONDITIONS = ["if-match", "if-none-match", "if-modified-since", "if-unmodified-since", "if-range"] as const;
+const CONDITIONS = [
+  "if-match",
+  "if-none-match",
+  "if-modified-since",
+  "if-unmodified-since",
+  "if-range",
+] as const;
 
 /**
  * Answers GET and HEAD with a file or the parts of it that are asked for (RFC 9110, sections 13 and 14).

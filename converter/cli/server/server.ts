@@ -6,7 +6,9 @@ import { type Admission, type AllowedOrigins, admitsHost, allowedOrigin } from "
 import { answerWithFile } from "./file-answer.js";
 
 /** The server could not be started, or has nothing to serve. */
-export class ServerError extends GromaError {}
+export class ServerError extends GromaError {
+  static override readonly kind = "ServerError";
+}
 
 /** A folder or a single file, and the path under which it is served. */
 export interface Mount {

@@ -74,7 +74,7 @@ export class Heights {
       ...guess.systems.map(({ code, name }) => optionElement({ value: `EPSG:${code}`, label: name })),
     );
     if (cloud.height.kind !== "unknown" || this.#wish.value !== "declared") return;
-    setText(this.#note, `Not said by the file: ${guess.note}.`);
+    setText(this.#note, `Not declared by the file: ${guess.note}.`);
     const [first] = guess.systems;
     if (!first) return;
     const take = textElement("button", `Take ${first.name}`);

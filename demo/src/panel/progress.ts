@@ -75,7 +75,7 @@ export class Progress {
       setText(this.#stage, `This view is drawn without ${counted(failed, "node")} that failed.`);
     else setText(this.#stage, wanted > 0 ? "This view is complete." : "No points in this view.");
     const nodes = `${countWords(ready)} of ${counted(wanted, "node")}`;
-    const limit = budgetReached ? ", all that the budget allows" : "";
+    const limit = budgetReached ? ", limited by the point budget" : "";
     const again = waits && waiting ? `${againWords(waiting, Date.now())} · ` : "";
     setText(this.#count, `${again}${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`);
   }

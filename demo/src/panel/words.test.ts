@@ -56,10 +56,8 @@ describe("a cloud in words", () => {
   it("says so when the coordinate system has no code", () => {
     const file = { given: false };
     expect(crsWords({ name: "A", code: "EPSG:2056" }, file)).toEqual({ text: "A", note: "EPSG:2056" });
-    expect(crsWords({ name: "A" }, file).note).toBe("no code named");
-    expect(crsWords({ name: "A" }, { given: true }).note).toBe(
-      "no code named; given by you, not by the file",
-    );
+    expect(crsWords({ name: "A" }, file).note).toBe("no code");
+    expect(crsWords({ name: "A" }, { given: true }).note).toBe("no code; given by you, not by the file");
   });
 
   it("never guesses a height reference", () => {
@@ -90,7 +88,7 @@ describe("a cloud in words", () => {
       note: "geoid applied: nl_nsgi_nlgeo2018.tif",
     });
     expect(heightWords(nap, { geoids: [] }).note).toMatch(/^geoid not applied/);
-    expect(heightWords(nap, { geoids: ["EGM96"] }).note).toMatch(/EGM96 in place of its own.* 4 m/);
+    expect(heightWords(nap, { geoids: ["EGM96"] }).note).toMatch(/EGM96 instead of the national one.* 4 m/);
     const global = crs({ kind: "geoid", model: "EGM96 height", epsg: 5773 });
     expect(heightWords(global, { geoids: ["EGM96"] }).note).toBe("geoid applied: EGM96");
     expect(heightWords(crs({ kind: "geoid", model: "NAVD88" }), { geoids: [] }).text).toBe("above NAVD88");
@@ -118,8 +116,8 @@ describe("a cloud in words", () => {
 
   it.each([
     [0, ""],
-    [2.5, "Drawn 2.5 m above its place, for looks only."],
-    [-1200, "Drawn 1,200 m below its place, for looks only."],
+    [2.5, "Drawn 2.5 m above its position, display only."],
+    [-1200, "Drawn 1,200 m below its position, display only."],
   ])("says how far %s m off points are drawn", (offset, words) => {
     expect(liftWords(offset)).toBe(words);
   });

@@ -36,7 +36,7 @@ export function lengthWords(metres: number | null): string {
  * @param given whether the reader gave it, in place of what the file says
  */
 export function crsWords({ name, code }: Pick<Crs, "name" | "code">, { given }: { given: boolean }): Words {
-  return { text: name, note: `${code ?? "no code named"}${given ? "; given by you, not by the file" : ""}` };
+  return { text: name, note: `${code ?? "no code"}${given ? "; given by you, not by the file" : ""}` };
 }
 
 /**
@@ -56,7 +56,9 @@ export function heightWords(
   }
   const code = height.epsg === undefined ? "" : ` (EPSG:${height.epsg})`;
   const substitute = geoids.includes(EGM96) && !height.model.startsWith(EGM96);
-  const worth = substitute ? ` in place of its own, which may be up to ${EGM96_ACCURACY} m away` : "";
+  const worth = substitute
+    ? ` instead of the national one, which may differ by up to ${EGM96_ACCURACY} m`
+    : "";
   const geoid =
     geoids.length > 0
       ? `geoid applied: ${geoids.join(", ")}${worth}`
@@ -83,7 +85,7 @@ export function warningsOf(
   { remark }: { remark?: string | undefined } = {},
 ): string[] {
   if (!operation) return [];
-  const ballpark = "A difference of datums is passed over: the place may be off by hundreds of metres.";
+  const ballpark = "No datum shift is applied: positions may be off by hundreds of metres.";
   const notes = operation.notes.filter((note) => !(remark && note.includes(remark)));
   return [...(operation.ballpark ? [ballpark] : []), ...notes];
 }
@@ -102,7 +104,7 @@ export function lackingWords(operation: OperationReport | undefined): Words[] {
 export function liftWords(heightOffset: number): string {
   if (heightOffset === 0) return "";
   const metres = `${Math.abs(heightOffset).toLocaleString("en", { maximumFractionDigits: 3 })} m`;
-  return `Drawn ${metres} ${heightOffset > 0 ? "above" : "below"} its place, for looks only.`;
+  return `Drawn ${metres} ${heightOffset > 0 ? "above" : "below"} its position, display only.`;
 }
 
 function noted(text: string, notes: readonly string[]): Words {

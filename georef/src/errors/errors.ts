@@ -23,6 +23,9 @@ export interface FaultWire extends Fault {
  * Its message reads `CODE: file: cause. fix.`, the form that the command line prints.
  */
 export class GromaError extends Error implements Fault {
+  /** Name of the class, which stays when a build shortens the names of classes. Each class has its own. */
+  static readonly kind: string = "GromaError";
+
   readonly code: string;
   readonly file: string;
   override readonly cause: string;
@@ -30,7 +33,7 @@ export class GromaError extends Error implements Fault {
 
   constructor(fault: Fault) {
     super(`${fault.code}: ${fault.file}: ${fault.cause}. ${sentence(fault.fix)}.`);
-    this.name = new.target.name;
+    this.name = new.target.kind;
     this.code = fault.code;
     this.file = fault.file;
     this.cause = fault.cause;
@@ -43,11 +46,13 @@ export class GromaError extends Error implements Fault {
   }
 
   /** The error that `toWire` was called on, as far as the kinds given know its name. */
-  static revive(wire: FaultWire, kinds: readonly (new (fault: Fault) => GromaError)[] = []): GromaError {
-    const Kind = kinds.find((kind) => kind.name === wire.kind) ?? GromaError;
+  static revive(wire: FaultWire, kinds: readonly GromaErrorClass[] = []): GromaError {
+    const Kind = kinds.find(({ kind }) => kind === wire.kind) ?? GromaError;
     return new Kind(wire);
   }
 }
+
+type GromaErrorClass = { readonly kind: string } & (new (fault: Fault) => GromaError);
 
 /** With a capital letter; a fix that begins with a command keeps its own. */
 function sentence(clause: string): string {
@@ -55,16 +60,24 @@ function sentence(clause: string): string {
 }
 
 /** A coordinate reference system is missing, unknown or cannot be used. Codes start with `CRS_`. */
-export class CrsError extends GromaError {}
+export class CrsError extends GromaError {
+  static override readonly kind = "CrsError";
+}
 
 /** A point or node cannot be placed on the globe to the tolerance asked for. Codes start with `PLACE_`. */
-export class PlacementError extends GromaError {}
+export class PlacementError extends GromaError {
+  static override readonly kind = "PlacementError";
+}
 
 /** A georeference record in a file cannot be read. Codes start with `RECORD_`. */
-export class RecordError extends GromaError {}
+export class RecordError extends GromaError {
+  static override readonly kind = "RecordError";
+}
 
 /**
  * Control points do not tell where a data set is. Codes: CONTROL_TOO_FEW, CONTROL_DEGENERATE (all in one place),
  * CONTROL_COLLINEAR, CONTROL_RANGE (no place on earth), CONTROL_MISMATCH (no similarity leads from one to the other).
  */
-export class ControlError extends GromaError {}
+export class ControlError extends GromaError {
+  static override readonly kind = "ControlError";
+}

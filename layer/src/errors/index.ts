@@ -11,6 +11,8 @@ export type Outage = "busy" | "failing" | "silent" | "unreachable";
 
 /** The bytes of a data set cannot be had: server, network or file. Codes start with `SOURCE_`. */
 export class SourceError extends GromaError {
+  static override readonly kind = "SourceError";
+
   /** Why asking again later may help; undefined: it does not. */
   readonly outage: Outage | undefined;
 
@@ -21,16 +23,24 @@ export class SourceError extends GromaError {
 }
 
 /** The bytes are there, but they are not what the format's specification says. Codes start with `FORMAT_`. */
-export class FormatError extends GromaError {}
+export class FormatError extends GromaError {
+  static override readonly kind = "FormatError";
+}
 
 /** A node's points cannot be decoded, or the decoder itself is not to be had. Codes start with `DECODE_`. */
-export class DecodeError extends GromaError {}
+export class DecodeError extends GromaError {
+  static override readonly kind = "DecodeError";
+}
 
 /** An application asked for a way of drawing that does not exist or that the data cannot give. Codes start with `STYLE_`. */
-export class StyleError extends GromaError {}
+export class StyleError extends GromaError {
+  static override readonly kind = "StyleError";
+}
 
 /** A frame of a layer could not be drawn. Codes start with `DRAW_`. */
-export class DrawError extends GromaError {}
+export class DrawError extends GromaError {
+  static override readonly kind = "DrawError";
+}
 
 const kinds = [SourceError, FormatError, DecodeError, StyleError, CrsError, PlacementError, RecordError];
 
