@@ -75,8 +75,9 @@ module.exports = {
     layer("octree", [CONTRACT, "errors"]),
     layer("workers", [CONTRACT, OPEN_SOURCE, "errors"]),
     layer("cloud", ["octree", "workers", CONTRACT, OPEN_SOURCE, "errors"]),
-    layer("clips", ["octree", "errors"]),
-    layer("effects", ["clips", "octree", "errors"]),
+    layer("options", []),
+    layer("clips", ["octree", "options", "errors"]),
+    layer("effects", ["clips", "octree", "options", "errors"]),
     layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "errors"]),
     layer("cesium", ["drawing", "effects", "clips", "cloud", "octree", "workers", "sources", "errors"]),
     {

@@ -1,0 +1,20 @@
+export { frozen } from "./frozen.js";
+export {
+  colour,
+  either,
+  entriesOf,
+  flag,
+  inside,
+  interval,
+  type Kind,
+  type Kinds,
+  kindOf,
+  list,
+  number,
+  oneOf,
+  type Place,
+  parts,
+  text,
+  whole,
+} from "./kinds.js";
+export { closest, instead, listed, shown } from "./words.js";
