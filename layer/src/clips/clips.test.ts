@@ -458,6 +458,24 @@ describe("ClipSet", () => {
     expect([set.size, set.revision]).toEqual([1, 1]);
   });
 
+  it.each<readonly [unknown, string]>([
+    [
+      Clip.box({ center, size: [1, 1, 1], headng: 1 } as never),
+      'a box has no "headng". Did you mean "heading"? Otherwise use mode, center, size, heading, pitch or roll',
+    ],
+    [Clip.box({ centre: center, size: [1, 1, 1] } as never), 'a box has no "centre". Did you mean "center"?'],
+    [Clip.plane({ through: center, roll: 1 } as never), 'a plane has no "roll". Use mode, through, heading'],
+    [Clip.polygon(SQUARE, { botom: 3 } as never), 'a polygon has no "botom". Did you mean "bottom"?'],
+    [Clip.polygon(SQUARE, { mode: "insde" } as never), 'there is no mode "insde". Did you mean "inside"?'],
+    [{ ...Clip.polygon(SQUARE), mode: "toString" }, 'there is no mode "toString". Use inside, outside or'],
+    [{ ...Clip.polygon(SQUARE), kind: "constructor" }, "this is no volume"],
+  ])("refuses misspelt names and says what was meant: %j", (clip, message) => {
+    const set = new ClipSet();
+    expect(() => set.add(clip as Clip)).toThrow(expect.objectContaining({ code: "STYLE_CLIP" }));
+    expect(() => set.add(clip as Clip)).toThrow(message);
+    expect(set.size).toBe(0);
+  });
+
   it("holds polygons that reach almost 85° from their middle", () => {
     const reach = (84.5 * Math.PI) / 180;
     const corners = [0, 1, 2, 3, 4].map((index) => [(index * 2 * Math.PI) / 5, Math.PI / 2 - reach] as const);

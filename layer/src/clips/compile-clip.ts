@@ -1,5 +1,6 @@
 import { eastNorthUp, geodeticToEcef } from "@groma/georef";
 import { StyleError } from "../errors/index.js";
+import { instead, shown } from "../options/index.js";
 import type { BoxClip, Clip, ClipPlace, PlaneClip, PolygonClip } from "./clip.js";
 import { ROLES } from "./clip-roles.js";
 import { type HalfSpace, halfSpaces } from "./half-spaces.js";
@@ -11,16 +12,27 @@ import type { Steps } from "./steps.js";
 import { unit, type Vector } from "./vectors.js";
 import { remembering, type SourceSpace, type Volume } from "./volume.js";
 
-const KINDS: readonly unknown[] = ["box", "plane", "polygon"] satisfies Clip["kind"][];
+/** What a volume of each kind has. */
+const PROPERTIES: ReadonlyMap<unknown, readonly string[]> = new Map<Clip["kind"], readonly string[]>([
+  ["box", ["mode", "center", "size", "heading", "pitch", "roll"] satisfies Exclude<keyof BoxClip, "kind">[]],
+  ["plane", ["mode", "through", "heading", "pitch"] satisfies Exclude<keyof PlaneClip, "kind">[]],
+  [
+    "polygon",
+    ["mode", "coordinates", "ring", "bottom", "top"] satisfies Exclude<keyof PolygonClip, "kind">[],
+  ],
+]);
 
 /**
  * Checks what can be checked of a volume without a data set.
  * @throws StyleError STYLE_CLIP
  */
 export function checkClip(clip: Clip): void {
-  if (!KINDS.includes(clip?.kind)) fail("this is no volume", "Use Clip.box, Clip.plane or Clip.polygon");
+  const names = PROPERTIES.get(clip?.kind);
+  if (!names) fail("this is no volume", "Use Clip.box, Clip.plane or Clip.polygon");
+  const unknown = Object.keys(clip).find((name) => name !== "kind" && !names.includes(name));
+  if (unknown !== undefined) fail(`a ${clip.kind} has no ${shown(unknown)}`, instead(unknown, names));
   if (!Object.hasOwn(ROLES, clip.mode)) {
-    fail(`there is no mode "${clip.mode}"`, "Use inside, outside or highlight");
+    fail(`there is no mode ${shown(clip.mode)}`, instead(clip.mode, Object.keys(ROLES)));
   }
   if (clip.kind === "polygon") checkPolygon(clip);
   else if (clip.kind === "box") {
@@ -116,7 +128,7 @@ function checkPlace(place: ClipPlace): void {
 
 function checkPolygon({ coordinates, ring, bottom, top }: PolygonClip): void {
   if (coordinates !== "geodetic" && coordinates !== "source") {
-    fail(`there are no coordinates "${String(coordinates)}"`, "Use geodetic or source");
+    fail(`there are no coordinates ${shown(coordinates)}`, "Use geodetic or source");
   }
   if (ring.length < 3) fail(`a polygon cannot have ${ring.length} corners`, "Give three corners or more");
   const fits = (corner: Corner) =>
