@@ -149,11 +149,7 @@ describe.skipIf(pythonMissing)(
           const layer = await stage.show("steps", { style: { pointSize: 4, color: "elevation" } });
           stage.look(pose);
           await stage.settle();
-          for (const style of [
-            { eyeDomeLighting: true },
-            { highQuality: true },
-            { size: "adaptive" as const },
-          ]) {
+          for (const style of [{ eyeDomeLighting: true }, { splats: true }, { size: "adaptive" as const }]) {
             layer.style = style;
             await stage.settle();
           }
@@ -209,7 +205,7 @@ describe.skipIf(pythonMissing)(
             size: sizes[Math.floor(at / 5) % 3]!,
             shape: shapes[Math.floor(at / 15) % 3]!,
             pointSize: 6,
-            highQuality: at % 2 === 1,
+            splats: at % 2 === 1,
             eyeDomeLighting:
               at % 3 === 1
                 ? { neighbours: at % 4 === 1 ? (4 as const) : (8 as const), strength: 0.4, radius: 1.4 }

@@ -43,7 +43,7 @@ describe("clips on the GPU", () => {
       {
         facts: { clips: 4, highlights: 1 },
         node: { clips: records[0] },
-        columns: { position: points.flat(), color: points.flatMap(() => [0, 0, 255, 255]) },
+        columns: { position: points.flat(), rgb: points.flatMap(() => [0, 0, 255, 255]) },
         textures: [{ name: "u_clips", width, height, data: [...data], float: true }],
       },
       ["gl_Position", "v_color"],

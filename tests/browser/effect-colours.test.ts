@@ -65,7 +65,7 @@ describe("colours on the GPU", () => {
       {
         style: { color: "rgb", blend: { color: "intensity", share: 0.25 }, gradient: "greyscale", gamma: 2 },
         node: { columns: { get: () => ({ scale: 1, offset: 0 }) } },
-        columns: { position: [0, 0, -5], color: [127.5, 255, 0, 255], intensity: [3200] },
+        columns: { position: [0, 0, -5], rgb: [127.5, 255, 0, 255], intensity: [3200] },
       },
       ["v_color"],
     );

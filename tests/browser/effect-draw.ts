@@ -13,6 +13,7 @@ import {
   styleTextures,
 } from "../../layer/src/effects/index.js";
 import { richFacts, styleOf } from "../../layer/src/effects/scene.fixture.js";
+import { WEBGL2 } from "../../layer/src/effects/webgl2-target.fixture.js";
 import { columnsOf, type GpuResult, type PlainTexture, run } from "./gpu-page.js";
 import { launch } from "./harness.js";
 
@@ -82,17 +83,17 @@ export async function draw(
   const whole = styleOf(style);
   const scene = richFacts(facts);
   const plan = planEffects(whole, scene);
-  const shader = composePointShader(plan, "webgl2", pass);
+  const shader = composePointShader(plan, WEBGL2, pass);
   const result = await run(page, {
     vertex: shader.vertex,
     fragment: shader.fragment,
     declared: shader.uniforms,
     uniforms: {
       ...VIEW,
-      ...layerUniforms(plan, whole, scene),
-      ...nodeUniforms(plan, whole, scene, { ...NODE, ...node }),
+      ...layerUniforms(plan),
+      ...nodeUniforms(plan, { ...NODE, ...node }),
     },
-    textures: [...styleTextures(plan, whole).map(plain), ...textures],
+    textures: [...styleTextures(plan).map(plain), ...textures],
     attributes: columnsOf(shader, columns),
     count: columns.position.length / 3,
     wanted: outputs ? { kind: "vertices", outputs } : { kind: "picture", size: SIZE, primitive: "points" },

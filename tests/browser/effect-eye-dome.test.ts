@@ -1,11 +1,12 @@
 import { describe, expect, it } from "vitest";
 import {
-  composePass,
+  composeQuad,
   layerUniforms,
   type PointCloudStyle,
   planEffects,
 } from "../../layer/src/effects/index.js";
 import { richFacts, styleOf } from "../../layer/src/effects/scene.fixture.js";
+import { WEBGL2 } from "../../layer/src/effects/webgl2-target.fixture.js";
 import { PERSPECTIVE, SIZE, usePage, VIEW } from "./effect-draw.js";
 import { run } from "./gpu-page.js";
 
@@ -21,7 +22,7 @@ describe("Eye-Dome Lighting", () => {
     const whole = styleOf(style);
     const scene = richFacts({ depthStep: 1e-7 });
     const plan = planEffects(whole, scene);
-    const { vertex, fragment, uniforms } = composePass("edl", plan, "webgl2");
+    const { vertex, fragment, uniforms } = composeQuad(plan, WEBGL2);
     const depths: number[] = [];
     const colors: number[] = [];
     for (let row = 0; row < SIZE; row++) {
@@ -36,7 +37,7 @@ describe("Eye-Dome Lighting", () => {
       vertex,
       fragment,
       declared: uniforms,
-      uniforms: { ...VIEW, u_projection: projection, ...layerUniforms(plan, whole, scene) },
+      uniforms: { ...VIEW, u_projection: projection, ...layerUniforms(plan) },
       textures: [
         { name: "u_color", width: SIZE, height: SIZE, data: colors, float: false },
         { name: "u_depth", width: SIZE, height: SIZE, data: depths, float: true },

@@ -35,7 +35,7 @@ describe("filters on the GPU", () => {
         node: { columns: { get: (name) => scales[name] ?? { scale: 1, offset: 0 } } },
         columns: {
           position: points.flatMap(() => [0, 0, -5]),
-          color: points.flatMap(() => [255, 255, 255, 255]),
+          rgb: points.flatMap(() => [255, 255, 255, 255]),
           classification: column("classification"),
           numberOfReturns: column("numberOfReturns"),
           returnNumber: column("returnNumber"),

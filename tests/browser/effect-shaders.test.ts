@@ -1,7 +1,8 @@
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { composePass, composePointShader, planEffects } from "../../layer/src/effects/index.js";
+import { composePointShader, composeQuad, passesOf, planEffects } from "../../layer/src/effects/index.js";
 import { combinations } from "../../layer/src/effects/scene.fixture.js";
+import { WEBGL2 } from "../../layer/src/effects/webgl2-target.fixture.js";
 import { launch } from "./harness.js";
 
 /** A program as the page compiles it, and what it is expected to read. */
@@ -21,7 +22,7 @@ function cases(): Case[] {
     const plan = planEffects(style, facts);
     for (const pass of ["color", "id", "depth", "splat"] as const) {
       if ((pass === "splat" || pass === "depth") && !plan.active.has("splats")) continue;
-      const { vertex, fragment, attributes, uniforms } = composePointShader(plan, "webgl2", pass);
+      const { vertex, fragment, attributes, uniforms } = composePointShader(plan, WEBGL2, pass);
       add({
         name: `${name}: ${pass}`,
         vertex,
@@ -30,14 +31,10 @@ function cases(): Case[] {
         uniforms: uniforms.map((uniform) => uniform.name),
       });
     }
-    const quads = [
-      ...(plan.active.has("eyeDomeLighting") ? (["edl"] as const) : []),
-      ...(plan.active.has("splats") ? (["splatNormalise"] as const) : []),
-    ];
-    for (const pass of quads) {
-      const { vertex, fragment, uniforms } = composePass(pass, plan, "webgl2");
+    if (passesOf(plan).offscreen) {
+      const { vertex, fragment, uniforms } = composeQuad(plan, WEBGL2);
       add({
-        name: `${name}: ${pass}`,
+        name: `${name}: quad`,
         vertex,
         fragment,
         attributes: [],

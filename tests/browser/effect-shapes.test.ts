@@ -4,7 +4,7 @@ import { draw, SIZE, usePage } from "./effect-draw.js";
 const page = usePage();
 
 describe("shapes", () => {
-  const single = { position: [0.3, -0.2, -20], color: [255, 0, 0, 255] };
+  const single = { position: [0.3, -0.2, -20], rgb: [255, 0, 0, 255] };
 
   it("a paraboloid recedes from the point's own depth by the square of the distance from its middle", async () => {
     const { values, depths, plan } = await draw(
@@ -34,7 +34,7 @@ describe("shapes", () => {
   it("the weights of a splat are (1 − d²) to the hardness, its colours times that", async () => {
     const { values } = await draw(
       page(),
-      { style: { highQuality: true, pointSize: 21, hardness: 3 }, columns: single, pass: "splat" },
+      { style: { splats: true, pointSize: 21, hardness: 3 }, columns: single, pass: "splat" },
       undefined,
     );
     const [x, y] = [0.3, -0.2].map((at) => (at / 20 + 1) * (SIZE / 2));
@@ -53,8 +53,8 @@ describe("shapes", () => {
   });
 
   it("splats are drawn nearer by their radius, on the ray through them, and the depth pass is not", async () => {
-    const style = { highQuality: true, pointSize: 16 };
-    const columns = { position: [3, -4, -20], color: [255, 0, 0, 255] };
+    const style = { splats: true, pointSize: 16 };
+    const columns = { position: [3, -4, -20], rgb: [255, 0, 0, 255] };
     const splat = await draw(page(), { style, columns, pass: "splat" }, ["gl_Position"]);
     const depth = await draw(page(), { style, columns, pass: "depth" }, ["gl_Position"]);
     // 8 px of 32 px per tan 45° at 20 m: 5 m.

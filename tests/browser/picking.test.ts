@@ -185,7 +185,7 @@ describe.skipIf(pythonMissing)(`picking${pythonMissing ? ` (skipped: ${pythonMis
 
   it.each<[string, LayerOptions["style"], StageOptions]>([
     ["with Eye-Dome Lighting", { pointSize: 3, eyeDomeLighting: true }, {}],
-    ["with blended splats", { pointSize: 3, shape: "disc", highQuality: true }, {}],
+    ["with blended splats", { pointSize: 3, shape: "disc", splats: true }, {}],
     ["translucent", { pointSize: 3, opacity: 0.5 }, {}],
     ["without logarithmic depth", { pointSize: 3 }, { logDepth: false }],
     ["with two pixels per CSS pixel", { pointSize: 3 }, { pixelRatio: 2 }],

@@ -74,7 +74,7 @@ describe.skipIf(pythonMissing)(
       const blended = await draw(
         "checks-splats",
         "checks",
-        { ...options, style: { ...size, highQuality: true } },
+        { ...options, style: { ...size, splats: true } },
         pose,
       );
       const large = { width: 1024, height: 768 };

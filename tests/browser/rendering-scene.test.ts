@@ -9,7 +9,7 @@ import { decode, difference, differenceToExpected, openStage, type StagePage } f
 const WAYS = {
   direct: { pointSize: 5 },
   "eye-dome": { pointSize: 5, eyeDomeLighting: true },
-  splats: { pointSize: 5, highQuality: true },
+  splats: { pointSize: 5, splats: true },
 } as const satisfies Record<string, LayerOptions["style"]>;
 
 const GREY = [128, 128, 128];
@@ -191,7 +191,7 @@ describe.skipIf(pythonMissing)(
       const options = { style: { ...WAYS["eye-dome"], color: "elevation" } };
       const { picture } = await draw("orthographic", "steps", options, pose, { orthographic: 40 });
       expect(differenceToExpected(picture, "scene-orthographic")).toBeLessThan(0.01);
-      const adaptive = { style: { size: "adaptive", highQuality: true, color: "elevation" } } as const;
+      const adaptive = { style: { size: "adaptive", splats: true, color: "elevation" } } as const;
       const sized = await draw("orthographic-adaptive", "density", adaptive, pose, { orthographic: 40 });
       expect(differenceToExpected(sized.picture, "scene-orthographic-adaptive")).toBeLessThan(0.01);
     });

@@ -102,7 +102,7 @@ const cases: Readonly<Record<string, Case>> = {
   splats: {
     scan: "checks",
     pose: { range: 5, pitch: -25, heading: 20 },
-    options: { style: { pointSize: 5, highQuality: true } },
+    options: { style: { pointSize: 5, splats: true } },
     without: { style: { pointSize: 5, shape: "disc" } },
   },
   "eye-dome": {
@@ -117,8 +117,8 @@ const cases: Readonly<Record<string, Case>> = {
   },
   "splats-eye-dome": {
     scan: "steps",
-    options: { style: { pointSize: 6, color: "elevation", highQuality: true, eyeDomeLighting: true } },
-    without: { style: { pointSize: 6, color: "elevation", highQuality: true } },
+    options: { style: { pointSize: 6, color: "elevation", splats: true, eyeDomeLighting: true } },
+    without: { style: { pointSize: 6, color: "elevation", splats: true } },
   },
   opacity: { scan: "cliff", options: { style: { ...small, opacity: 0.4 } }, without: { style: small } },
   filter: {

@@ -54,10 +54,10 @@ export const STYLE_GROUPS: readonly FieldGroup[] = [
       { ...number("minimumSize", "At least", [1, 10], 0.5, "px"), when: spaced },
       { ...number("maximumSize", "At most", [2, 64], 1, "px"), when: spaced },
       words("shape", "shape", "Shape", ["square", "disc", "paraboloid"]),
-      { ...automatic("highQuality", "Blended splats") },
+      { ...automatic("splats", "Blended splats") },
       {
         ...number("hardness", "Hardness", [0.5, 10], 0.5),
-        when: ({ style }) => style.highQuality !== false,
+        when: ({ style }) => style.splats !== false,
       },
     ],
   },
@@ -77,8 +77,7 @@ export const STYLE_GROUPS: readonly FieldGroup[] = [
         when: lit,
         options: () => ["4", "8"].map((value) => ({ value, label: value })),
         read: ({ style }) => String(eyeDomeOf(style).neighbours),
-        write: (layer, value) =>
-          style(layer, { eyeDomeLighting: { ...eyeDomeOf(layer.style), neighbours: value === "8" ? 8 : 4 } }),
+        write: (layer, value) => style(layer, { eyeDomeLighting: { neighbours: value === "8" ? 8 : 4 } }),
       },
     ],
   },
@@ -144,7 +143,7 @@ function onOff(key: "dithering", label: string): CheckField {
 }
 
 /** On, off, or where the scene calls for it. */
-function automatic(key: "highQuality" | "eyeDomeLighting", label: string): ChoiceField {
+function automatic(key: "splats" | "eyeDomeLighting", label: string): ChoiceField {
   return {
     kind: "choice",
     id: key,
@@ -175,7 +174,7 @@ function light(
     step,
     ...(unit && { unit }),
     read: (layer) => eyeDomeOf(layer.style)[key],
-    write: (layer, value) => style(layer, { eyeDomeLighting: { ...eyeDomeOf(layer.style), [key]: value } }),
+    write: (layer, value) => style(layer, { eyeDomeLighting: { [key]: value } }),
   };
 }
 
@@ -198,8 +197,7 @@ function blendWith(): ChoiceField {
     label: "Blended with",
     options: (layer) => [{ value: "", label: "nothing" }, ...colourings(layer)],
     read: (layer) => layer.style.blend?.color ?? "",
-    write: (layer, color) =>
-      style(layer, { blend: color === "" ? undefined : { color, share: layer.style.blend?.share ?? 0.5 } }),
+    write: (layer, color) => style(layer, { blend: color === "" ? undefined : { color } }),
   };
 }
 
@@ -214,8 +212,7 @@ function blendShare(): SliderField {
     when: (layer) => layer.style.blend !== undefined,
     read: (layer) => layer.style.blend?.share ?? 0.5,
     write(layer, share) {
-      const { blend } = layer.style;
-      if (blend) style(layer, { blend: { ...blend, share } });
+      if (layer.style.blend) style(layer, { blend: { share } });
     },
   };
 }

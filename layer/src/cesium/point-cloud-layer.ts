@@ -7,6 +7,7 @@ import { NO_OBJECTS } from "../drawing/gpu.js";
 import { checkHeightOffset, liftOf } from "../drawing/height-offset.js";
 import {
   checkFilter,
+  checkForced,
   completeStyle,
   defaultStyle,
   type Forced,
@@ -44,8 +45,6 @@ export class PointCloudLayer {
   pointBudget: number;
   /** Points and bytes that this layer shares with others. */
   budget: SharedBudget | undefined;
-  /** Effects that are on or off whatever the scene calls for. */
-  forced: Forced;
   /** The data set. */
   readonly cloud: PointCloud;
   /** Sphere around all points as they are drawn, to fly to; moves with {@link heightOffset}. */
@@ -74,6 +73,7 @@ export class PointCloudLayer {
   #clips: ClipSet;
   #style: PointCloudStyle;
   #filter: PointFilter | undefined;
+  #forced: Forced = {};
   #heightOffset = 0;
   #renderer: LayerRenderer | undefined;
   #warned = false;
@@ -91,7 +91,7 @@ export class PointCloudLayer {
     this.#clips = options.clips ?? new ClipSet();
     this.filter = options.filter;
     this.forced = options.forced ?? {};
-    this.#style = defaultStyle(cloud.hasColour);
+    this.#style = defaultStyle(cloud);
     this.style = options.style ?? {};
     this.#picked = { primitive: this, id: options.id ?? cloud.name };
     this.boundingSphere = new BoundingSphere(new Cartesian3(), cloud.bounds.radius);
@@ -132,8 +132,7 @@ export class PointCloudLayer {
   }
 
   set style(parts: StyleParts) {
-    const { attributes, name } = this.cloud;
-    this.#style = completeStyle(parts, this.#style, { attributes, file: name });
+    this.#style = completeStyle(parts, this.#style, this.cloud);
   }
 
   /** Which points are drawn and picked; undefined: all. @throws StyleError STYLE_FILTER */
@@ -142,8 +141,7 @@ export class PointCloudLayer {
   }
 
   set filter(filter: PointFilter | undefined) {
-    const { attributes, name } = this.cloud;
-    this.#filter = filter && checkFilter(filter, { attributes, file: name });
+    this.#filter = filter && checkFilter(filter, this.cloud);
   }
 
   /** Volumes that cut or highlight; assigning undefined gives the layer an empty set of its own. */
@@ -153,6 +151,15 @@ export class PointCloudLayer {
 
   set clips(clips: ClipSet | undefined) {
     this.#clips = clips ?? new ClipSet();
+  }
+
+  /** Effects that are on or off whatever the scene calls for. @throws StyleError STYLE_FORCED */
+  get forced(): Forced {
+    return this.#forced;
+  }
+
+  set forced(forced: Forced) {
+    this.#forced = checkForced(forced, this.cloud.name);
   }
 
   /**

@@ -2,8 +2,8 @@ import { BoundingSphere } from "cesium";
 import type { GpuMilliseconds } from "../drawing/frame.js";
 import type { LayerContent } from "../drawing/layer-content.js";
 import type { Material } from "../drawing/material.js";
-import { passesOf, quadProgramOf } from "../drawing/program-needs.js";
-import { drawsOffscreen, type EffectPlan, type PointPass } from "../effects/index.js";
+import { quadProgramOf } from "../drawing/program-needs.js";
+import { type EffectPlan, type PointPass, passesOf } from "../effects/index.js";
 import { CompositeQuad } from "./composite-quad.js";
 import { type Command, type FrameState, Pass, type PickId } from "./engine/cesium-private.js";
 import type { GpuObjects } from "./engine/gpu-objects.js";
@@ -61,13 +61,13 @@ export class PointDrawing {
     const { material, nodes } = content;
     if (!material) return [];
     const { plan } = material;
-    const offscreen = drawsOffscreen(plan);
+    const { offscreen, translucent } = passesOf(plan);
     if (!offscreen) this.#target.release();
     if (nodes.length === 0) return [];
     if (!offscreen) return this.#timed(labelOf(plan, "points"), this.sceneCommands(content));
     const quad = this.#drawOffscreen(frameState, material, content);
     // Cesium executes translucent commands in an order of its own.
-    return plan.active.has("opacity") ? [quad] : this.#timed(labelOf(plan, "picture"), [quad]);
+    return translucent ? [quad] : this.#timed(labelOf(plan, "picture"), [quad]);
   }
 
   /** Commands that draw nodes straight into the scene. */
@@ -109,13 +109,19 @@ export class PointDrawing {
   ): Command {
     const { context, camera } = frameState;
     const { nodes, programs, depth } = content;
-    const blended = plan.active.has("splats");
-    const picture = this.#target.prepare(context.drawingBufferWidth, context.drawingBufferHeight, blended);
+    const {
+      points: [first, second],
+      translucent,
+    } = passesOf(plan);
+    const picture = this.#target.prepare(
+      context.drawingBufferWidth,
+      context.drawingBufferHeight,
+      second !== undefined,
+    );
     const frustum = fitFrustum(camera, spheresOf(nodes));
     const setting = (pass: PointPass) => this.setting(pass, frustum, content);
     this.#timer.measure(labelOf(plan, "points"), () => {
       this.#pass.clear(context, picture.points, true);
-      const [first, second] = passesOf(plan);
       this.#pass.draw(first, nodes, { ...setting(first), target: picture.points });
       if (!picture.blending || !second) return;
       this.#pass.clear(context, picture.blending, false);
@@ -125,7 +131,7 @@ export class PointDrawing {
     this.uniforms.take(picture, frustum);
     const program = programs.of(quadProgramOf(plan, depth));
     const sphere = BoundingSphere.fromBoundingSpheres([...spheresOf(nodes)]);
-    return this.#quad.command(program, uniforms.map, sphere, plan.active.has("opacity"));
+    return this.#quad.command(program, uniforms.map, sphere, translucent);
   }
 
   /** Commands between two that measure them. */

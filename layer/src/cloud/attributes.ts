@@ -21,7 +21,7 @@ const COLOURS = ["red", "green", "blue"];
 /** The attributes of a data set's points: colour and heights first, then as they are recorded. */
 export function attributesOf(sources: AttributeSources): AttributeInfo[] {
   const { recorded, hasColour, verticalUnit, elevations, heights, appearance } = sources;
-  const colour: AttributeInfo = { name: "color", range: undefined, kind: "color", components: 4 };
+  const colour: AttributeInfo = { name: "rgb", range: undefined, kind: "color", components: 4 };
   const scalar = { kind: "scalar", components: 1 } as const;
   return [
     ...(hasColour ? [colour] : []),

@@ -214,10 +214,10 @@ describe("PointCloud", () => {
     const { cloud, executor } = await open({ ...twoNodes, records });
     const byName = new Map(cloud.attributes.map((info) => [info.name, info]));
     expect([...byName.keys()]).toEqual([
-      ...["color", "elevation", "ellipsoidalHeight", "intensity", "returnNumber", "numberOfReturns", "flags"],
+      ...["rgb", "elevation", "ellipsoidalHeight", "intensity", "returnNumber", "numberOfReturns", "flags"],
       ...["classification", "userData", "scanAngle", "pointSourceId", "gpsTime"],
     ]);
-    expect(byName.get("color")).toMatchObject({ kind: "color", components: 4, range: undefined });
+    expect(byName.get("rgb")).toMatchObject({ kind: "color", components: 4, range: undefined });
     expect(byName.get("elevation")).toMatchObject({ kind: "scalar", unit: "foot", range: [0, 50] });
     const [lowest = Number.NaN, highest] = byName.get("ellipsoidalHeight")?.range ?? [];
     expect([lowest + 1, highest]).toEqual([expect.closeTo(1, 6), expect.closeTo(50 * 0.3048, 6)]);

@@ -10,7 +10,7 @@ const turn = () => new Promise((resolve) => setTimeout(resolve));
 function settingsOf(parts: Partial<LayerSettings> = {}): LayerSettings {
   return {
     ...{ maximumScreenSpaceError: 2, pointBudget: 1e6, budget: undefined, clips: new ClipSet() },
-    ...{ style: defaultStyle(false), filter: undefined, forced: {} },
+    ...{ style: defaultStyle({ attributes: [] }), filter: undefined, forced: {} },
     ...parts,
   };
 }
@@ -63,7 +63,7 @@ describe("LayerFrames, in a view of no library at all", () => {
     const { settle, renderer } = await setUp();
     for (let at = 0; at < 100; at++) {
       const ranges = { [["elevation", "intensity"][at % 2]]: [at, 1e6] } as const;
-      const style = { ...defaultStyle(false), gamma: at % 3 ? 1 : 1.5, pointSize: 1 + (at % 7) };
+      const style = { ...defaultStyle({ attributes: [] }), gamma: at % 3 ? 1 : 1.5, pointSize: 1 + (at % 7) };
       await settle(settingsOf({ style, filter: at % 5 ? { ranges } : undefined }));
     }
     const { buffers, vertexArrays, programs } = renderer.gpu.counts;

@@ -4,6 +4,7 @@ import {
   nodeUniforms,
   type PointCloudStyle,
   type SceneFacts,
+  widestPoint,
   withoutClips,
 } from "../effects/index.js";
 import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
@@ -74,7 +75,7 @@ export class LayerContent<V extends ViewTypes> {
   /** Greatest width of a point, CSS pixels. */
   get widestPoint(): number {
     const style = this.material?.style;
-    return style?.size === "fixed" ? style.pointSize : (style?.maximumSize ?? 0);
+    return style ? widestPoint(style) : 0;
   }
 
   /** Metres above their places at which nodes are drawn. */
@@ -92,7 +93,7 @@ export class LayerContent<V extends ViewTypes> {
    * @returns steps that wait for a later frame: nodes to be uploaded or held against volumes, and a new material
    */
   prepare(request: ContentRequest): number {
-    const { selection, cloud, plan, style, facts, clips, depth, allowance } = request;
+    const { selection, cloud, plan, clips, depth, allowance } = request;
     this.#depth = depth;
     this.programs.nextFrame();
     const materials = this.#materials;
@@ -112,7 +113,7 @@ export class LayerContent<V extends ViewTypes> {
     if (ready && allowance.grants()) this.#change();
     if (unformed === 0 && materials.shown?.plan.key === plan.key) clips.advance();
     const { shown } = materials;
-    if (shown === material) shown.update(plan, style, facts);
+    if (shown === material) shown.update(plan);
     this.#nodes = shown ? this.#collect(shown, request) : [];
     return waiting + unformed + (materials.next ? 1 : 0);
   }
@@ -159,10 +160,7 @@ export class LayerContent<V extends ViewTypes> {
     return this.programs.reads(pointProgramsOf(plan, this.#depth));
   }
 
-  #collect(
-    material: Material<V>,
-    { selection, style, facts, clips: answers }: ContentRequest,
-  ): DrawnNode<V>[] {
+  #collect(material: Material<V>, { selection, clips: answers }: ContentRequest): DrawnNode<V>[] {
     const reads = this.#reads(material);
     const plain = withoutClips(material.plan);
     const drawn: DrawnNode<V>[] = [];
@@ -180,8 +178,8 @@ export class LayerContent<V extends ViewTypes> {
     const clipRecords = material.showClips(drawn);
     drawn.forEach(({ node, uploaded, firstId, uniforms }, index) => {
       const { columns, toCube } = uploaded.vertices;
-      const values = nodeUniforms(material.plan, material.style ?? style, facts, {
-        columns: { get: (name) => columns[name] },
+      const values = nodeUniforms(material.plan, {
+        columns: { get: (name) => (Object.hasOwn(columns, name) ? columns[name] : undefined) },
         firstId,
         level: node.key.depth,
         spacing: node.bounds?.spacing ?? 0,

@@ -5,7 +5,7 @@ import {
   layerUniforms,
   type PointCloudStyle,
   type PointFilter,
-  type SceneFacts,
+  readsNodeTexture,
   styleTextures,
 } from "../effects/index.js";
 import type { OctreeNode } from "../octree/index.js";
@@ -65,14 +65,17 @@ export class Material<V extends ViewTypes> {
    * Takes the values of a frame.
    * @param plan one with the same key
    */
-  update(plan: EffectPlan, style: PointCloudStyle, facts: SceneFacts): void {
+  update(plan: EffectPlan): void {
     this.#plan = plan;
-    this.#uniforms.set(layerUniforms(plan, style, facts));
-    const { filter } = plan.filters;
+    this.#uniforms.set(layerUniforms(plan));
+    const {
+      style,
+      facts: { filter },
+    } = plan.scene;
     if (style === this.#style && filter === this.#filter) return;
     this.#style = style;
     this.#filter = filter;
-    for (const { name, ...texels } of styleTextures(plan, style)) this.#setTexture(name, texels);
+    for (const { name, ...texels } of styleTextures(plan)) this.#setTexture(name, texels);
   }
 
   /**
@@ -80,8 +83,7 @@ export class Material<V extends ViewTypes> {
    * @returns the texel of each node; undefined where none does
    */
   showOctree(drawn: readonly DrawnNode<V>[]): Uint32Array | undefined {
-    const { active } = this.#plan;
-    if (!active.has("adaptiveSize") && !active.has("levelOfDetail")) return undefined;
+    if (!readsNodeTexture(this.#plan, "octree")) return undefined;
     if (this.#octree && sameNodes(this.#octree.drawn, drawn)) return this.#octree.indices;
     const { texture, width, height, indices } = encodeVisibleOctree(
       drawn.map(({ node, uploaded: { vertices }, count }) => ({
@@ -103,8 +105,7 @@ export class Material<V extends ViewTypes> {
    * @returns those of each node; none where no effect does
    */
   showClips(drawn: readonly DrawnNode<V>[]): ClipRecords {
-    const { active } = this.#plan;
-    if (!active.has("clip") && !active.has("highlight")) return [];
+    if (!readsNodeTexture(this.#plan, "clips")) return [];
     const there = this.#clips;
     const same =
       there?.drawn.length === drawn.length && drawn.every(({ clips }, at) => clips === there.drawn[at]);

@@ -15,7 +15,7 @@ const read = (column: string, location: number, normalized = false) => ({
   ...{ name: `a_${column}`, type: "vec3" as const, components: 3 as const, column, location, normalized },
 });
 const PLAIN = attributeSet([read("position", 0)]);
-const COLOURED = attributeSet([read("position", 0), read("color", 1, true)]);
+const COLOURED = attributeSet([read("position", 0), read("rgb", 1, true)]);
 
 class Uploaded extends NodeBuffers<GpuTypes> {
   lift(): void {}
@@ -44,7 +44,7 @@ function nodesOf(count: number, points: number) {
   const nodes = Array.from({ length: count }, (_, x) => new OctreeNode({ depth: 4, x, y: 0, z: 0 }));
   const vertices = {
     positions: new Float32Array(3 * points),
-    columns: { color: { data: new Uint8Array(3 * points) } },
+    columns: { rgb: { data: new Uint8Array(3 * points) } },
     count: points,
     frame: eastNorthUp(origin),
     box: [0, 0, 0, 1, 1, 1],

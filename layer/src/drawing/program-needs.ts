@@ -1,10 +1,4 @@
-import {
-  drawsOffscreen,
-  type EffectPlan,
-  type PointPass,
-  type QuadPass,
-  withoutClips,
-} from "../effects/index.js";
+import { type EffectPlan, type PointPass, passesOf, withoutClips } from "../effects/index.js";
 
 /** Where depth is logarithmic: in pictures of the layer's own, and in the view's scene. */
 export interface LogarithmicDepth {
@@ -24,7 +18,7 @@ export interface PointProgramNeed {
 
 /** A program for a quad that puts a picture of the layer's into the view's scene. */
 export interface QuadProgramNeed {
-  readonly pass: QuadPass;
+  readonly pass: "quad";
   readonly plan: EffectPlan;
   readonly into: "scene";
   readonly logarithmic: boolean;
@@ -35,28 +29,23 @@ export type ProgramNeed = PointProgramNeed | QuadProgramNeed;
 
 /** Whether a program is for a quad over the whole picture. */
 export function isQuad(need: ProgramNeed): need is QuadProgramNeed {
-  return need.pass === "edl" || need.pass === "splatNormalise";
-}
-
-/** The passes over the points that make their picture. */
-export function passesOf({ active }: EffectPlan): readonly [PointPass, ...PointPass[]] {
-  return active.has("splats") ? ["depth", "splat"] : ["color"];
+  return need.pass === "quad";
 }
 
 /** The program for the quad that puts their picture into the scene. */
 export function quadProgramOf(plan: EffectPlan, depth: LogarithmicDepth): QuadProgramNeed {
-  const pass = plan.active.has("eyeDomeLighting") ? "edl" : "splatNormalise";
-  return { plan, pass, into: "scene", logarithmic: depth.scene };
+  return { plan, pass: "quad", into: "scene", logarithmic: depth.scene };
 }
 
 /** The programs for the points of a set of effects: nodes that no volume touches are drawn without clips. */
 export function pointProgramsOf(plan: EffectPlan, depth: LogarithmicDepth): PointProgramNeed[] {
   const plans = [...new Set([plan, withoutClips(plan)])];
-  if (!drawsOffscreen(plan)) {
+  const { points, offscreen } = passesOf(plan);
+  if (!offscreen) {
     return plans.map((plan) => ({ plan, pass: "color", into: "scene", logarithmic: depth.scene }));
   }
   return plans.flatMap((plan) =>
-    passesOf(plan).map((pass) => ({ plan, pass, into: "own", logarithmic: depth.own }) as const),
+    points.map((pass) => ({ plan, pass, into: "own", logarithmic: depth.own }) as const),
   );
 }
 
@@ -69,5 +58,5 @@ export function numberProgramsOf(plan: EffectPlan, depth: LogarithmicDepth): Poi
 /** All programs of a set of effects that make its picture. */
 export function programsOf(plan: EffectPlan, depth: LogarithmicDepth): ProgramNeed[] {
   const points = pointProgramsOf(plan, depth);
-  return drawsOffscreen(plan) ? [...points, quadProgramOf(plan, depth)] : points;
+  return passesOf(plan).offscreen ? [...points, quadProgramOf(plan, depth)] : points;
 }

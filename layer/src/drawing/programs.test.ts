@@ -1,14 +1,15 @@
 import { describe, expect, it } from "vitest";
 import { planEffects } from "../effects/index.js";
 import { richFacts, styleOf } from "../effects/scene.fixture.js";
+import { WEBGL2 } from "../effects/webgl2-target.fixture.js";
 import { FrameAllowance } from "./frame-allowance.js";
 import type { Gpu, GpuTypes } from "./gpu.js";
 import { type ProgramNeed, programsOf } from "./program-needs.js";
 import { Programs } from "./programs.js";
 
-const plan = planEffects(styleOf({ highQuality: true }), richFacts());
+const plan = planEffects(styleOf({ splats: true }), richFacts());
 const own = { plan, into: "own", logarithmic: true } as const;
-const quad: ProgramNeed = { plan, pass: "splatNormalise", into: "scene", logarithmic: true };
+const quad: ProgramNeed = { plan, pass: "quad", into: "scene", logarithmic: true };
 const needs: readonly ProgramNeed[] = [{ ...own, pass: "depth" }, { ...own, pass: "splat" }, quad];
 
 /** Programs that are linked nowhere: which were made, which were linked for what, and how many are alive. */
@@ -17,7 +18,7 @@ function recorded() {
   const alive = new Set<object>();
   const linked: (readonly [at: number, logarithmic: boolean])[] = [];
   const gpu = {
-    target: "cesium",
+    target: WEBGL2,
     program: () => {
       const program = {};
       made.push(program);
@@ -90,7 +91,7 @@ describe("Programs", () => {
     const planOf = (at: number) =>
       planEffects(
         styleOf({
-          highQuality: at % 2 === 0,
+          splats: at % 2 === 0,
           eyeDomeLighting: at % 3 === 0,
           size: "fixed",
           gamma: 1 + (at % 2),

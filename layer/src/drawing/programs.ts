@@ -1,4 +1,4 @@
-import { composePass, composePointShader, type PointShader, type ShaderTarget } from "../effects/index.js";
+import { composePointShader, composeQuad, type PointShader, type ShaderTarget } from "../effects/index.js";
 import type { FrameAllowance } from "./frame-allowance.js";
 import type { Gpu, GpuTypes } from "./gpu.js";
 import { isQuad, type PointProgramNeed, type ProgramNeed } from "./program-needs.js";
@@ -107,7 +107,7 @@ export class Programs<T extends GpuTypes> {
 
 /** The shader of a program; a quad over the whole picture reads nothing of points. */
 function shaderOf(need: ProgramNeed, target: ShaderTarget): PointShader {
-  if (isQuad(need)) return { ...composePass(need.pass, need.plan, target), attributes: [] };
+  if (isQuad(need)) return { ...composeQuad(need.plan, target), attributes: [] };
   return composePointShader(need.plan, target, need.pass);
 }
 

@@ -9,7 +9,7 @@ const WINDOW: Size = { width: 48, height: 32 };
 /** Milliseconds between two measurements while the view changes; once it rests it is measured at once. */
 const INTERVAL = 500;
 
-/** Gives what Eye-Dome Lighting compares of a point (see `composePass`): log2 of its eye depth, or what stands for it. */
+/** Gives what Eye-Dome Lighting compares of a point (see `eye-dome-lighting.ts`): log2 of its eye depth, or what stands for it. */
 export type Relief = (index: number) => number;
 
 /** A frame that silhouettes are looked for in. */

@@ -1,5 +1,6 @@
 import { eastNorthUp } from "@groma/georef";
 import { PointCloud } from "../cloud/index.js";
+import { WEBGL2 } from "../effects/webgl2-target.fixture.js";
 import { tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource } from "../sources/index.js";
 import type { NodeExecutor, NodeVertices } from "../workers/index.js";
@@ -43,7 +44,7 @@ export interface TestView extends TestTypes {
 
 /** A graphics library that draws nothing and counts what it made. */
 export class TestGpu implements Gpu<TestTypes> {
-  readonly target = "webgl2";
+  readonly target = WEBGL2;
   readonly #alive = new Map<Destroyable, { readonly kind: GpuKind; readonly bytes: number }>();
 
   get bytes(): number {

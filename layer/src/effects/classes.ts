@@ -1,3 +1,6 @@
+import { frozen } from "../options/index.js";
+import type { TextureData } from "./shader.js";
+
 /** A class of points. */
 export interface PointClass {
   readonly name: string;
@@ -43,11 +46,55 @@ function rgb(hex: number): readonly [number, number, number] {
 }
 
 /** All 256 classes: 0 to 22 as ASPRS names them, 23 to 63 reserved, 64 to 255 the user's. */
-export const ASPRS_CLASSES: ClassTable = (() => {
+export const ASPRS_CLASSES: ClassTable = frozen(asprsClasses());
+
+function asprsClasses(): ClassTable {
   const table: Record<number, PointClass> = {};
   for (let number = 0; number < 256; number++) {
     table[number] = { name: number < 64 ? "Reserved" : "User definable", color: rgb(UNNAMED), show: true };
   }
   for (const [number, name, hex] of NAMED) table[number] = { name, color: rgb(hex), show: true };
   return table;
-})();
+}
+
+/** The part of a style that says how classes look. */
+export interface ClassStyle {
+  /** Names, colours and visibility of classes; those given replace single ones of ASPRS' table. */
+  readonly classes: ClassTable;
+}
+
+/** What a filter says of classes: the numbers that pass; undefined: all. */
+interface ClassFilter {
+  readonly classes?: readonly number[] | undefined;
+}
+
+/** Whether a class is shown: by the style's table and by the filter. */
+export function showsClass(
+  { classes }: ClassStyle,
+  filter: ClassFilter | undefined,
+  number: number,
+): boolean {
+  return classes[number]?.show !== false && (filter?.classes?.includes(number) ?? true);
+}
+
+/** Whether any class is hidden. */
+export function hidesClasses({ classes }: ClassStyle, filter: ClassFilter | undefined): boolean {
+  return filter?.classes !== undefined || Object.values(classes).some(({ show }) => !show);
+}
+
+/** GLSL: colour of a class, and in alpha whether it is shown. */
+export const CLASS_ENTRY = `
+vec4 classEntry(float number) {
+  return texelFetch(u_classes, ivec2(int(number + 0.5), 0), 0);
+}
+`;
+
+/** Colours of the 256 classes; alpha says which are shown. */
+export function classTexture(style: ClassStyle, filter: ClassFilter | undefined): TextureData {
+  const data = new Uint8Array(4 * 256);
+  for (let number = 0; number < 256; number++) {
+    const color = style.classes[number].color.map((part) => Math.round(255 * part));
+    data.set([...color, showsClass(style, filter, number) ? 255 : 0], 4 * number);
+  }
+  return { name: "u_classes", width: 256, height: 1, data };
+}

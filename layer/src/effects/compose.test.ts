@@ -1,16 +1,17 @@
 import { describe, expect, it } from "vitest";
+import { CESIUM } from "../cesium/engine/shader-target.js";
+import { EFFECT_NAMES, type EffectName } from "./catalogue/index.js";
 import { composePointShader } from "./compose.js";
-import { composePass } from "./compose-pass.js";
-import { drawsOffscreen, EFFECT_NAMES, type EffectName } from "./effect-plan.js";
+import { composeQuad } from "./compose-quad.js";
+import { type EffectPlan, layerUniforms, passesOf, styleTextures } from "./effect-plan.js";
 import { planEffects, withoutClips } from "./plan.js";
-import { combinations, richFacts, styleOf } from "./scene.fixture.js";
-import type { PointPass, PointShader } from "./shader-target.js";
-import { styleTextures } from "./textures.js";
-import { layerUniforms } from "./uniforms.js";
+import { combinations, hasOwnTest, richFacts, styleOf } from "./scene.fixture.js";
+import type { PointPass, PointShader, QuadShader } from "./shader.js";
+import { WEBGL2 } from "./webgl2-target.fixture.js";
 
-/** By what each effect is known in a program's text; and the effects with which it shares that. */
-const TRACES: Readonly<Record<EffectName, readonly RegExp[]>> = {
-  ownColour: [/\ba_color\b/],
+/** By what each effect is known in a program's text. Those that are not here have a test of their own. */
+const TRACES: Readonly<Partial<Record<EffectName, readonly RegExp[]>>> = {
+  rgb: [/\ba_rgb\b/],
   gradient: [/\bu_value\d/],
   classification: [/classEntry\(a_classification\)\.rgb/],
   levelOfDetail: [/\bu_levels\b/, /\bu_nodeLevel\b/],
@@ -44,8 +45,14 @@ const SHARED: readonly (readonly [RegExp, readonly EffectName[]])[] = [
 /** Effects whose way of leaving the square is the same. */
 const ROUND: readonly EffectName[] = ["disc", "paraboloid", "splats"];
 
-function passesOf(active: ReadonlySet<EffectName>): PointPass[] {
-  return active.has("splats") ? ["color", "depth", "splat", "id"] : ["color", "id"];
+/** The passes that a plan can be drawn in: of its picture, and of the numbers of its points. */
+function pointPasses(plan: EffectPlan): PointPass[] {
+  return [...new Set<PointPass>(["color", ...passesOf(plan).points, "id"])];
+}
+
+/** The quad that shows the picture of a plan, where there is one. */
+function quadsOf(plan: EffectPlan): QuadShader[] {
+  return passesOf(plan).offscreen ? [composeQuad(plan, WEBGL2)] : [];
 }
 
 /** A program's text with all it declares. */
@@ -56,22 +63,30 @@ function textOf({ vertex, fragment, attributes, uniforms }: PointShader): string
 describe("composed programs, over all combinations of effects", () => {
   const all = combinations().map((one) => ({ ...one, plan: planEffects(one.style, one.facts) }));
 
+  it("are looked through for every effect without a test of its own", () => {
+    const others = EFFECT_NAMES.filter((name) => !hasOwnTest(name));
+    expect(Object.keys(TRACES)).toEqual(expect.arrayContaining(others));
+  });
+
   it("have the effects that the scene means, and no other", () => {
     expect(all.length).toBeGreaterThan(1000);
     for (const { name, plan, meant } of all)
       expect([name, [...plan.active].sort()]).toEqual([name, [...meant].sort()]);
   });
 
-  it.each(["cesium", "webgl2"] as const)("hold no trace of an inactive effect (%s)", (target) => {
+  it.each([
+    ["Cesium", CESIUM],
+    ["WebGL 2", WEBGL2],
+  ])("hold no trace of an inactive effect (%s)", (_, target) => {
     const faults: string[] = [];
     for (const { name, plan } of all) {
       const inactive = EFFECT_NAMES.filter((effect) => !plan.active.has(effect));
       const round = ROUND.some((effect) => plan.active.has(effect));
-      for (const pass of passesOf(plan.active)) {
+      for (const pass of pointPasses(plan)) {
         const text = textOf(composePointShader(plan, target, pass));
         for (const effect of inactive) {
           if (effect === "disc" && round) continue;
-          if (TRACES[effect].some((trace) => trace.test(text))) faults.push(`${name}, ${pass}: ${effect}`);
+          if (TRACES[effect]?.some((trace) => trace.test(text))) faults.push(`${name}, ${pass}: ${effect}`);
         }
         for (const [trace, effects] of SHARED) {
           if (effects.some((effect) => plan.active.has(effect))) continue;
@@ -85,14 +100,10 @@ describe("composed programs, over all combinations of effects", () => {
   it("hold a trace of each active effect in one of their passes", () => {
     const faults: string[] = [];
     for (const { name, plan } of all) {
-      const points = passesOf(plan.active).map((pass) => textOf(composePointShader(plan, "webgl2", pass)));
-      const quad = plan.active.has("eyeDomeLighting") ? "edl" : "splatNormalise";
-      const text = [
-        ...points,
-        ...(drawsOffscreen(plan) ? [composePass(quad, plan, "webgl2").fragment] : []),
-      ].join();
+      const points = pointPasses(plan).map((pass) => textOf(composePointShader(plan, WEBGL2, pass)));
+      const text = [...points, ...quadsOf(plan).map(({ fragment }) => fragment)].join();
       for (const effect of plan.active) {
-        if (!TRACES[effect].some((trace) => trace.test(text))) faults.push(`${name}: ${effect}`);
+        if (!TRACES[effect]?.some((trace) => trace.test(text))) faults.push(`${name}: ${effect}`);
       }
     }
     expect(faults.slice(0, 5)).toEqual([]);
@@ -101,8 +112,8 @@ describe("composed programs, over all combinations of effects", () => {
   it("declare nothing that they do not use", () => {
     const faults: string[] = [];
     for (const { name, plan } of all) {
-      for (const pass of passesOf(plan.active)) {
-        const { vertex, fragment, attributes, uniforms } = composePointShader(plan, "cesium", pass);
+      for (const pass of pointPasses(plan)) {
+        const { vertex, fragment, attributes, uniforms } = composePointShader(plan, CESIUM, pass);
         for (const text of [vertex, fragment]) {
           for (const [, declared] of text.matchAll(/^(?:flat )?(?:in|out|uniform)(?: highp)? \w+ (\w+);/gm)) {
             // Cesium's pick pass is what uses it.
@@ -121,16 +132,13 @@ describe("composed programs, over all combinations of effects", () => {
   });
 
   it("are given values for exactly the uniforms of the layer, and textures for the style's samplers", () => {
-    for (const { name, plan, style, facts } of all) {
-      const passes = passesOf(plan.active).map((pass) => composePointShader(plan, "webgl2", pass).uniforms);
-      const quads = drawsOffscreen(plan)
-        ? composePass(plan.active.has("eyeDomeLighting") ? "edl" : "splatNormalise", plan, "webgl2").uniforms
-        : [];
-      const declared = [...passes.flat(), ...quads];
+    for (const { name, plan } of all) {
+      const passes = pointPasses(plan).map((pass) => composePointShader(plan, WEBGL2, pass).uniforms);
+      const declared = [...passes.flat(), ...quadsOf(plan).flatMap(({ uniforms }) => uniforms)];
       const names = (scope: string) => new Set(declared.filter((u) => u.scope === scope).map((u) => u.name));
-      const given = Object.keys(layerUniforms(plan, style, facts));
+      const given = Object.keys(layerUniforms(plan));
       expect([name, given.sort()]).toEqual([name, [...names("layer")].sort()]);
-      const textures = styleTextures(plan, style).map((texture) => texture.name);
+      const textures = styleTextures(plan).map((texture) => texture.name);
       const nodes = ["u_octree", "u_clips"];
       const samplers = [...names("texture")].filter((texture) => !nodes.includes(texture));
       expect([name, textures.sort()]).toEqual([name, samplers.sort()]);
@@ -140,8 +148,8 @@ describe("composed programs, over all combinations of effects", () => {
   it("have the same text where the key is the same", () => {
     const byKey = new Map<string, string>();
     for (const { plan } of all) {
-      for (const pass of passesOf(plan.active)) {
-        const text = textOf(composePointShader(plan, "cesium", pass));
+      for (const pass of pointPasses(plan)) {
+        const text = textOf(composePointShader(plan, CESIUM, pass));
         const key = `${plan.key}|${pass}`;
         expect(byKey.get(key) ?? text).toBe(text);
         byKey.set(key, text);
@@ -166,7 +174,7 @@ describe("the programs of five scenes", () => {
       size: "adaptive",
       shape: "paraboloid",
     }),
-    "splats with Eye-Dome Lighting": styleOf({ highQuality: true, eyeDomeLighting: true, pointSize: 8 }),
+    "splats with Eye-Dome Lighting": styleOf({ splats: true, eyeDomeLighting: true, pointSize: 8 }),
     "clips and highlight, levels blended with intensity": styleOf({
       color: "levelOfDetail",
       blend: { color: "intensity", share: 0.3 },
@@ -179,12 +187,12 @@ describe("the programs of five scenes", () => {
       ...(name.includes("filter") && { filter: { returns: ["last"], ranges: { intensity: [10, 900] } } }),
     });
     const plan = planEffects(style, facts);
-    const passes = passesOf(plan.active).map((pass) => {
-      const { vertex, fragment } = composePointShader(plan, "cesium", pass);
+    const passes = pointPasses(plan).map((pass) => {
+      const { vertex, fragment } = composePointShader(plan, CESIUM, pass);
       return `// ${pass}: vertex\n${vertex}\n// ${pass}: fragment\n${fragment}`;
     });
     const quad = plan.active.has("eyeDomeLighting") ? "edl" : "splatNormalise";
-    if (drawsOffscreen(plan)) passes.push(`// ${quad}\n${composePass(quad, plan, "cesium").fragment}`);
+    if (passesOf(plan).offscreen) passes.push(`// ${quad}\n${composeQuad(plan, CESIUM).fragment}`);
     const text = `// ${name}: ${[...plan.active].join(", ")}\n\n${passes.join("\n")}`;
     await expect(text).toMatchFileSnapshot(`snapshots/${name.replace(/[^a-zA-Z]+/g, "-")}.glsl`);
   });

@@ -1,28 +1,7 @@
-import type { PointFilter } from "./filter.js";
-
-/** Everything that could be drawn or left out, in the order of the ledger. */
-export const EFFECT_NAMES = [
-  "ownColour",
-  "gradient",
-  "classification",
-  "levelOfDetail",
-  "blend",
-  "tone",
-  "dithering",
-  "fixedSize",
-  "attenuatedSize",
-  "adaptiveSize",
-  "disc",
-  "paraboloid",
-  "splats",
-  "eyeDomeLighting",
-  "opacity",
-  "clip",
-  "highlight",
-  "filter",
-] as const;
-
-export type EffectName = (typeof EFFECT_NAMES)[number];
+import { type AnyEffect, EFFECTS, type EffectName, type PointCloudStyle } from "./catalogue/index.js";
+import type { Scene } from "./effect.js";
+import type { DrawnNode } from "./facts.js";
+import type { PointPass, TextureData, UniformValues } from "./shader.js";
 
 /** What an effect takes, measured. */
 export interface MeasuredCost {
@@ -50,37 +29,67 @@ export interface LedgerRow {
   readonly cost: MeasuredCost | undefined;
 }
 
-/** Where a colour comes from: the scan, a scalar column, the classes, the level of detail. */
-export interface Colouring {
-  readonly kind: "own" | "scalar" | "class" | "level";
-  /** The column read; undefined for the level of detail. */
-  readonly column: string | undefined;
-}
-
 /** The effects that a scene calls for, and why. */
 export interface EffectPlan {
   readonly active: ReadonlySet<EffectName>;
   /** Same key, same programs. */
   readonly key: string;
   readonly ledger: readonly LedgerRow[];
-  /** One, or the two that are blended. */
-  readonly colourings: readonly Colouring[];
-  /** What the filter asks for: classes, kinds of returns, columns that it holds against ranges. */
-  readonly filters: {
-    readonly classes: boolean;
-    readonly returns: boolean;
-    readonly ranges: readonly string[];
-    /** The filter itself; its numbers are no part of the program. */
-    readonly filter: PointFilter | undefined;
+  /** What it was made for. */
+  readonly scene: Scene<PointCloudStyle>;
+  /** What the programs of effects depend on, besides which of them run. */
+  readonly variants: ReadonlyMap<EffectName, unknown>;
+}
+
+/** The effects that run, in the order of the catalogue. */
+export function effectsOf({ active }: Pick<EffectPlan, "active">): AnyEffect[] {
+  return EFFECTS.filter(({ name }) => active.has(name));
+}
+
+/** How a plan's picture comes about. */
+export interface Passes {
+  /** The passes over the points. */
+  readonly points: readonly [PointPass, ...PointPass[]];
+  /** Whether they fill a picture of their own that a quad then puts into the scene. */
+  readonly offscreen: boolean;
+  /** Whether the scene shows through. */
+  readonly translucent: boolean;
+}
+
+export function passesOf(plan: Pick<EffectPlan, "active">): Passes {
+  const effects = effectsOf(plan);
+  const own = effects.map(({ pass }) => pass).find((pass) => typeof pass === "object");
+  return {
+    points: own ?? ["color"],
+    offscreen: effects.some(({ pass = "points" }) => pass !== "points"),
+    translucent: effects.some(({ translucent }) => translucent),
   };
-  /** Neighbours of Eye-Dome Lighting. */
-  readonly neighbours: 4 | 8;
+}
+
+/** Whether a plan reads a texture about the nodes that are drawn. */
+export function readsNodeTexture(plan: Pick<EffectPlan, "active">, texture: "octree" | "clips"): boolean {
+  return effectsOf(plan).some(({ nodeTexture }) => nodeTexture === texture);
+}
+
+/** Values of the uniforms that hold for all nodes of a layer. */
+export function layerUniforms(plan: EffectPlan): UniformValues {
+  return Object.assign({}, ...effectsOf(plan).map((effect) => effect.values?.(plan.scene)));
+}
+
+/** Values of the uniforms of one node. Form them when the node, the style or the view's nodes change. */
+export function nodeUniforms(plan: EffectPlan, node: DrawnNode): UniformValues {
+  const values: Record<string, number | readonly number[]> = { u_firstId: node.firstId };
+  for (const effect of EFFECTS) {
+    if (plan.active.has(effect.name)) Object.assign(values, effect.nodeValues?.(plan.scene, node));
+  }
+  return values;
 }
 
 /**
- * Whether points are drawn into a picture of their own that a quad then puts into the scene. A translucent cloud is one
- * picture that lets the scene through: points that were translucent one by one would add up to an opaque heap.
+ * Textures that the style and the filter fill; those of the visible octree and of clips belong to the nodes drawn. To be
+ * formed anew when the style or the filter changes.
  */
-export function drawsOffscreen({ active }: Pick<EffectPlan, "active">): boolean {
-  return active.has("splats") || active.has("eyeDomeLighting") || active.has("opacity");
+export function styleTextures(plan: EffectPlan): TextureData[] {
+  const textures = effectsOf(plan).flatMap((effect) => effect.textures?.(plan.scene) ?? []);
+  return [...new Map(textures.map((texture) => [texture.name, texture] as const)).values()];
 }

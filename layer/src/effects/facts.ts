@@ -1,14 +1,6 @@
 import type { AccuracyPart } from "@groma/georef";
 import type { PointFilter } from "./filter.js";
-
-/** What is known of an attribute of a data set: as much as colouring needs. */
-export interface StyledAttribute {
-  /** Name of the column; the scan's own colours are `color`. */
-  readonly name: string;
-  readonly kind: "color" | "scalar" | "class" | "flags";
-  /** Least and greatest value; undefined while not known. */
-  readonly range?: readonly [number, number] | undefined;
-}
+import type { StyledAttribute } from "./option.js";
 
 /** What is known of the placing of a data set and of the nodes drawn, metres. */
 export interface PlacingFacts {
@@ -68,4 +60,29 @@ export interface SceneFacts {
   readonly filter?: PointFilter | undefined;
   readonly attributes: readonly StyledAttribute[];
   readonly placing?: PlacingFacts | undefined;
+}
+
+/** How a column's stored numbers become values: stored · scale + offset, or one value for all points. */
+export interface ColumnScale {
+  readonly scale: number;
+  readonly offset: number;
+  readonly constant?: readonly number[] | undefined;
+}
+
+/** What the effects must know of a node to draw it. */
+export interface DrawnNode {
+  /** Its columns by name, at least those that the program's attributes name. */
+  readonly columns: { get(name: string): ColumnScale | undefined };
+  /** Number of the first point of the node among all points drawn. */
+  readonly firstId: number;
+  /** Level in the octree. */
+  readonly level: number;
+  /** Distance of its points on the ground, metres. */
+  readonly spacing: number;
+  /** Its texel in the texture of the visible octree. */
+  readonly octreeIndex: number;
+  /** 3 × 4, row by row: node frame → its own cube, 0 to 1. */
+  readonly toCube: ArrayLike<number>;
+  /** First texel and number of its records in the texture of clips. */
+  readonly clips: readonly [first: number, count: number];
 }

@@ -1,4 +1,17 @@
-import type { PointCloudStyle } from "./style.js";
+import { StyleError } from "../errors/index.js";
+import {
+  entriesOf,
+  frozen,
+  inside,
+  interval,
+  type Kind,
+  list,
+  oneOf,
+  type Place,
+  whole,
+} from "../options/index.js";
+import { type ClassStyle, hidesClasses, showsClass } from "./classes.js";
+import type { StyledCloud } from "./option.js";
 
 /** Which returns of a pulse: `single` is first and last of one, `intermediate` neither. */
 export type ReturnKind = "first" | "last" | "intermediate" | "single";
@@ -21,24 +34,6 @@ export const RETURN_BITS: Readonly<Record<ReturnKind, number>> = {
   single: 8,
 };
 
-/** Whether a class is shown: by the style's table and by the filter. */
-export function showsClass(
-  { classes }: Pick<PointCloudStyle, "classes">,
-  filter: PointFilter | undefined,
-  number: number,
-): boolean {
-  return classes[number]?.show !== false && (filter?.classes?.includes(number) ?? true);
-}
-
-/** Whether any class is hidden. */
-export function hidesClasses(
-  style: Pick<PointCloudStyle, "classes">,
-  filter: PointFilter | undefined,
-): boolean {
-  if (filter?.classes) return true;
-  return Object.values(style.classes).some(({ show }) => !show);
-}
-
 /** Bits of the kinds of return that a point is. */
 function returnBits(number: number, of: number): number {
   const { first, last, intermediate, single } = RETURN_BITS;
@@ -53,9 +48,9 @@ function returnBits(number: number, of: number): number {
 export function passesFilter(
   attributes: Readonly<Record<string, unknown>>,
   filter: PointFilter | undefined,
-  style: Pick<PointCloudStyle, "classes">,
+  style: ClassStyle,
 ): boolean {
-  const value = (name: string) => Number(attributes[name] ?? Number.NaN);
+  const value = (name: string) => Number(Object.hasOwn(attributes, name) ? attributes[name] : Number.NaN);
   if (hidesClasses(style, filter) && !showsClass(style, filter, value("classification"))) return false;
   if (filter?.returns) {
     const bits = returnBits(value("returnNumber"), value("numberOfReturns"));
@@ -65,4 +60,44 @@ export function passesFilter(
     const at = value(name);
     return at >= least && at <= greatest;
   });
+}
+
+/**
+ * A filter that can be carried out on a data set, frozen.
+ * @throws StyleError STYLE_FILTER
+ */
+export function checkFilter(filter: PointFilter, { attributes, name: file }: StyledCloud): PointFilter {
+  const place: Place = {
+    name: "filter",
+    context: undefined,
+    refuse: (cause, fix) => {
+      throw new StyleError({ code: "STYLE_FILTER", file, cause, fix });
+    },
+  };
+  const single = attributes.filter(({ kind, components = 1 }) => kind !== "color" && components === 1);
+  const names = single.map(({ name }) => name);
+  const kinds = { classes: CLASSES, returns: RETURNS, ranges: rangesOf(names) };
+  const given = entriesOf(filter, Object.keys(kinds), place, "an object with classes, returns or ranges");
+  const entries = given
+    .filter(([, value]) => value !== undefined)
+    .map(([name, value]) => [name, kinds[name as keyof typeof kinds].read(value, inside(place, `.${name}`))]);
+  return frozen(Object.fromEntries(entries));
+}
+
+const CLASSES = list(whole(0, 255));
+const RETURNS = list(oneOf("first", "last", "intermediate", "single"));
+
+/** Ranges of attributes by name. */
+function rangesOf(names: readonly string[]): Kind<NonNullable<PointFilter["ranges"]>> {
+  const valid = "an object of [least, greatest] by attribute";
+  const range = interval({ empty: true });
+  return {
+    valid,
+    read: (given, place) => {
+      const entries = entriesOf(given, names, place, valid).filter(([, value]) => value !== undefined);
+      return Object.fromEntries(
+        entries.map(([name, value]) => [name, range.read(value, inside(place, `.${name}`))]),
+      );
+    },
+  };
 }

@@ -1,3 +1,6 @@
+import { frozen } from "../options/index.js";
+import type { TextureData } from "./shader.js";
+
 /** A colour at a place of a gradient. */
 export interface GradientStop {
   /** 0 to 1. */
@@ -22,7 +25,7 @@ function even(...hexes: number[]): GradientStop[] {
  * the same for red-green blindness in hue too. `turbo`: A. Mikhailov, Google, 2019 (Apache-2.0), the polynomial's values.
  * `spectral`: ColorBrewer 2, C. Brewer (Apache-2.0), diverging, 11 classes, reversed. `greyscale` and `terrain` are own.
  */
-export const GRADIENTS: Readonly<Record<GradientName, readonly GradientStop[]>> = {
+export const GRADIENTS: Readonly<Record<GradientName, readonly GradientStop[]>> = frozen({
   viridis: even(
     ...[0x440154, 0x482475, 0x414487, 0x355f8d, 0x2a788e, 0x21918c],
     ...[0x22a884, 0x44bf70, 0x7ad151, 0xbddf26, 0xfde725],
@@ -41,12 +44,9 @@ export const GRADIENTS: Readonly<Record<GradientName, readonly GradientStop[]>> 
   ),
   greyscale: even(0x000000, 0xffffff),
   terrain: even(0x2f6b4f, 0x6f9a4f, 0xc2b36b, 0xa97a4c, 0xd8cfc4, 0xffffff),
-};
+});
 
-/** The stops of a gradient that is named, or given. */
-export function stopsOf(gradient: GradientName | readonly GradientStop[]): readonly GradientStop[] {
-  return typeof gradient === "string" ? GRADIENTS[gradient] : gradient;
-}
+export const GRADIENT_NAMES = Object.keys(GRADIENTS) as readonly GradientName[];
 
 /** A gradient's colour at a place, sRGB; beyond its ends the colour there. */
 export function gradientAt(stops: readonly GradientStop[], at: number): [number, number, number] {
@@ -58,4 +58,29 @@ export function gradientAt(stops: readonly GradientStop[], at: number): [number,
   const [a, b] = [stops[upper - 1], stops[upper]];
   const share = b.at > a.at ? (at - a.at) / (b.at - a.at) : 1;
   return a.color.map((part, i) => part + share * (b.color[i] - part)) as [number, number, number];
+}
+
+/** Texels of the texture of a gradient. */
+const WIDTH = 256;
+
+/** GLSL: colour of a gradient's texture at a place from 0 to 1. */
+export const GRADIENT_COLOUR = `
+vec3 gradientColor(float at) {
+  float place = clamp(at, 0.0, 1.0) * ${(WIDTH - 1).toFixed(1)};
+  int lower = min(int(place), ${WIDTH - 2});
+  vec3 a = texelFetch(u_gradient, ivec2(lower, 0), 0).rgb;
+  vec3 b = texelFetch(u_gradient, ivec2(lower + 1, 0), 0).rgb;
+  return mix(a, b, place - float(lower));
+}
+`;
+
+/** The texture of a gradient that is named, or given. */
+export function gradientTexture(gradient: GradientName | readonly GradientStop[]): TextureData {
+  const stops = typeof gradient === "string" ? GRADIENTS[gradient] : gradient;
+  const data = new Uint8Array(4 * WIDTH);
+  for (let texel = 0; texel < WIDTH; texel++) {
+    const color = gradientAt(stops, texel / (WIDTH - 1));
+    data.set([...color.map((part) => Math.round(255 * part)), 255], 4 * texel);
+  }
+  return { name: "u_gradient", width: WIDTH, height: 1, data };
 }

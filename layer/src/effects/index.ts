@@ -1,24 +1,32 @@
-export { checkFilter } from "./check-filter.js";
-export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./classes.js";
-export { completeStyle, type StyledCloud, type StyleParts } from "./complete-style.js";
-export { composePointShader } from "./compose.js";
-export { composePass } from "./compose-pass.js";
-export { drawnSpacing, footprint } from "./drawn-spacing.js";
+export { type EyeDomeLighting, eyeDomeOf } from "./catalogue/eye-dome-lighting.js";
 export {
-  type Colouring,
-  drawsOffscreen,
+  type ColourBy,
   EFFECT_NAMES,
   type EffectName,
+  type PointCloudStyle,
+  type PointShape,
+  type SizeMode,
+} from "./catalogue/index.js";
+export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./classes.js";
+export { composePointShader } from "./compose.js";
+export { composeQuad } from "./compose-quad.js";
+export { drawnSpacing, footprint } from "./drawn-spacing.js";
+export {
   type EffectPlan,
   type LedgerRow,
+  layerUniforms,
   type MeasuredCost,
+  nodeUniforms,
+  type Passes,
+  passesOf,
+  readsNodeTexture,
+  styleTextures,
 } from "./effect-plan.js";
-export type { PlacingFacts, SceneFacts, StyledAttribute } from "./facts.js";
-export { type PointFilter, passesFilter, type ReturnKind } from "./filter.js";
+export type { ColumnScale, DrawnNode, PlacingFacts, SceneFacts } from "./facts.js";
+export { checkFilter, type PointFilter, passesFilter, type ReturnKind } from "./filter.js";
 export { GRADIENTS, type GradientName, type GradientStop } from "./gradients.js";
 export { groundSpacing, type Patch } from "./ground-spacing.js";
-export { type ColumnScale, type DrawnNode, nodeUniforms } from "./node-uniforms.js";
-
+export type { StyledAttribute, StyledCloud } from "./option.js";
 export {
   type CloudPlacing,
   cloudPlacing,
@@ -26,26 +34,24 @@ export {
   type PlacedNode,
   placingFacts,
 } from "./placing-facts.js";
-export { asksForSilhouettes, type Forced, planEffects, withoutClips } from "./plan.js";
+export {
+  asksForSilhouettes,
+  checkForced,
+  type Forced,
+  planEffects,
+  widestPoint,
+  withoutClips,
+} from "./plan.js";
 export type {
   AttributeDeclaration,
   PointPass,
   PointShader,
-  QuadPass,
   QuadShader,
   ShaderTarget,
+  TextureData,
   UniformDeclaration,
   UniformType,
-} from "./shader-target.js";
-export {
-  type ColourBy,
-  defaultStyle,
-  type EyeDomeLighting,
-  eyeDomeOf,
-  type PointCloudStyle,
-  type PointShape,
-  type SizeMode,
-} from "./style.js";
-export { styleTextures, type TextureData } from "./textures.js";
-export { layerUniforms, type UniformValues } from "./uniforms.js";
+  UniformValues,
+} from "./shader.js";
+export { completeStyle, defaultStyle, type StyleParts } from "./style.js";
 export { encodeVisibleOctree, type VisibleNode, type VisibleOctree } from "./visible-octree.js";

@@ -1,32 +1,16 @@
-import { EFFECTS } from "./catalogue.js";
-import { colouringsOf } from "./colouring.js";
-import type { Effect } from "./effect.js";
-import type { Colouring, EffectName, EffectPlan, LedgerRow } from "./effect-plan.js";
+import { StyleError } from "../errors/index.js";
+import { entriesOf, flag, frozen, inside, instead, type Place, shown } from "../options/index.js";
+import { type AnyEffect, EFFECTS, type EffectName, type PointCloudStyle } from "./catalogue/index.js";
+import { LEAST_SHARE } from "./colouring.js";
+import type { Colouring, Scene } from "./effect.js";
+import type { EffectPlan, LedgerRow } from "./effect-plan.js";
 import type { SceneFacts } from "./facts.js";
-import { hidesClasses } from "./filter.js";
 import { placingRows } from "./placing-ledger.js";
-import type { Scene } from "./scene.js";
-import { eyeDomeOf, type PointCloudStyle } from "./style.js";
 
 /** Effects that the user forces on or off, whatever their magnitude. */
-export type Forced = Readonly<Partial<Record<EffectName, boolean>>>;
+export type Forced = Readonly<Partial<Record<EffectName, boolean | undefined>>>;
 
-/** What else a program depends on. */
-type Traits = Pick<EffectPlan, "colourings" | "filters" | "neighbours">;
-
-/** Effects that leave no room for one another: the first that runs is the one. */
-const ONE_OF: readonly (readonly EffectName[])[] = [
-  ["adaptiveSize", "attenuatedSize", "fixedSize"],
-  ["splats", "paraboloid", "disc"],
-];
-
-/** Effects that only make sense where the style has what they show. */
-const COLOURS: Readonly<Partial<Record<EffectName, Colouring["kind"]>>> = {
-  ownColour: "own",
-  gradient: "scalar",
-  classification: "class",
-  levelOfDetail: "level",
-};
+type Rows = Map<EffectName, LedgerRow>;
 
 /** Share of its threshold down to which an effect that runs goes on, so that none flickers that hovers around it. */
 const HOLD = 0.8;
@@ -44,69 +28,132 @@ export function planEffects(
   forced: Forced = {},
   before = NONE,
 ): EffectPlan {
-  const scene: Scene = { style, facts };
-  const colourings = colouringsOf(scene);
-  const rows = new Map<EffectName, LedgerRow>(
-    EFFECTS.map((effect) => {
-      const { name } = effect;
-      return [name, decide(effect, scene, forcible(name, forced), before.has(name))];
-    }),
+  const scene = sceneOf(style, facts);
+  const rows: Rows = new Map(
+    EFFECTS.map((effect) => [
+      effect.name,
+      decide(effect, scene, forcedOf(effect, forced), before.has(effect.name)),
+    ]),
   );
-  settleBlend(rows, colourings);
-  for (const group of ONE_OF) keepOne(rows, group, forced);
-  settleSize(rows, style);
-  const active = new Set(
-    [...rows.values()].filter((row) => row.active).map((row) => row.effect as EffectName),
-  );
-  const filtering = active.has("filter");
-  const traits: Traits = {
-    colourings,
-    filters: {
-      classes: filtering && hidesClasses(style, facts.filter),
-      returns: filtering && facts.filter?.returns !== undefined,
-      ranges: filtering ? Object.keys(facts.filter?.ranges ?? {}) : [],
-      filter: facts.filter,
-    },
-    neighbours: eyeDomeOf(style).neighbours,
-  };
+  for (const group of ["sizes", "shapes"] as const) keepOne(rows, group, style, forced);
+  const running = EFFECTS.filter(({ name }) => rows.get(name)!.active);
+  const active = new Set(running.map(({ name }) => name));
+  const variants = new Map(running.map((effect) => [effect.name, effect.variant?.(scene)] as const));
   const ledger = [...rows.values(), ...placingRows(facts)];
-  return { active, ledger, key: keyOf(active, traits), ...traits };
+  return { active, ledger, scene, variants, key: keyOf(scene, active, variants) };
 }
 
 /** Whether Eye-Dome Lighting is left to how much depth steps in the picture, which then has to be measured. */
-export function asksForSilhouettes({ eyeDomeLighting }: PointCloudStyle, forced: Forced): boolean {
+export function asksForSilhouettes(
+  { eyeDomeLighting }: Pick<PointCloudStyle, "eyeDomeLighting">,
+  forced: Forced,
+): boolean {
   return eyeDomeLighting === "auto" && forced.eyeDomeLighting === undefined;
 }
 
 /** The plan for nodes that no volume touches: the same without the effects of volumes. */
 export function withoutClips(plan: EffectPlan): EffectPlan {
-  if (!plan.active.has("clip") && !plan.active.has("highlight")) return plan;
-  const active = new Set([...plan.active].filter((name) => name !== "clip" && name !== "highlight"));
-  return { ...plan, active, key: keyOf(active, plan) };
+  const { scene, variants } = plan;
+  const clips = EFFECTS.filter(({ nodeTexture }) => nodeTexture === "clips").map(({ name }) => name);
+  if (!clips.some((name) => plan.active.has(name))) return plan;
+  const active = new Set([...plan.active].filter((name) => !clips.includes(name)));
+  return { ...plan, active, key: keyOf(scene, active, variants) };
 }
 
-function keyOf(active: ReadonlySet<EffectName>, { colourings, filters, neighbours }: Traits): string {
-  const { classes, returns, ranges } = filters;
-  return [
-    [...active].join("+"),
-    colourings.map(({ kind, column }) => `${kind}:${column ?? ""}`).join(","),
-    [
-      ...(classes ? ["classes"] : []),
-      ...(returns ? ["returns"] : []),
-      ...ranges.map((name) => `:${name}`),
-    ].join(","),
-    active.has("eyeDomeLighting") ? neighbours : "",
-  ].join("|");
+/**
+ * Effects to be forced, checked and copied.
+ * @param file whose layer it is, for errors
+ * @throws StyleError STYLE_FORCED for what is no effect, cannot be forced so, or is neither true nor false
+ */
+export function checkForced(forced: Forced, file: string): Forced {
+  const place: Place = {
+    name: "forced",
+    context: undefined,
+    refuse: (cause, fix) => {
+      throw new StyleError({ code: "STYLE_FORCED", file, cause, fix });
+    },
+  };
+  const names = EFFECTS.filter(({ forcible }) => forcible !== "never").map(({ name }) => name);
+  const entries = entriesOf(forced, undefined, place, "an object of effects, each true or false");
+  for (const [name, on] of entries) {
+    const effect = EFFECTS.find((known) => known.name === name);
+    if (!effect) place.refuse(`there is no effect ${shown(name)}`, instead(name, names));
+    if (on === undefined) continue;
+    if (effect.forcible === "never") {
+      place.refuse(`${name} cannot be forced, it follows from the style`, instead(name, names));
+    }
+    if (flag.read(on, inside(place, `.${name}`)) && effect.forcible === "off") {
+      place.refuse(
+        `${name} cannot be forced on: without volumes or a filter it has nothing to do`,
+        "use false",
+      );
+    }
+  }
+  return frozen(Object.fromEntries(entries));
 }
 
-/** What colours show, a blend and a filter follow from the style; forcing them would leave nothing to draw with. */
-function forcible(name: EffectName, forced: Forced): boolean | undefined {
-  return name in COLOURS || name === "blend" || (name === "filter" && forced.filter)
-    ? undefined
-    : forced[name];
+/** A style and the frame that it is drawn in, with what follows from both. */
+function sceneOf(style: PointCloudStyle, facts: SceneFacts): Scene<PointCloudStyle> {
+  const scene = { style, facts };
+  const { widths } = sizeOf(style);
+  const width = widths.widest(scene);
+  return { ...scene, colourings: colouringsOf(scene), width, overlap: widths.overlap(width, scene) };
 }
 
-function decide(effect: Effect, scene: Scene, forced: boolean | undefined, ran: boolean): LedgerRow {
+/** Greatest width of a point of a style, CSS pixels. */
+export function widestPoint(style: PointCloudStyle): number {
+  return sizeOf(style).widths.limit(style);
+}
+
+/** The effect that a style's word for sizes asks for. */
+function sizeOf({ size }: PointCloudStyle) {
+  for (const { words, widths } of EFFECTS) {
+    if (widths && words?.size === size) return { widths };
+  }
+  throw new TypeError(`no effect draws ${size} sizes`);
+}
+
+/** Where the colours of a style come from: one colouring, or two where a blend shows both. */
+function colouringsOf({ style, facts }: Pick<Scene<PointCloudStyle>, "style" | "facts">): Colouring[] {
+  const share = style.blend?.share ?? 0;
+  const first = 1 - share >= LEAST_SHARE ? [style.color] : [];
+  const second = style.blend && share >= LEAST_SHARE ? [style.blend.color] : [];
+  const colors = [...first, ...second];
+  return colors.map((color, index) => {
+    const attribute = facts.attributes.find(({ name }) => name === color);
+    const effect = EFFECTS.find(({ colours }) => colours?.shows(color, attribute?.kind));
+    const { name, colours: { toned, smooth } = {} } = effect ?? { name: "gradient" };
+    return {
+      effect: name,
+      column: attribute?.name,
+      share: colors.length === 1 ? 1 : index === 0 ? 1 - share : share,
+      ...(toned && { toned }),
+      ...(smooth && { smooth }),
+    };
+  });
+}
+
+function keyOf(
+  { colourings }: Scene<PointCloudStyle>,
+  active: ReadonlySet<EffectName>,
+  variants: EffectPlan["variants"],
+): string {
+  const effects = [...active].map((name) => [name, variants.get(name)]);
+  return JSON.stringify([effects, colourings.map(({ effect, column }) => [effect, column])]);
+}
+
+/** What the user says of an effect, as far as it can be forced: one that has nothing to draw with is never forced on. */
+function forcedOf({ name, forcible }: AnyEffect, forced: Forced): boolean | undefined {
+  const on = forced[name];
+  return forcible === "never" || (forcible === "off" && on) ? undefined : on;
+}
+
+function decide(
+  effect: AnyEffect,
+  scene: Scene<PointCloudStyle>,
+  forced: boolean | undefined,
+  ran: boolean,
+): LedgerRow {
   const { name, unit, threshold, source } = effect;
   const magnitude = effect.magnitude(scene);
   const row = { effect: name, magnitude, unit, threshold, source, cost: undefined };
@@ -125,28 +172,19 @@ function decide(effect: Effect, scene: Scene, forced: boolean | undefined, ran: 
   return { ...row, active: false, why: `${wish.why}, but it would not show` };
 }
 
-/** A blend whose lesser share shows nothing has one colouring left, and is none. */
-function settleBlend(rows: Map<EffectName, LedgerRow>, colourings: readonly Colouring[]): void {
-  if (colourings.length === 2) turn(rows, "blend", true);
-}
-
-/** Of effects that exclude each other, the one forced on, else the first that runs. */
-function keepOne(rows: Map<EffectName, LedgerRow>, group: readonly EffectName[], forced: Forced): void {
-  const running = group.filter((name) => rows.get(name)!.active);
-  const kept = running.find((name) => forced[name]) ?? running[0];
-  for (const name of running) {
-    if (name !== kept) turn(rows, name, false, `${kept} is drawn instead`);
+/** Of effects that exclude each other, the one forced on, else the last of the catalogue that runs, or its last resort. */
+function keepOne(rows: Rows, group: "sizes" | "shapes", style: PointCloudStyle, forced: Forced): void {
+  const members = EFFECTS.filter((effect) => effect.group === group).reverse();
+  const running = members.filter(({ name }) => rows.get(name)!.active);
+  const kept = running.find(({ name }) => forced[name]) ?? running[0];
+  for (const { name } of running) {
+    if (name !== kept.name) turn(rows, name, false, `${kept.name} is drawn instead`);
   }
+  if (kept) return;
+  const last = members.find((effect) => effect.lastResort?.(style) !== undefined);
+  if (last) turn(rows, last.name, true, last.lastResort?.(style) ?? "");
 }
 
-/** A point has a size: where adaptive sizes would not show, one size on the ground gives the same picture. */
-function settleSize(rows: Map<EffectName, LedgerRow>, style: PointCloudStyle): void {
-  if (ONE_OF[0].some((name) => rows.get(name)!.active)) return;
-  if (style.size === "fixed") turn(rows, "fixedSize", true, "a point needs a size");
-  else turn(rows, "attenuatedSize", true, "one size on the ground shows the same as adaptive sizes");
-}
-
-function turn(rows: Map<EffectName, LedgerRow>, name: EffectName, active: boolean, why?: string): void {
-  const row = rows.get(name)!;
-  rows.set(name, { ...row, active, why: why ?? row.why });
+function turn(rows: Rows, name: EffectName, active: boolean, why: string): void {
+  rows.set(name, { ...rows.get(name)!, active, why });
 }

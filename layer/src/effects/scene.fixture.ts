@@ -1,6 +1,13 @@
-import type { EffectName } from "./effect-plan.js";
+import { existsSync } from "node:fs";
+import type { EffectName, PointCloudStyle } from "./catalogue/index.js";
 import type { SceneFacts } from "./facts.js";
-import { defaultStyle, type PointCloudStyle } from "./style.js";
+import { defaultStyle } from "./style.js";
+
+/** Whether an effect has a test file beside it. */
+export function hasOwnTest(effect: EffectName): boolean {
+  const file = effect.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+  return existsSync(new URL(`catalogue/${file}.test.ts`, import.meta.url));
+}
 
 /** A frame in which every effect that is asked for shows: levels meet, points overlap, volumes and a filter are there. */
 export function richFacts(parts: Partial<SceneFacts> = {}): SceneFacts {
@@ -18,7 +25,7 @@ export function richFacts(parts: Partial<SceneFacts> = {}): SceneFacts {
     clips: 0,
     highlights: 0,
     attributes: [
-      { name: "color", kind: "color" },
+      { name: "rgb", kind: "color" },
       { name: "elevation", kind: "scalar", range: [10, 250] },
       { name: "intensity", kind: "scalar", range: [0, 4000] },
       { name: "gpsTime", kind: "scalar", range: [2e8, 2e8 + 3600] },
@@ -30,7 +37,7 @@ export function richFacts(parts: Partial<SceneFacts> = {}): SceneFacts {
 }
 
 export function styleOf(parts: Partial<PointCloudStyle> = {}): PointCloudStyle {
-  return { ...defaultStyle(true), ...parts };
+  return { ...defaultStyle(richFacts()), ...parts };
 }
 
 /** A style and facts in words that change them: every choice that changes programs. */
@@ -53,7 +60,7 @@ export interface Combination {
 }
 
 const COLOUR_EFFECTS = {
-  rgb: "ownColour",
+  rgb: "rgb",
   intensity: "gradient",
   classification: "classification",
   levelOfDetail: "levelOfDetail",
@@ -97,7 +104,7 @@ function combine({ color, blend, size, shape, eyeDomeLighting, rest }: Choice): 
     size,
     pointSize: 8,
     shape: shape === "splats" ? "square" : shape,
-    highQuality: shape === "splats",
+    splats: shape === "splats",
     eyeDomeLighting,
     ...(has("tone") && { gamma: 2, contrast: 0.3 }),
     ...(has("opacity") && { opacity: 0.5 }),

@@ -1,107 +1,80 @@
-import type { ClassTable } from "./classes.js";
-import { ASPRS_CLASSES } from "./classes.js";
-import type { GradientName, GradientStop } from "./gradients.js";
+import { StyleError } from "../errors/index.js";
+import { frozen, instead, type Place, shown } from "../options/index.js";
+import { EFFECTS, type PointCloudStyle } from "./catalogue/index.js";
+import { COLOUR_OPTION } from "./colouring.js";
+import { type Option, option, type StyleContext, type StyledCloud, wordFor } from "./option.js";
+
+/** What may be given of a value: of an object any part of it, at any depth. */
+type Given<Value> = Value extends readonly unknown[]
+  ? Value
+  : Value extends object
+    ? { readonly [Key in keyof Value]?: Given<Value[Key]> | undefined }
+    : Value;
 
 /**
- * What a point's colour shows: the scan's own colours, the level of the most detailed node drawn around the point, or
- * the name of an attribute (`elevation`, `intensity`, `classification`, `gpsTime`, any extra byte …).
+ * A style in parts. What is left out stays as it is, in objects within it too: `{ highlight: { share: 1 } }` keeps the
+ * colour, `{ classes: { 6: { show: false } } }` all other classes.
  */
-export type ColourBy = "rgb" | "levelOfDetail" | "elevation" | "intensity" | "classification" | (string & {});
+export type StyleParts = {
+  readonly [Key in keyof PointCloudStyle]?: Given<PointCloudStyle[Key]> | undefined;
+};
 
-/** How the size of a point comes about (thesis, 4.3). */
-export type SizeMode = "fixed" | "attenuated" | "adaptive";
+/** Words that effects declare, by the property of the style that they are given for. */
+const WORDS: StyleContext["words"] = {
+  color: wordsFor("color"),
+  size: wordsFor("size"),
+  shape: ["square", ...wordsFor("shape")],
+};
 
-/** What a point is drawn as (thesis, 4.2). */
-export type PointShape = "square" | "disc" | "paraboloid";
-
-/** Eye-Dome Lighting in numbers (thesis, 4.4). */
-export interface EyeDomeLighting {
-  /** `edlStrength` of eq. 4.6. Default: 0.4. */
-  readonly strength: number;
-  /** Distance of the neighbours, CSS pixels. Default: 1.4. */
-  readonly radius: number;
-  /** Default: 4. */
-  readonly neighbours: 4 | 8;
+function wordsFor(property: "color" | "size" | "shape"): string[] {
+  return EFFECTS.flatMap(({ words }) => words?.[property] ?? []);
 }
 
-/** Strength, radius and neighbours where only on or off was said. */
-export const EYE_DOME_LIGHTING: EyeDomeLighting = { strength: 0.4, radius: 1.4, neighbours: 4 };
-
-/** How points are drawn. */
-export interface PointCloudStyle {
-  /** Default: `rgb` where the scan has colours, else `elevation`. */
-  readonly color: ColourBy;
-  /** A second colouring mixed in with the share given, 0 to 1. Default: none. */
-  readonly blend: { readonly color: ColourBy; readonly share: number } | undefined;
-  /** Colours of scalar attributes. Default: `auto`, which is greyscale for intensity and viridis for all others. */
-  readonly gradient: "auto" | GradientName | readonly GradientStop[];
-  /** Values at the ends of the gradient, in the attribute's unit. Default: what the data set's statistics say. */
-  readonly range: readonly [number, number] | undefined;
-  /** Exponent over colours, and over values before the gradient; 0.1 to 10. Default: 1. */
-  readonly gamma: number;
-  /** Added after gamma; −1 to 1. Default: 0. */
-  readonly brightness: number;
-  /** Steepness around the middle: −1 flattens to grey, 0 leaves as it is, 1 is a step. Default: 0. */
-  readonly contrast: number;
-  /** Names, colours and visibility of classes; those given replace single ones of ASPRS' table. */
-  readonly classes: ClassTable;
-  /** Default: `fixed`. */
-  readonly size: SizeMode;
-  /** Width of a point where the size is fixed, CSS pixels, 1 to 64. Default: 2. */
-  readonly pointSize: number;
-  /**
-   * Width of a point as a multiple of the spacing where the size is attenuated or adaptive, 0.1 to 10. 1 closes a square
-   * grid of squares, √2 one of discs. 2 closes any maximal Poisson-disc sample, in which a radius of one spacing around
-   * each point leaves nothing out; it is the radius of eq. 4.4 of the thesis. Default: 2.
-   */
-  readonly spacingFactor: number;
-  /** Least width where the size is attenuated or adaptive, CSS pixels. Default: 1. */
-  readonly minimumSize: number;
-  /** Greatest width where the size is attenuated or adaptive, CSS pixels. Default: 50. */
-  readonly maximumSize: number;
-  /** Default: `square`. */
-  readonly shape: PointShape;
-  /** Blends overlapping points in three passes (thesis, 4.2.2); `auto`: where they overlap by 3 px. Default: false. */
-  readonly highQuality: boolean | "auto";
-  /** Exponent of a splat's weight, eq. 4.1; 0.5 to 50. Default: 2. */
-  readonly hardness: number;
-  /** Shading by depth (thesis, 4.4); `auto`: where colours do not show the shape. Default: false. */
-  readonly eyeDomeLighting: boolean | "auto" | EyeDomeLighting;
-  /** 0 to 1. Default: 1. */
-  readonly opacity: number;
-  /** Colour, and its share, of points inside volumes that highlight. Default: red, 0.6. */
-  readonly highlight: { readonly color: readonly [number, number, number]; readonly share: number };
-  /** Breaks up bands of 8-bit colour by noise of half a step. Default: false. */
-  readonly dithering: boolean;
-}
+/** All properties of a style: those that groups of effects are chosen by, and those of each effect. */
+export const STYLE_OPTIONS: ReadonlyMap<string, Option<unknown>> = new Map<string, Option<unknown>>([
+  ["color", COLOUR_OPTION],
+  ["size", option("STYLE_SIZE", wordFor("size"), "fixed")],
+  ["shape", option("STYLE_SHAPE", wordFor("shape"), "square")],
+  ...EFFECTS.flatMap(({ options }) => Object.entries<Option<unknown>>(options)),
+]);
 
 /** The style of a layer that was given none. */
-export function defaultStyle(hasColour: boolean): PointCloudStyle {
-  return {
-    color: hasColour ? "rgb" : "elevation",
-    blend: undefined,
-    gradient: "auto",
-    range: undefined,
-    gamma: 1,
-    brightness: 0,
-    contrast: 0,
-    classes: ASPRS_CLASSES,
-    size: "fixed",
-    pointSize: 2,
-    spacingFactor: 2,
-    minimumSize: 1,
-    maximumSize: 50,
-    shape: "square",
-    highQuality: false,
-    hardness: 2,
-    eyeDomeLighting: false,
-    opacity: 1,
-    highlight: { color: [1, 0, 0], share: 0.6 },
-    dithering: false,
-  };
+export function defaultStyle(cloud: Pick<StyledCloud, "attributes">): PointCloudStyle {
+  const context = contextOf(cloud);
+  const entries = [...STYLE_OPTIONS].map(([name, { byDefault }]) => [name, byDefault(context)]);
+  return frozen(Object.fromEntries(entries));
 }
 
-/** The numbers of Eye-Dome Lighting that a style asks for, on or off. */
-export function eyeDomeOf(style: PointCloudStyle): EyeDomeLighting {
-  return typeof style.eyeDomeLighting === "object" ? style.eyeDomeLighting : EYE_DOME_LIGHTING;
+/**
+ * A whole style of the parts given, the rest from `base`; frozen, as is all that it holds.
+ * @throws StyleError STYLE_OPTION for a property that does not exist; for a value that is none of its property's:
+ *   STYLE_COLOR, STYLE_NO_RGB, STYLE_BLEND, STYLE_GRADIENT, STYLE_RANGE, STYLE_TONE, STYLE_CLASSES, STYLE_SIZE,
+ *   STYLE_POINT_SIZE, STYLE_SHAPE, STYLE_SPLATS, STYLE_EYE_DOME, STYLE_OPACITY, STYLE_HIGHLIGHT, STYLE_DITHERING
+ */
+export function completeStyle(given: StyleParts, base: PointCloudStyle, cloud: StyledCloud): PointCloudStyle {
+  const context = contextOf(cloud);
+  const at = (name: string, optionCode: string): Place<StyleContext> => ({
+    name,
+    context,
+    refuse: (cause, fix, code = optionCode) => {
+      throw new StyleError({ code, file: cloud.name, cause, fix });
+    },
+  });
+  const whole = at("a style", "STYLE_OPTION");
+  if (typeof given !== "object" || given === null || Array.isArray(given)) {
+    whole.refuse(`a style cannot be ${shown(given)}`, "use an object with the properties to be changed");
+  }
+  const style: Record<string, unknown> = { ...base };
+  for (const [name, value] of Object.entries(given)) {
+    const known = STYLE_OPTIONS.get(name);
+    if (!known) whole.refuse(`a style has no ${shown(name)}`, instead(name, [...STYLE_OPTIONS.keys()]));
+    else if (value !== undefined) style[name] = known.kind.read(value, at(name, known.code), style[name]);
+    else if (known.mayBeUndefined) style[name] = undefined;
+  }
+  for (const [name, { agrees, code }] of STYLE_OPTIONS) agrees?.(style, at(name, code));
+  return frozen(style as unknown as PointCloudStyle);
+}
+
+function contextOf({ attributes }: Pick<StyledCloud, "attributes">): StyleContext {
+  return { attributes, words: WORDS };
 }

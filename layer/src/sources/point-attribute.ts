@@ -31,5 +31,10 @@ export interface PointAttribute {
   readonly noData: number | bigint | undefined;
 }
 
-/** Names of the columns that come from coordinates and colours: no recorded attribute may have one of them. */
-export const DERIVED_COLUMNS: readonly string[] = ["x", "y", "z", "color", "elevation", "ellipsoidalHeight"];
+/**
+ * Names that no recorded attribute may have: of columns that come from coordinates and colours, of the places
+ * themselves, and of the colouring by level of detail.
+ */
+export const DERIVED_COLUMNS: readonly string[] = [
+  ...["x", "y", "z", "position", "rgb", "elevation", "ellipsoidalHeight", "levelOfDetail"],
+];

@@ -3,7 +3,7 @@ import type { ColumnSink, DrawnPoints } from "./attribute-columns.js";
 import { constantColumn, halfUlp32, type PlannedArray, planArray } from "./column-plan.js";
 import type { StoredAttribute } from "./stored-attribute.js";
 
-/** Names of the attributes that the column `color` stands for. */
+/** Names of the attributes that the column `rgb` stands for. */
 export const COLOUR_CHANNELS: readonly string[] = ["red", "green", "blue"];
 
 /** Red, green and blue of the points, of 8 or 16 bits each. */
@@ -32,7 +32,7 @@ export function greatestColour(count: number, colours: Colours): number {
   return greatest;
 }
 
-/** Plans the column `color`: RGBA of 8 bits each; 16-bit colours are shown by their upper byte. */
+/** Plans the column `rgb`: RGBA of 8 bits each; 16-bit colours are shown by their upper byte. */
 export function planColour(
   { order, count }: DrawnPoints,
   colours: Colours,
@@ -42,7 +42,7 @@ export function planColour(
   const lower = rgbBits === 16 && colours[0].type === "uint16" ? 1 : 0;
   if (colours.every((channel) => isOneByte(count, channel, lower))) {
     const constant = [...colours.map(({ bytes, at }) => bytes[at + lower]), 255];
-    sink({ ...constantColumn("color", constant), bound: lower });
+    sink({ ...constantColumn("rgb", constant), bound: lower });
     return undefined;
   }
   return planArray(Uint8Array, 4 * count, (data) => {
@@ -55,7 +55,7 @@ export function planColour(
       data[to + 2] = blue.bytes[from * blue.stride + b];
       data[to + 3] = 255;
     }
-    sink({ name: "color", components: 4, data, scale: 1, offset: 0, bound: lower });
+    sink({ name: "rgb", components: 4, data, scale: 1, offset: 0, bound: lower });
   });
 }
 

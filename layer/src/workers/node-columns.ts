@@ -77,7 +77,7 @@ function planOrder(order: DrawnPoints["order"], sink: (copy: DrawnPoints["order"
 function rangesOf(columns: Readonly<Record<string, Column>>): Record<string, readonly [number, number]> {
   const ranges: Record<string, readonly [number, number]> = {};
   for (const { name, data, scale, offset, constant, noData } of Object.values(columns)) {
-    if (name === "color") continue;
+    if (name === "rgb") continue;
     let least = Number.POSITIVE_INFINITY;
     let greatest = Number.NEGATIVE_INFINITY;
     const take = (value: number) => {

@@ -161,7 +161,7 @@ describe("runNodeJob", () => {
     // 4 points: 12 + 2 + 4 + 4 bytes each; all else is the same for all of them.
     expect(bytes).toBe(88);
     expect(seen).toBeUndefined();
-    expect(columns.color.constant).toEqual([0, 0, 0, 255]);
+    expect(columns.rgb.constant).toEqual([0, 0, 0, 255]);
     const judged = await runNodeJob(dataSet, { ...job, appearance: undefined }, decoders);
     expect(judged.seen).toMatchObject({ rgbBits: 8, ranges: { intensity: [0, 0] } });
     expect(judged.seen?.ranges.elevation.map((height) => Math.round(height * 1e3))).toEqual([0, 50_000]);

@@ -85,7 +85,7 @@ export interface NodeVertices {
   /** East, north, up of each point: float32, metres in the node frame, drawing order. */
   readonly positions: Float32Array;
   /**
-   * Attributes by name: `color` (RGBA, 0 to 255), `nir`, `intensity`, `returnNumber`, `numberOfReturns`,
+   * Attributes by name: `rgb` (RGBA, 0 to 255), `nir`, `intensity`, `returnNumber`, `numberOfReturns`,
    * `classification`, `flags` (byte 15 of the record), `scanAngle` (degrees), `userData`, `pointSourceId`, `gpsTime`
    * (seconds), `elevation` (source z), `ellipsoidalHeight` (metres), and each numeric extra bytes attribute under its
    * own name. A column is absent where the point format has no such attribute.

@@ -34,7 +34,7 @@ const EFFECTS = [
   },
   {
     ...{ effect: "blended splats", fills: true, off: DISCS, picture: "splats" },
-    on: { style: { ...DISCS.style, highQuality: true } },
+    on: { style: { ...DISCS.style, splats: true } },
   },
   { effect: "Eye-Dome Lighting, 4", ...style({ eyeDomeLighting: eyeDome(4) }), picture: "eye-dome" },
   { effect: "Eye-Dome Lighting, 8", ...style({ eyeDomeLighting: eyeDome(8) }) },

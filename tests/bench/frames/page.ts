@@ -55,7 +55,7 @@ class Frames {
       size: "fixed",
       shape: "square",
       eyeDomeLighting: false,
-      highQuality: false,
+      splats: false,
     } as const;
     const styles = {
       intensity: { color: "intensity" },
@@ -64,7 +64,7 @@ class Frames {
       "adaptive size": { size: "adaptive" },
       discs: { shape: "disc" },
       "Eye-Dome Lighting": { eyeDomeLighting: true },
-      splats: { highQuality: true },
+      splats: { splats: true },
       "as at first": plain,
     } as const;
     for (const [name, style] of Object.entries(styles)) {

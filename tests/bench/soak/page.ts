@@ -27,7 +27,7 @@ const PLAIN = {
   opacity: 1,
   gamma: 1,
   eyeDomeLighting: false,
-  highQuality: false,
+  splats: false,
   dithering: false,
   blend: undefined,
 } as const satisfies StyleParts;
@@ -104,7 +104,7 @@ class Soak {
       gamma: this.#one([1, 1 + this.#up(1)]),
       opacity: this.#one([1, 1, 0.6]),
       eyeDomeLighting: this.#one([true, false, "auto"] as const),
-      highQuality: this.#one([true, false, "auto"] as const),
+      splats: this.#one([true, false, "auto"] as const),
       dithering: this.#one([true, false]),
       blend: this.#one([undefined, { color: this.#one(colours), share: this.#up(1) }]),
     };

@@ -27,6 +27,7 @@ import {
   type VertexAttribute,
 } from "./cesium-private.js";
 import { programText } from "./program-text.js";
+import { CESIUM } from "./shader-target.js";
 import { UniformValues } from "./uniform-values.js";
 
 /** What drawing is given of Cesium's objects. */
@@ -53,7 +54,7 @@ interface Alive {
  * but through here, so the counts are the truth and one call frees all.
  */
 export class GpuObjects implements Gpu<CesiumTypes> {
-  readonly target = "cesium";
+  readonly target = CESIUM;
   readonly context: Context;
   readonly #owner: object;
   readonly #alive = new Map<Destroyable, Alive>();

@@ -10,20 +10,10 @@ export interface ProgramText {
   readonly defines: readonly string[];
 }
 
-/** One triangle over the whole picture, from corners at −1 and 3. */
-const QUAD = `in vec2 a_corner;
-out vec2 v_textureCoordinates;
-
-void main() {
-  v_textureCoordinates = a_corner * 0.5 + 0.5;
-  gl_Position = vec4(a_corner, 0.0, 1.0);
-}
-`;
-
 /** What Cesium is to compile for a shader. It adds logarithmic depth itself to what draws into its scene. */
 export function programText(shader: PointShader, need: ProgramNeed): ProgramText {
   const { vertex, fragment } = shader;
-  if (isQuad(need)) return { vertex: QUAD, fragment, attributes: { a_corner: 0 }, defines: [] };
+  if (isQuad(need)) return { vertex, fragment, attributes: { a_corner: 0 }, defines: [] };
   const attributes = Object.fromEntries(shader.attributes.map(({ name, location }) => [name, location]));
   const logarithmic = need.into === "own" && need.logarithmic;
   return logarithmic

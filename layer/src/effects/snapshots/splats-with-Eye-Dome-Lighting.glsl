@@ -1,14 +1,14 @@
-// splats with Eye-Dome Lighting: ownColour, fixedSize, splats, eyeDomeLighting
+// splats with Eye-Dome Lighting: rgb, fixedSize, splats, eyeDomeLighting
 
 // color: vertex
 in vec3 a_position;
-in vec4 a_color;
+in vec4 a_rgb;
 out vec3 v_color;
 uniform float u_pointSize;
 
 void main() {
   vec4 eye = czm_modelView * vec4(a_position, 1.0);
-  vec3 color = a_color.rgb;
+  vec3 color = a_rgb.rgb;
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
   gl_PointSize = width;
@@ -48,7 +48,7 @@ void main() {
 
 // splat: vertex
 in vec3 a_position;
-in vec4 a_color;
+in vec4 a_rgb;
 out vec3 v_color;
 uniform float u_pointSize;
 
@@ -61,7 +61,7 @@ vec4 nearer(vec4 eye, float metres) {
 }
 void main() {
   vec4 eye = czm_modelView * vec4(a_position, 1.0);
-  vec3 color = a_color.rgb;
+  vec3 color = a_rgb.rgb;
   gl_Position = czm_projection * eye;
   float scale = pixelsPerMetre(gl_Position.w);
   float width = u_pointSize * czm_pixelRatio;

@@ -1,0 +1,63 @@
+import type { ShaderTarget } from "../../effects/index.js";
+
+/**
+ * Eye coordinate z of a depth. The points have a frustum of their own, whatever the scene is cut into: u_depthRange is
+ * its near plane n, f − n, and log2(f − n + 1) where depth is Cesium's logarithmic one (`czm_writeLogDepth`), 0 where it
+ * is linear (orthographic).
+ */
+const EYE_Z = `
+float eyeZ(float depth) {
+  float beyond = u_depthRange.z > 0.0 ? exp2(depth * u_depthRange.z) - 1.0 : depth * u_depthRange.y;
+  return -(u_depthRange.x + beyond);
+}
+`;
+
+/**
+ * Cesium wraps fragment shaders that do not call czm_writeLogDepth with one that overwrites gl_FragDepth; a shader that
+ * calls it is left alone (DerivedCommand.js, getLogDepthShaderProgram). Without logarithmic depth the depth is that of
+ * the projection, perspective or orthographic.
+ */
+const WRITE_DEPTH = `
+void writeDepth(float z) {
+#ifdef LOG_DEPTH
+  czm_writeLogDepth(1.0 - z - czm_currentFrustum.x);
+#else
+  gl_FragDepth = 0.5 + 0.5 * ($projection[2][2] * z + $projection[3][2]) / ($projection[2][3] * z + $projection[3][3]);
+#endif
+}
+`;
+
+/** The GLSL of Cesium, whose preprocessor writes the head of a file and declares its own uniforms. */
+export const CESIUM: ShaderTarget = {
+  header: "",
+  output: "",
+  words: {
+    modelView: "czm_modelView",
+    projection: "czm_projection",
+    viewport: "czm_viewport",
+    pixelRatio: "czm_pixelRatio",
+  },
+  uniforms: [
+    { name: "u_pickColor", type: "vec4", scope: "view" },
+    { name: "u_depthRange", type: "vec3", scope: "view" },
+  ],
+  // Cesium's pick pass puts this colour in place of the point's.
+  declarations: ["uniform vec4 u_pickColor;"],
+  colour: (rgba) => `czm_gammaCorrect(${rgba})`,
+  writeDepth: WRITE_DEPTH,
+  eyeZ: EYE_Z,
+  quad: {
+    // One triangle over the whole picture, from corners at −1 and 3.
+    vertex: `in vec2 a_corner;
+out vec2 v_textureCoordinates;
+
+void main() {
+  v_textureCoordinates = a_corner * 0.5 + 0.5;
+  gl_Position = vec4(a_corner, 0.0, 1.0);
+}
+`,
+    functions: [EYE_Z, WRITE_DEPTH],
+    // What lies in another of the scene's frusta is drawn there.
+    depth: "writeDepth(eyeZ(depth));\nif (gl_FragDepth < 0.0 || gl_FragDepth > 1.0) discard;",
+  },
+};

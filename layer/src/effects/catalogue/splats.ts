@@ -1,0 +1,64 @@
+import { number } from "../../options/index.js";
+import type { Effect } from "../effect.js";
+import { onOffOrAuto, option } from "../option.js";
+import { DISC, PIXELS_PER_METRE } from "../points.js";
+
+export interface SplatStyle {
+  /** Blends overlapping points in three passes (thesis, 4.2.2); `auto`: where they overlap by 3 px. Default: false. */
+  readonly splats: boolean | "auto";
+  /** Exponent of a splat's weight, eq. 4.1; 0.5 to 50. Default: 2. */
+  readonly hardness: number;
+}
+
+/** An eye position moved towards the camera, along the ray through it, by metres of depth. */
+const NEARER = `
+vec4 nearer(vec4 eye, float metres) {
+  vec3 ray = $projection[3][3] == 0.0 ? eye.xyz / eye.z : vec3(0.0, 0.0, 1.0);
+  return vec4(eye.xyz + ray * min(metres, 0.5 * abs(eye.z)), 1.0);
+}
+`;
+
+/**
+ * Overlapping points blended by weight in three passes: depth, weighted sum, normalisation (thesis, 4.2.2). Blended is
+ * what lies within a point's own radius behind the nearest: the sum's points are drawn that much nearer and held
+ * against the depth of the first pass, which stays true.
+ */
+export const splats: Effect<{ name: "splats"; own: SplatStyle }> = {
+  name: "splats",
+  group: "shapes",
+  pass: ["depth", "splat"],
+  options: {
+    splats: option("STYLE_SPLATS", onOffOrAuto, false),
+    hardness: option("STYLE_SPLATS", number(0.5, 50), 2),
+  },
+  unit: "px",
+  threshold: 3,
+  source: "overlap of neighbouring points, width − spacing (thesis, 4.2.2)",
+  wish({ style }) {
+    if (style.splats === false) return { kind: "off", why: "the style does not ask for it" };
+    return style.splats === true
+      ? { kind: "forced", why: "the style asks for splats" }
+      : { kind: "auto", why: "points overlap" };
+  },
+  magnitude: ({ overlap }) => overlap,
+  part({ pass }) {
+    if (pass !== "splat") return { fragment: { shape: DISC } };
+    return {
+      uniforms: [{ name: "u_hardness", type: "float", scope: "layer" }],
+      vertexFunctions: [PIXELS_PER_METRE.functions, NEARER],
+      vertex: {
+        measure: PIXELS_PER_METRE.measure,
+        place: "gl_Position = $projection * nearer(eye, 0.5 * width / scale);",
+      },
+      fragment: {
+        shape: DISC,
+        output:
+          "float weight = pow(1.0 - squared, u_hardness);\nout_FragColor = vec4(v_color * weight, weight);",
+      },
+    };
+  },
+  quad: () => ({
+    statements: { resolve: "if (sum.a <= 0.0) discard;\nvec3 color = sum.rgb / sum.a;" },
+  }),
+  values: ({ style }) => ({ u_hardness: style.hardness }),
+};
