@@ -4,6 +4,7 @@ import type { Gpu } from "../drawing/gpu.js";
 import { NodeBuffers } from "../drawing/node-buffers.js";
 import type { UploadedNode } from "../drawing/node-uploads.js";
 import type { Program } from "../drawing/programs.js";
+import type { AttributeSet } from "../drawing/vertex-attributes.js";
 import type { NodeVertices } from "../workers/index.js";
 import { DrawCommand, type RenderState, type UniformMap } from "./engine/cesium-private.js";
 import type { CesiumTypes } from "./engine/gpu-objects.js";
@@ -41,6 +42,13 @@ export class NodeDrawable extends NodeBuffers<CesiumTypes> implements UploadedNo
   /** Sphere around the node as it is drawn, ECEF, metres. */
   get sphere(): BoundingSphere {
     return this.#place.boundingVolume;
+  }
+
+  /** The commands go too: those derived from them keep the programs and uniforms of all that was drawn last with them. */
+  override keep(sets: readonly AttributeSet[]): void {
+    super.keep(sets);
+    this.#sceneCommand = undefined;
+    this.#ownCommand = undefined;
   }
 
   lift(heightOffset: number): void {

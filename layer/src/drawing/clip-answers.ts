@@ -35,11 +35,13 @@ export class ClipAnswers {
   #forming:
     | { readonly answers: Answers; readonly node: NodeVertices; readonly steps: Steps<NodeClips> }
     | undefined;
-  /** Answers to a traversal, which asks about the same spheres in every frame; outdated ones do for some frames. */
-  readonly #rejected = new WeakMap<
-    NodeBounds,
-    { readonly by: ClipVolumes | undefined; readonly rejected: boolean }
-  >();
+  /**
+   * Answers to a traversal, which asks about the same spheres in every frame; outdated ones do for some frames. Volumes go
+   * by their number here: spheres that nobody asks about any more must not keep former ones alive.
+   */
+  readonly #rejected = new WeakMap<NodeBounds, { readonly by: number; readonly rejected: boolean }>();
+  readonly #numbers = new WeakMap<ClipVolumes, number>();
+  #numbered = 0;
   #outdated = false;
   #rested = false;
   /** The volumes that could not be prepared, which are not tried again, and why as long as nobody was told. */
@@ -98,7 +100,8 @@ export class ClipAnswers {
     const volumes = this.#now?.volumes;
     if (!volumes) return false;
     const known = this.#rejected.get(bounds);
-    if (known?.by === volumes) return known.rejected;
+    const by = this.#numberOf(volumes);
+    if (known?.by === by) return known.rejected;
     // One answer in each frame is found whatever it takes, so that all are in the end.
     if (this.#found && !allowance.left) {
       this.#guesses++;
@@ -106,7 +109,7 @@ export class ClipAnswers {
     }
     this.#found = true;
     const rejected = this.#rejects(volumes, bounds);
-    this.#rejected.set(bounds, { by: volumes, rejected });
+    this.#rejected.set(bounds, { by, rejected });
     return rejected;
   }
 
@@ -168,6 +171,12 @@ export class ClipAnswers {
   #passOver(failed: Pick<Answers, "set" | "revision">, thrown: unknown): void {
     this.#failed = failed;
     this.#failure ??= thrown;
+  }
+
+  #numberOf(volumes: ClipVolumes): number {
+    const number = this.#numbers.get(volumes) ?? ++this.#numbered;
+    this.#numbers.set(volumes, number);
+    return number;
   }
 
   #rejects(volumes: ClipVolumes, bounds: NodeBounds): boolean {
