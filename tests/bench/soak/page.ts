@@ -48,8 +48,15 @@ class Soak {
   static async open(address: string, at: Point): Promise<Soak> {
     const cloud = await PointCloud.fromUrl(address, { limits: { cacheBytes: CACHE }, workers: { size: 1 } });
     const stage = new Stage(SIZE);
-    // Points are not rasterised: in software that takes the time of many a change.
     const { gl } = stage;
+    const scene = stage.scene as typeof stage.scene & { initializeFrame(): void };
+    // As Cesium's widgets do: it is here that Cesium gives up programs that were freed.
+    const render = scene.render.bind(scene);
+    scene.render = (time) => {
+      scene.initializeFrame();
+      render(time);
+    };
+    // Points are not rasterised: in software that takes the time of many a change.
     const drawArrays = gl.drawArrays.bind(gl);
     gl.drawArrays = (mode, first, count) => drawArrays(mode, first, mode === gl.POINTS ? 0 : count);
     stage.layer = PointCloudLayer.fromCloud(cloud, { pointBudget: 500_000 });
@@ -63,6 +70,7 @@ class Soak {
     while (performance.now() < end) await this.#round();
     await this.#home();
     const { gpuBytes, gpuObjects, pointsDrawn } = this.#stage.layer.statistics;
+    if (pointsDrawn === 0) throw new Error("nothing is drawn");
     return { rounds: this.#rounds, gpuBytes, gpuObjects, pointsDrawn };
   }
 
