@@ -51,7 +51,7 @@ export interface StreamLimits {
   readonly budget?: SharedBudget;
 }
 
-/** How far what a view wants is here. */
+/** How far what a view wants is here; told of a layer, how far it is drawn. */
 export interface StreamProgress {
   /** Nodes wanted. */
   readonly wanted: number;

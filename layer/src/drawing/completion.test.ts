@@ -3,7 +3,7 @@ import { Completion, type FrameOutcome } from "./completion.js";
 
 const whole = { wanted: 4, ready: 4, failed: 0, pending: 0 };
 const outcome = (parts: Partial<FrameOutcome> = {}): FrameOutcome => ({
-  ...{ progress: whole, drawn: true, idle: true, pose: () => "here" },
+  ...{ progress: whole, undrawn: 0, drawn: true, idle: true, pose: () => "here" },
   ...parts,
 });
 
@@ -25,6 +25,16 @@ describe("Completion", () => {
     expect(completion.note(failed)).toEqual({ changed: true, finished: false, done: true });
     expect(completion.note(outcome({ drawn: false }))).toMatchObject({ finished: false, done: false });
     expect(completion.note(outcome({ idle: false }))).toMatchObject({ finished: false, done: true });
+  });
+
+  it("counts a node as ready once it is in the picture", () => {
+    const completion = new Completion();
+    expect(completion.note(outcome({ undrawn: 3, drawn: false }))).toMatchObject({ finished: false, done: false });
+    expect(completion.progress).toEqual({ wanted: 4, ready: 1, failed: 0, pending: 3 });
+    completion.note(outcome({ undrawn: 9, drawn: false }));
+    expect(completion.progress).toEqual({ wanted: 4, ready: 0, failed: 0, pending: 4 });
+    expect(completion.note(outcome())).toEqual({ changed: true, finished: true, done: true });
+    expect(completion.progress).toEqual(whole);
   });
 
   it("does not hold for a camera that has moved since, nor for another `show`", () => {

@@ -4,7 +4,10 @@ const NOTHING: StreamProgress = { wanted: 0, ready: 0, failed: 0, pending: 0 };
 
 /** What a frame came to. */
 export interface FrameOutcome {
+  /** How far what the view wants is here. */
   readonly progress: StreamProgress;
+  /** Nodes that are here and not in the picture yet. */
+  readonly undrawn: number;
   /** Whether all that is here is drawn as it is asked for. */
   readonly drawn: boolean;
   /** Whether nothing is on its way. */
@@ -33,12 +36,15 @@ export class Completion {
   #poseNow: (() => string) | undefined;
   #pose = "";
 
+  /** How far what the view wants is in the picture: a node that is here and not drawn is still pending. */
   get progress(): StreamProgress {
     return this.#progress;
   }
 
   /** Takes note of a frame. */
-  note({ progress, drawn, idle, pose }: FrameOutcome): FrameChange {
+  note({ progress: here, undrawn, drawn, idle, pose }: FrameOutcome): FrameChange {
+    const late = Math.min(undrawn, here.ready);
+    const progress = { ...here, ready: here.ready - late, pending: here.pending + late };
     const changed = !sameProgress(progress, this.#progress);
     const done = progress.pending === 0 && drawn;
     const complete = done && progress.failed === 0 && idle;

@@ -170,14 +170,14 @@ export class LayerFrames<V extends ViewTypes> {
     const probing = renderer.probe(asksForSilhouettes(style, forced), request);
     if (budget) content.keepWithin(budget.gpu, this.#owner);
     this.#measure(renderer);
-    const progress = stream.progress(this.#owner);
     const change = this.#completion.note({
-      progress,
+      progress: stream.progress(this.#owner),
+      undrawn: content.undrawn,
       drawn: waiting === 0 && !clips.pending && !probing && (budget?.balanced ?? true),
       idle: stream.active === 0,
       pose: camera.pose,
     });
-    return { progress, ...change };
+    return { progress: this.#completion.progress, ...change };
   }
 
   #select(settings: LayerSettings, { view }: FrameCamera, allowance: FrameAllowance): Selection {

@@ -41,6 +41,7 @@ export class LayerContent<V extends ViewTypes> {
   readonly #uploads: NodeUploads<V["node"]>;
   #depth: LogarithmicDepth = { own: false, scene: false };
   #nodes: DrawnNode<V>[] = [];
+  #undrawn = 0;
 
   /**
    * @param base uniforms that the view itself fills
@@ -60,6 +61,11 @@ export class LayerContent<V extends ViewTypes> {
   /** Nodes of the last frame, as they are drawn, by rising `firstId`. */
   get nodes(): readonly DrawnNode<V>[] {
     return this.#nodes;
+  }
+
+  /** Nodes that the last frame wanted and that were here, and that it did not draw yet. */
+  get undrawn(): number {
+    return this.#undrawn;
   }
 
   /** What the last frame's nodes are drawn with. */
@@ -100,10 +106,8 @@ export class LayerContent<V extends ViewTypes> {
     const material = materials.want(plan);
     const linked = this.programs.prepare(programsOf(material.plan, depth), allowance);
     const vertices = (node: OctreeNode) => cloud.stream.vertices(node);
-    const unformed = clips.form(
-      selection.nodes.flatMap((node) => vertices(node) ?? []),
-      allowance,
-    );
+    const here = selection.nodes.flatMap((node) => vertices(node) ?? []);
+    const unformed = clips.form(here, allowance);
     const drawn = linked ? material : materials.shown;
     const waiting = drawn
       ? this.#uploads.upload(selection.nodes, vertices, this.#reads(drawn), allowance)
@@ -115,6 +119,7 @@ export class LayerContent<V extends ViewTypes> {
     const { shown } = materials;
     if (shown === material) shown.update(plan);
     this.#nodes = shown ? this.#collect(shown, request) : [];
+    this.#undrawn = shown ? Math.max(waiting, unformed) : here.length;
     return waiting + unformed + (materials.next ? 1 : 0);
   }
 
