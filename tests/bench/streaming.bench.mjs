@@ -26,7 +26,7 @@ const executor = {
       bytes: NODE_BYTES,
       count: pointCount,
       positions: new Float32Array(buffer),
-      columns: {},
+      columns: new Map(),
       seen,
     };
   },

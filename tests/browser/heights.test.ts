@@ -189,7 +189,7 @@ describe.skipIf(pythonMissing)(
             const drawn: number[][] = [];
             for (let point = 0; point < count; point++) {
               const local = [...positions.slice(3 * point, 3 * point + 3)];
-              drawn[columns.intensity!.data[point]!] = [0, 1, 2].map((axis) =>
+              drawn[columns.get("intensity")!.data[point]!] = [0, 1, 2].map((axis) =>
                 local.reduce(
                   (sum, metres, c) => sum + frame.rotation[3 * c + axis] * metres,
                   frame.origin[axis],

@@ -65,7 +65,7 @@ describe.skipIf(pythonMissing)(
                     place[axis] += frame.rotation[3 * along + axis]! * positions[3 * point + along]!;
                   }
                 }
-                places[columns.intensity!.data[point]!] = place;
+                places[columns.get("intensity")!.data[point]!] = place;
               }
             }
             return places;

@@ -13,6 +13,6 @@ export function recordedAppearance({
   if (!statistics) return undefined;
   const names = new Set(attributes.map(({ name }) => name));
   const known = statistics.attributes.filter(({ name }) => names.has(name));
-  const ranges = Object.fromEntries(known.map(({ name, min, max }) => [name, [min, max] as const]));
+  const ranges = new Map(known.map(({ name, min, max }) => [name, [min, max] as const]));
   return { rgbBits: statistics.rgbBits ?? 8, ranges };
 }

@@ -31,7 +31,7 @@ export interface PointRecord {
   readonly source: readonly [number, number, number];
   /**
    * All attributes by name: those of the columns as far as they are recorded, `red`, `green`, `blue` instead of a
-   * colour, GPS time and extra bytes in full.
+   * colour, GPS time and extra bytes in full. Without prototype: what is not an attribute is not there.
    */
   readonly attributes: Readonly<Record<string, RecordValue>>;
 }

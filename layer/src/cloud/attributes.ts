@@ -38,7 +38,7 @@ function infoOf(
   appearance?: Appearance,
 ): AttributeInfo {
   return {
-    ...{ name, kind, components, range: kind === "flags" ? undefined : appearance?.ranges[name] },
+    ...{ name, kind, components, range: kind === "flags" ? undefined : appearance?.ranges.get(name) },
     ...(description && { label: description }),
     ...(unit !== undefined && { unit }),
   };

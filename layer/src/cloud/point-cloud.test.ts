@@ -46,7 +46,10 @@ class Recorder implements NodeExecutor {
 
   async run(job: NodeJob): Promise<NodeVertices> {
     this.jobs.push(job);
-    const seen = job.appearance ?? { rgbBits: this.rgbBits, ranges: { intensity: [3, 700] as const } };
+    const seen = job.appearance ?? {
+      rgbBits: this.rgbBits,
+      ranges: new Map([["intensity", [3, 700] as const]]),
+    };
     return { count: job.pointCount, buffer: new ArrayBuffer(0), bytes: 0, seen } as NodeVertices;
   }
 
@@ -226,8 +229,31 @@ describe("PointCloud", () => {
     expect(byName.get("flags")?.kind).toBe("flags");
     expect(cloud.attributes).toBe(cloud.attributes);
     await cloud.loadNode("1-1-0-1");
-    expect(executor.jobs.map(({ node, appearance }) => [node, appearance?.ranges.gpsTime])).toEqual([
+    expect(executor.jobs.map(({ node, appearance }) => [node, appearance?.ranges.get("gpsTime")])).toEqual([
       ["1-1-0-1", [1e8, 2e8]],
+    ]);
+  });
+
+  it("finds the statistics of attributes whose names objects inherit, and of no others", async () => {
+    const named = (name: string) => {
+      const descriptor = new Uint8Array(192);
+      descriptor[2] = 1;
+      descriptor.set(new TextEncoder().encode(name), 4);
+      return descriptor;
+    };
+    const statistics = {
+      ...{ version: 1, points: 10, rgbBits: 16, classes: {}, returns: {} },
+      attributes: [{ name: "__proto__", min: 5, max: 90, mean: 40 }],
+    };
+    const records: TinyCopc["records"] = [
+      ...(withRecord.records ?? []),
+      ["groma", 2, new TextEncoder().encode(JSON.stringify(statistics))],
+      ["LASF_Spec", 4, Uint8Array.from([...named("__proto__"), ...named("constructor")])],
+    ];
+    const { cloud } = await open({ recordLength: 38, records });
+    expect(cloud.attributes.slice(-2).map(({ name, range }) => [name, range])).toEqual([
+      ["__proto__", [5, 90]],
+      ["constructor", undefined],
     ]);
   });
 

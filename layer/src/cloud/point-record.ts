@@ -15,7 +15,8 @@ export function pointRecord(
     number,
     number,
   ];
-  const attributes: Record<string, RecordValue> = {};
+  // Names are the file's own: one may be that of what all objects inherit.
+  const attributes: Record<string, RecordValue> = Object.create(null);
   for (const attribute of stored) {
     const values = Array.from({ length: attribute.components }, (_, component) =>
       exactValue(attribute, index, component),

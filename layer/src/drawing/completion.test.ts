@@ -29,7 +29,10 @@ describe("Completion", () => {
 
   it("counts a node as ready once it is in the picture", () => {
     const completion = new Completion();
-    expect(completion.note(outcome({ undrawn: 3, drawn: false }))).toMatchObject({ finished: false, done: false });
+    expect(completion.note(outcome({ undrawn: 3, drawn: false }))).toMatchObject({
+      finished: false,
+      done: false,
+    });
     expect(completion.progress).toEqual({ wanted: 4, ready: 1, failed: 0, pending: 3 });
     completion.note(outcome({ undrawn: 9, drawn: false }));
     expect(completion.progress).toEqual({ wanted: 4, ready: 0, failed: 0, pending: 4 });

@@ -184,7 +184,7 @@ export class LayerContent<V extends ViewTypes> {
     drawn.forEach(({ node, uploaded, firstId, uniforms }, index) => {
       const { columns, toCube } = uploaded.vertices;
       const values = nodeUniforms(material.plan, {
-        columns: { get: (name) => (Object.hasOwn(columns, name) ? columns[name] : undefined) },
+        columns,
         firstId,
         level: node.key.depth,
         spacing: node.bounds?.spacing ?? 0,

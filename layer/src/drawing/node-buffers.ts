@@ -67,7 +67,7 @@ export class NodeBuffers<T extends GpuTypes> {
       const { location, components, normalized, column } = attribute;
       const data = this.#data(column);
       if (data) return { location, components, normalized, data, buffer: this.#buffer(column, data) };
-      return { location, value: constantValue(attribute, this.vertices.columns[column]) };
+      return { location, value: constantValue(attribute, this.vertices.columns.get(column)) };
     });
     const array = this.#gpu.vertexArray(inputs);
     this.#arrays.set(signature, array);
@@ -86,7 +86,7 @@ export class NodeBuffers<T extends GpuTypes> {
   /** The numbers of a column; undefined where all points share one value. */
   #data(column: string): ColumnData | undefined {
     if (column === POSITION) return this.vertices.positions;
-    const data = this.vertices.columns[column]?.data;
+    const data = this.vertices.columns.get(column)?.data;
     return data && data.length > 0 ? data : undefined;
   }
 }

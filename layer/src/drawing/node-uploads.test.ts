@@ -44,7 +44,7 @@ function nodesOf(count: number, points: number) {
   const nodes = Array.from({ length: count }, (_, x) => new OctreeNode({ depth: 4, x, y: 0, z: 0 }));
   const vertices = {
     positions: new Float32Array(3 * points),
-    columns: { rgb: { data: new Uint8Array(3 * points) } },
+    columns: new Map([["rgb", { data: new Uint8Array(3 * points) }]]),
     count: points,
     frame: eastNorthUp(origin),
     box: [0, 0, 0, 1, 1, 1],

@@ -35,9 +35,9 @@ export function makeArrays(
   given: Appearance | undefined,
 ): NodeArrays {
   const { count, xyz, heights, frame, bound } = points;
-  const columns: Record<string, Column> = {};
+  const columns = new Map<string, Column>();
   const sink = (column: Column) => {
-    columns[column.name] = column;
+    columns.set(column.name, column);
   };
   let positions = new Float32Array(0);
   let { order } = points;
@@ -54,7 +54,7 @@ export function makeArrays(
     colours && planColour(points, colours, rgbBits, sink),
     ...attributes
       .filter(({ name }) => !COLOUR_CHANNELS.includes(name))
-      .map((attribute) => planAttribute(points, attribute, given?.ranges[attribute.name]?.[0], sink)),
+      .map((attribute) => planAttribute(points, attribute, given?.ranges.get(attribute.name)?.[0], sink)),
     planElevation(points, xyz, heights, spec.scale[2], spec.offset[2], spec.heights[0], sink),
     planHeight(() => positions, count, frame, bound, spec.ellipsoidalOrigin, sink),
   ];
@@ -74,9 +74,9 @@ function planOrder(order: DrawnPoints["order"], sink: (copy: DrawnPoints["order"
 }
 
 /** Least and greatest value of each column but the colours; none where no point has a value. */
-function rangesOf(columns: Readonly<Record<string, Column>>): Record<string, readonly [number, number]> {
-  const ranges: Record<string, readonly [number, number]> = {};
-  for (const { name, data, scale, offset, constant, noData } of Object.values(columns)) {
+function rangesOf(columns: ReadonlyMap<string, Column>): Appearance["ranges"] {
+  const ranges = new Map<string, readonly [number, number]>();
+  for (const { name, data, scale, offset, constant, noData } of columns.values()) {
     if (name === "rgb") continue;
     let least = Number.POSITIVE_INFINITY;
     let greatest = Number.NEGATIVE_INFINITY;
@@ -86,7 +86,7 @@ function rangesOf(columns: Readonly<Record<string, Column>>): Record<string, rea
     };
     for (const value of constant ?? []) take(value);
     for (const stored of data) if (stored !== noData) take(stored * scale + offset);
-    if (least <= greatest) ranges[name] = [least, greatest];
+    if (least <= greatest) ranges.set(name, [least, greatest]);
   }
   return ranges;
 }

@@ -4,6 +4,7 @@ import { recordFields } from "../sources/las/record-fields.js";
 import type { Decoders } from "./decoders.js";
 import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
 import type { Column, DataSetSpec, NodeJob, NodeVertices } from "./protocol.js";
+import { extraBytes } from "./record.fixture.js";
 import { transformationBytes } from "./transformation.fixture.js";
 
 const FILE = "a.copc.laz";
@@ -34,9 +35,9 @@ const XYZ = [0, 0, 0, 1_000_000, 1_000_000, 50_000, 0, 1_000_000, 25_000, 123_45
 /** Hands out points whose attributes are all 0 in place of a chunk. */
 const decoders: Decoders = {
   laz: {
-    decode: async (_, { fields }) => {
-      const bytes = new Uint8Array((XYZ.length / 3) * RECORD);
-      const attributes = fields.map((field) => ({ ...field, bytes, stride: RECORD }));
+    decode: async (_, { fields, recordLength: stride }) => {
+      const bytes = new Uint8Array((XYZ.length / 3) * stride);
+      const attributes = fields.map((field) => ({ ...field, bytes, stride }));
       return { xyz: Int32Array.from(XYZ), attributes };
     },
   },
@@ -44,7 +45,7 @@ const decoders: Decoders = {
 
 const job: NodeJob = {
   ...{ dataSet: 1, chunk: new ArrayBuffer(0), pointCount: 4, node: "0-0-0-0" },
-  appearance: { rgbBits: 8, ranges: {} },
+  appearance: { rgbBits: 8, ranges: new Map() },
   cube: [500_000, 5_500_000, 0, 1000],
 };
 
@@ -117,7 +118,8 @@ describe("runNodeJob", () => {
     for (const spec of [plain, { ...plain, transformation }]) {
       const dataSet = prepareDataSet(spec);
       const vertices = await runNodeJob(dataSet, job, decoders);
-      const { elevation, ellipsoidalHeight } = vertices.columns;
+      const elevation = vertices.columns.get("elevation")!;
+      const ellipsoidalHeight = vertices.columns.get("ellipsoidalHeight")!;
       expect([elevation.offset, ellipsoidalHeight.offset]).toEqual([0, -3]);
       const geodetic = new Float64Array(3);
       for (let point = 0; point < vertices.count; point++) {
@@ -156,15 +158,33 @@ describe("runNodeJob", () => {
   it("puts all arrays into the one buffer that is transferred, and measures what it was not told", async () => {
     const dataSet = prepareDataSet(plain);
     const { buffer, bytes, positions, order, columns, seen } = await runNodeJob(dataSet, job, decoders);
-    expect([positions.buffer, order.buffer, columns.elevation.data.buffer]).toEqual([buffer, buffer, buffer]);
+    expect([positions.buffer, order.buffer, columns.get("elevation")?.data.buffer]).toEqual([
+      buffer,
+      buffer,
+      buffer,
+    ]);
     expect(bytes).toBe(buffer.byteLength);
     // 4 points: 12 + 2 + 4 + 4 bytes each; all else is the same for all of them.
     expect(bytes).toBe(88);
     expect(seen).toBeUndefined();
-    expect(columns.rgb.constant).toEqual([0, 0, 0, 255]);
+    expect(columns.get("rgb")?.constant).toEqual([0, 0, 0, 255]);
     const judged = await runNodeJob(dataSet, { ...job, appearance: undefined }, decoders);
-    expect(judged.seen).toMatchObject({ rgbBits: 8, ranges: { intensity: [0, 0] } });
-    expect(judged.seen?.ranges.elevation.map((height) => Math.round(height * 1e3))).toEqual([0, 50_000]);
+    expect([judged.seen?.rgbBits, judged.seen?.ranges.get("intensity")]).toEqual([8, [0, 0]]);
+    expect(judged.seen?.ranges.get("elevation")?.map((height) => Math.round(height * 1e3))).toEqual([
+      0, 50_000,
+    ]);
+  });
+
+  it("has a column for each attribute, also under names that objects inherit, and a range of it", async () => {
+    const extra = extraBytes({ name: "__proto__", type: "uint8" }, { name: "toString", type: "uint8" });
+    const encoding = { ...plain.encoding, recordLength: RECORD + 2, fields: recordFields(7, extra) };
+    const dataSet = prepareDataSet({ ...plain, encoding });
+    const { columns, seen } = await runNodeJob(dataSet, { ...job, appearance: undefined }, decoders);
+    for (const name of ["__proto__", "toString"]) {
+      expect(columns.get(name)?.constant, name).toEqual([0]);
+      expect(seen?.ranges.get(name), name).toEqual([0, 0]);
+    }
+    expect(columns.has("constructor")).toBe(false);
   });
 
   it("hands out the records themselves in the same drawing order", async () => {

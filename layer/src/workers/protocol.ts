@@ -25,7 +25,7 @@ export interface Appearance {
   /** Bits per colour channel that the scan really uses. */
   readonly rgbBits: 8 | 16;
   /** Least and greatest value by column name, in the attribute's unit; what float32 columns count from is the least. */
-  readonly ranges: Readonly<Record<string, readonly [number, number]>>;
+  readonly ranges: ReadonlyMap<string, readonly [number, number]>;
 }
 
 /** One node's chunk of encoded points, as the source gives it. */
@@ -90,7 +90,7 @@ export interface NodeVertices {
    * (seconds), `elevation` (source z), `ellipsoidalHeight` (metres), and each numeric extra bytes attribute under its
    * own name. A column is absent where the point format has no such attribute.
    */
-  readonly columns: Readonly<Record<string, Column>>;
+  readonly columns: ReadonlyMap<string, Column>;
   /** Index in the chunk of each drawn point. Every prefix of the drawing order is an even sample of the node. */
   readonly order: Uint16Array | Uint32Array;
   readonly count: number;

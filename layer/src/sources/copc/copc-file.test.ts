@@ -20,6 +20,11 @@ const statistics = new TextEncoder().encode(
   }),
 );
 
+/** The same with a class that every object has something under. */
+const misnamed = new TextEncoder().encode(
+  new TextDecoder().decode(statistics).replace('{"2":10}', '{"__proto__":10}'),
+);
+
 describe("openCopc", () => {
   it("reads header, octree, WKT and statistics", async () => {
     const copc = await open({ wkt: 'PROJCS["x"]', records: [["groma", 2, statistics]] });
@@ -98,6 +103,7 @@ describe("openCopc", () => {
     ["FORMAT_HEADER", "a scale of zero", { scale: 0 }],
     ["FORMAT_HEADER", "a scale that is no number", { scale: Number.NaN }],
     ["FORMAT_TRUNCATED", "a root page beyond the end", { pageOffset: 100_000 }],
+    ["FORMAT_STATISTICS", "classes that are no numbers", { records: [["groma", 2, misnamed]] }],
     ["FORMAT_STATISTICS", "statistics that are no JSON", { records: [["groma", 2, Uint8Array.of(123, 34)]] }],
   ])("%s for %s", async (code, _, options) => {
     await expect(open(options)).rejects.toThrow(expect.objectContaining({ code }));

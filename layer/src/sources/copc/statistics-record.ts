@@ -36,7 +36,9 @@ function isAttribute(value: unknown): value is AttributeStatistics {
 }
 
 function isTally(value: unknown): value is Record<string, number> {
-  return isObject(value) && Object.values(value).every(isCount);
+  return (
+    isObject(value) && Object.entries(value).every(([code, count]) => /^\d+$/.test(code) && isCount(count))
+  );
 }
 
 function invalid(file: string, what: string): FormatError {
