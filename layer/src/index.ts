@@ -39,6 +39,7 @@ export type {
   ServerWait,
   SourceBox,
   SourceLike,
+  SourceWarning,
 } from "./sources/index.js";
 export {
   type Column,

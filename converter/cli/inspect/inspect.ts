@@ -40,12 +40,13 @@ export interface Inspection {
  * @throws CoreError INPUT_*; RecordError
  */
 export async function inspect(file: string, verify = false): Promise<Inspection> {
-  const scan = await scanFile(file);
+  const declared = await scanFile(file);
   const verified = verify ? await verifyFile(file) : undefined;
   const source = await FileSource.open(file);
   try {
     const header = await headerDetails(source);
-    const { octree, octreeProblem } = scan.copc ? await octreeOf(source) : noOctree;
+    const { octree, octreeProblem } = declared.copc ? await octreeOf(source) : noOctree;
+    const scan = checked(declared, octree);
     const whole = scan.groma?.["2"];
     const taken = whole ? undefined : await sample(source, scan, header, octree);
     const statistics = whole ?? taken?.statistics;
@@ -61,6 +62,14 @@ export async function inspect(file: string, verify = false): Promise<Inspection>
 }
 
 const nowhere: Whereabouts = { centre: undefined, notes: [] };
+
+/** The scan as its header declares it, but for what the octree proves wrong. */
+function checked(scan: Scan, octree: Octree | undefined): Scan {
+  if (!octree || octree.source.warnings.length === 0) return scan;
+  const { boundingBox, warnings } = octree.source;
+  const { min, max } = boundingBox;
+  return { ...scan, min, max, warnings: [...scan.warnings, ...warnings.map(({ message }) => message)] };
+}
 
 const noOctree = { octree: undefined, octreeProblem: undefined } as const;
 

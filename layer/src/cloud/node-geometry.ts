@@ -24,7 +24,7 @@ interface NodeMap {
 
 /** Cubes of octree nodes: in source coordinates, and as spheres on the globe. */
 export class NodeGeometry {
-  readonly #source: GeometrySource;
+  #source: GeometrySource;
   readonly #transform: PointTransform;
   readonly #unit: number;
   readonly #maps = new Map<string, NodeMap>();
@@ -38,6 +38,13 @@ export class NodeGeometry {
     this.#transform = pointTransform(truth);
     const { kind, size } = crs.horizontalUnit;
     this.#unit = kind === "angular" ? size * LEAST_RADIUS_OF_CURVATURE : size;
+  }
+
+  /** Goes by another box from now on. */
+  widen(boundingBox: PointSource["boundingBox"]): void {
+    this.#source = { cube: this.#source.cube, spacing: this.#source.spacing, boundingBox };
+    this.#maps.clear();
+    this.#last.length = 0;
   }
 
   /** Cube of a node in source coordinates: min x, y, z and edge. */

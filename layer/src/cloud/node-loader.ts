@@ -1,7 +1,14 @@
 import { FormatError } from "../errors/index.js";
 import { LruCache, type OctreeNode } from "../octree/index.js";
 import type { PointSource } from "../sources/point-source.js";
-import type { Appearance, ChunkJob, NodeExecutor, NodeRecords, NodeVertices } from "../workers/index.js";
+import {
+  type Appearance,
+  type ChunkJob,
+  checkNodeSize,
+  type NodeExecutor,
+  type NodeRecords,
+  type NodeVertices,
+} from "../workers/index.js";
 import type { NodeGeometry } from "./node-geometry.js";
 
 /** The node that decides for all how colours are read and what columns count from, loaded or not. */
@@ -11,12 +18,14 @@ type Judged =
 
 /** What a loader works with. */
 export interface LoaderParts {
-  readonly source: Pick<PointSource, "name" | "chunk">;
+  readonly source: Pick<PointSource, "name" | "bytesPerPoint" | "chunk">;
   readonly executor: NodeExecutor;
   /** Number of the data set with the executor. */
   readonly dataSet: number;
   readonly geometry: Pick<NodeGeometry, "cube">;
   readonly root: OctreeNode;
+  /** Told of each node that was made. */
+  readonly made?: (vertices: NodeVertices) => void;
   /** Undefined: judged by the first node. */
   readonly appearance: Appearance | undefined;
 }
@@ -103,6 +112,7 @@ export class NodeLoader {
     const job = { ...(await this.#jobOf(node, signal)), appearance: this.#appearance };
     const vertices = await this.#parts.executor.run(job, signal);
     this.#appearance ??= vertices.seen;
+    this.#parts.made?.(vertices);
     return vertices;
   }
 
@@ -110,6 +120,8 @@ export class NodeLoader {
     const { source, dataSet, geometry } = this.#parts;
     const { address, pointCount, name } = node;
     if (address === undefined || pointCount === 0) throw noNode(name, source.name);
+    const { name: file, bytesPerPoint } = source;
+    checkNodeSize({ file, node: name, pointCount, bytesPerPoint });
     const { bytes, checksum } = await source.chunk(address, { signal });
     return { dataSet, chunk: bytes, checksum, pointCount, node: name, cube: geometry.cube(node.key) };
   }

@@ -13,7 +13,7 @@ const rows = Array.from({ length: 6 }, (_, depth) =>
 ).flat();
 
 const address = { offset: 500, length: 32 * rows.length };
-const limits = { file: "a.copc.laz", fileSize: 1e6, pointsOffset: 700, pointCount: 1e6 };
+const limits = { file: "a.copc.laz", fileSize: 1e6, pointsOffset: 700, pointCount: 1e6, recordLength: 36 };
 const source = { page: async () => entriesOfPage(pageBytes(rows), limits) };
 
 function opening() {

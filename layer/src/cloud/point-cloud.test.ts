@@ -1,5 +1,6 @@
 import { encodeRecord, exactTransform, type GeoreferenceRecord, resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import type { View } from "../octree/index.js";
 import { pageBytes, type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource, type ByteSource } from "../sources/index.js";
 import { recordFields } from "../sources/las/record-fields.js";
@@ -35,6 +36,7 @@ class Recorder implements NodeExecutor {
   readonly pending = 0;
   readonly asked: ChunkJob[] = [];
   rgbBits: 8 | 16 = 16;
+  extent = Float64Array.of(0, 0, 0, 100, 100, 50);
 
   addDataSet(spec: DataSetSpec): number {
     return this.specs.push(spec);
@@ -50,7 +52,8 @@ class Recorder implements NodeExecutor {
       rgbBits: this.rgbBits,
       ranges: new Map([["intensity", [3, 700] as const]]),
     };
-    return { count: job.pointCount, buffer: new ArrayBuffer(0), bytes: 0, seen } as NodeVertices;
+    const { extent } = this;
+    return { count: job.pointCount, buffer: new ArrayBuffer(0), bytes: 0, seen, extent } as NodeVertices;
   }
 
   /** Records whose x is their number, drawn last first. */
@@ -170,6 +173,46 @@ describe("PointCloud", () => {
     expect(cloud.boundingBox).toEqual({ min: [0, 0, 0], max: [100, 100, 50] });
   });
 
+  it("goes by the octree's cube where the header's bounds are wrong from the start, and says so", async () => {
+    const { cloud } = await open({
+      bounds: [0, 0, 0, 0, 0, 0],
+      page: [[1, 1, 1, 1, 0, 100, 10]],
+      ...withRecord,
+    });
+    expect(cloud.boundingBox).toEqual({ min: [0, 0, 0], max: [100, 100, 100] });
+    expect(cloud.warnings).toMatchObject([{ code: "BOUNDS_WRONG" }]);
+    expect(cloud.bounds.radius).toBeGreaterThan(50);
+  });
+
+  it("goes by the cube as soon as a point lies outside of the declared bounds", async () => {
+    const { cloud, executor } = await open({ ...twoNodes, ...withRecord, bounds: [0, 0, 0, 60, 60, 60] });
+    executor.extent = Float64Array.of(0, 0, 0, 60.02, 60, 60);
+    await cloud.loadNode("0-0-0-0");
+    expect([cloud.warnings, cloud.boundingBox.max, cloud.bounds.radius < 60]).toEqual([
+      [],
+      [60, 60, 60],
+      true,
+    ]);
+    const view: View = {
+      ...{ position: [0, 0, 0], direction: [1, 0, 0], planes: [], height: 100, horizon: false },
+      projection: { kind: "orthographic", extent: 1 },
+    };
+    const spheres = () =>
+      cloud.stream
+        .update({}, view, { maximumScreenSpaceError: 1e-3, pointBudget: 1e6 })
+        .nodes.map(({ bounds }) => bounds?.radius ?? 0);
+    const before = spheres();
+    executor.extent = Float64Array.of(50, 0, 50, 100, 50, 100);
+    await cloud.loadNode("1-1-0-1");
+    await cloud.loadNode("1-1-0-1");
+    expect(cloud.warnings).toMatchObject([{ code: "BOUNDS_WRONG" }]);
+    expect(cloud.boundingBox.max).toEqual([100, 100, 100]);
+    expect(cloud.attributes.find(({ name }) => name === "elevation")?.range).toEqual([0, 100]);
+    const after = spheres();
+    expect(after).toHaveLength(2);
+    for (const [index, radius] of after.entries()) expect(radius).toBeGreaterThan(1.2 * before[index]);
+  });
+
   it("has a sphere around all corners of its box", async () => {
     const { cloud } = await open({}, { crs: UTM, vertical: "ellipsoidal" });
     const exact = exactTransform(crs);
@@ -232,6 +275,25 @@ describe("PointCloud", () => {
     expect(executor.jobs.map(({ node, appearance }) => [node, appearance?.ranges.get("gpsTime")])).toEqual([
       ["1-1-0-1", [1e8, 2e8]],
     ]);
+  });
+
+  it("DECODE_TOO_LARGE for a node that would unpack to gigabytes, before its chunk is read", async () => {
+    const reads: number[] = [];
+    const bytes = tinyCopc({ ...withRecord, points: 2 ** 24, recordLength: 36 });
+    const chunkAt = new DataView(bytes.buffer).getUint32(96, true);
+    const source: ByteSource = {
+      ...{ name: "bomb.copc.laz", size: bytes.length },
+      read: async (begin, end) => {
+        reads.push(begin);
+        return bytes.slice(begin, end);
+      },
+    };
+    const executor = new Recorder();
+    const cloud = await PointCloud.fromUrl(source, { executor });
+    const tooLarge = expect.objectContaining({ code: "DECODE_TOO_LARGE", file: "bomb.copc.laz" });
+    await expect(cloud.loadNode("0-0-0-0")).rejects.toThrow(tooLarge);
+    await expect(cloud.readPoint("0-0-0-0", 0)).rejects.toThrow(tooLarge);
+    expect([reads.includes(chunkAt), executor.jobs, executor.asked]).toEqual([false, [], []]);
   });
 
   it("finds the statistics of attributes whose names objects inherit, and of no others", async () => {

@@ -19,7 +19,12 @@ import {
   type VoxelKey,
 } from "../octree/index.js";
 import { type OpenedSource, type OpenOptions, openSource, type SourceLike } from "../sources/open-source.js";
-import type { PointSource, SourceBox } from "../sources/point-source.js";
+import {
+  type PointSource,
+  type SourceBox,
+  type SourceWarning,
+  wrongBounds,
+} from "../sources/point-source.js";
 import type { CloudStatistics } from "../sources/statistics.js";
 import {
   type Appearance,
@@ -71,18 +76,17 @@ export class PointCloud {
   readonly geoids: readonly string[];
   /** The converter's statistics; undefined for files of other writers. */
   readonly statistics: CloudStatistics | undefined;
-  /** As the header declares it, source units. */
-  readonly boundingBox: SourceBox;
   /** Source units per step of the recorded integers, per axis. */
   readonly scale: readonly [number, number, number];
-  /** Sphere around all points, ECEF, metres; `spacing` is that of the root. */
-  readonly bounds: NodeBounds;
   /** Whether the points have colours of their own. */
   readonly hasColour: boolean;
   /** Brings nodes for views. */
   readonly stream: NodeStream;
 
   readonly #source: PointSource;
+  #boundingBox: SourceBox;
+  #bounds: NodeBounds;
+  #warnings: readonly SourceWarning[];
   readonly #truth: Truth;
   readonly #store: NodeStore;
   readonly #geometry: NodeGeometry;
@@ -94,7 +98,7 @@ export class PointCloud {
     | undefined;
   readonly #loader: NodeLoader;
   /** Least and greatest height above WGS84, metres. */
-  readonly #heights: readonly [number, number];
+  #heights: readonly [number, number];
   readonly #opening = new Map<OctreeNode, Promise<void>>();
 
   private constructor(source: OpenedSource, georeference: Georeference, options: PointCloudOptions) {
@@ -112,12 +116,13 @@ export class PointCloud {
     this.operation = georeference.operation;
     this.geoids = georeference.geoids;
     this.statistics = statistics;
-    this.boundingBox = boundingBox;
+    this.#boundingBox = boundingBox;
+    this.#warnings = source.warnings;
     this.scale = scale;
     this.hasColour = attributes.some(({ name }) => name === "red") && statistics?.rgbBits !== null;
     this.#store = new NodeStore(source.name, source.pointCount, source.rootPage);
     this.#geometry = new NodeGeometry(source, truth, crs);
-    this.bounds = this.#rootBounds();
+    this.#bounds = this.#rootBounds();
     this.#heights = this.#geometry.heights;
     this.#ownsExecutor = options.executor === undefined;
     this.#executor = options.executor ?? new WorkerPool(options.workers);
@@ -125,6 +130,7 @@ export class PointCloud {
       ...sources,
       file: source.name,
       encoding: source.encoding,
+      bytesPerPoint: source.bytesPerPoint,
       scale,
       offset: source.offset,
       heights: [boundingBox.min[2], boundingBox.max[2]],
@@ -138,11 +144,12 @@ export class PointCloud {
       geometry: this.#geometry,
       root: this.#store.root,
       appearance: recordedAppearance(source),
+      made: ({ extent }) => this.#holdAgainst(extent),
     });
     this.stream = new NodeStream(
       {
         store: this.#store,
-        boundsOf: (node) => this.#geometry.bounds(node.key) ?? this.bounds,
+        boundsOf: (node) => this.#geometry.bounds(node.key) ?? this.#bounds,
         loadVertices: (node, signal) => this.#loader.vertices(node, signal),
         openPage: (node, signal) => this.#openPage(node, signal),
         get wait() {
@@ -168,6 +175,21 @@ export class PointCloud {
       throw thrown;
     }
     return cloud;
+  }
+
+  /** Box of all points, source units: as declared, or the octree's cube where that is found wrong. */
+  get boundingBox(): SourceBox {
+    return this.#boundingBox;
+  }
+
+  /** Sphere around all points, ECEF, metres; `spacing` is that of the root. */
+  get bounds(): NodeBounds {
+    return this.#bounds;
+  }
+
+  /** What the data set says of itself and does not hold, as far as that is known by now. */
+  get warnings(): readonly SourceWarning[] {
+    return this.#warnings;
   }
 
   /** The attributes of the points, with their ranges as far as they are known. */
@@ -326,6 +348,24 @@ export class PointCloud {
     if (this.#ownsExecutor) this.#executor.destroy();
   }
 
+  /** Holds the points of a node against the box that is declared: where they lie beyond it, the cube takes its place. */
+  #holdAgainst(extent: ArrayLike<number>): void {
+    const { min, max } = this.#boundingBox;
+    // Half of the last digit may be lost in the points and in the box.
+    const beyond = this.scale.some(
+      (step, axis) => extent[axis] < min[axis] - 2 * step || extent[axis + 3] > max[axis] + 2 * step,
+    );
+    if (!beyond || this.#warnings.some(({ code }) => code === "BOUNDS_WRONG")) return;
+    const [x, y, z, edge] = this.#source.cube;
+    this.#warnings = [...this.#warnings, wrongBounds(this.#boundingBox)];
+    this.#boundingBox = { min: [x, y, z], max: [x + edge, y + edge, z + edge] };
+    this.#geometry.widen(this.#boundingBox);
+    this.#bounds = this.#geometry.bounds(this.#store.root.key) ?? this.#bounds;
+    this.#heights = this.#geometry.heights;
+    this.#attributes = undefined;
+    forgetBounds(this.#store.root);
+  }
+
   #rootBounds(): NodeBounds {
     const bounds = this.#geometry.bounds(this.#store.root.key);
     if (bounds) return bounds;
@@ -363,6 +403,12 @@ export class PointCloud {
       this.#opening.delete(node);
     }
   }
+}
+
+/** Has the spheres of a node and of all below it reckoned anew. */
+function forgetBounds(node: OctreeNode): void {
+  node.bounds = undefined;
+  for (const child of node.children ?? []) if (child) forgetBounds(child);
 }
 
 /** Last part of an address or path, decoded, without query. */

@@ -15,5 +15,12 @@ export { checkChecksum } from "./checksum.js";
 export { decodeStatistics } from "./copc/statistics-record.js";
 export { type Encoding, type OpenedSource, type OpenOptions, openSource } from "./open-source.js";
 export type { NumberType, PointAttribute } from "./point-attribute.js";
-export type { CrsDeclaration, EncodedChunk, HierarchyEntry, PointSource, SourceBox } from "./point-source.js";
+export type {
+  CrsDeclaration,
+  EncodedChunk,
+  HierarchyEntry,
+  PointSource,
+  SourceBox,
+  SourceWarning,
+} from "./point-source.js";
 export type { AttributeStatistics, CloudStatistics } from "./statistics.js";

@@ -19,8 +19,10 @@ export interface PointSource<Address = unknown, Encoding extends AnyEncoding = A
   /** Address or file name, for errors and to be shown. */
   readonly name: string;
   readonly pointCount: number;
-  /** Box that holds all points, source coordinates. */
+  /** Box that holds all points as far as is known without reading them, source coordinates. */
   readonly boundingBox: SourceBox;
+  /** What the data set says of itself and does not hold. */
+  readonly warnings: readonly SourceWarning[];
   /** Cube of the octree's root: least x, y, z and edge, source units. */
   readonly cube: readonly [x: number, y: number, z: number, edge: number];
   /** Distance between the points of the root, source units; halved at each level. */
@@ -34,6 +36,8 @@ export interface PointSource<Address = unknown, Encoding extends AnyEncoding = A
   readonly attributes: readonly PointAttribute[];
   /** What a converter counted of all points; undefined where none did. */
   readonly statistics: CloudStatistics | undefined;
+  /** Bytes that a decoded point takes with all its attributes. */
+  readonly bytesPerPoint: number;
   readonly encoding: Encoding;
   /** Why its bytes are waited for, where a server cannot serve for now. */
   readonly wait?: ServerWait | undefined;
@@ -71,6 +75,14 @@ export interface SourceBox {
   readonly max: readonly [number, number, number];
 }
 
+/** Something that a data set says of itself and that does not hold; it is drawn by what does. */
+export interface SourceWarning {
+  /** Stable, to be matched by. */
+  readonly code: "BOUNDS_WRONG";
+  /** What is wrong and what is done about it, in words. */
+  readonly message: string;
+}
+
 /** What a data set says of its coordinate system; nothing of it need be there. */
 export interface CrsDeclaration {
   /** OGC WKT, or whatever else `resolveCrs` understands in its place. */
@@ -105,4 +117,13 @@ export function badHierarchy(file: string, what: string): FormatError {
     cause: `its octree names ${what}`,
     fix: "Convert the scan again",
   });
+}
+
+/** Said where the declared bounds do not hold the points. */
+export function wrongBounds({ min, max }: SourceBox): SourceWarning {
+  const ranges = ["x", "y", "z"].map((axis, index) => `${axis} ${min[index]} to ${max[index]}`);
+  return {
+    code: "BOUNDS_WRONG",
+    message: `the declared bounds do not hold the points (${ranges.join(", ")}); the octree's cube is used`,
+  };
 }

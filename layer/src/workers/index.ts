@@ -1,6 +1,7 @@
 export { LazDecoder, type LazPerf } from "./laz-decoder.js";
 export { LocalExecutor } from "./local-executor.js";
 export { cubeSlack } from "./node-job.js";
+export { checkNodeSize } from "./node-size.js";
 export { type PoolOptions, type WorkerLike, WorkerPool } from "./pool.js";
 export type {
   Appearance,

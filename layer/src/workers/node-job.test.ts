@@ -26,7 +26,7 @@ const plain: DataSetSpec = {
     extraLength: 0,
     fields: recordFields(7, []),
   },
-  ellipsoidalOrigin: -3,
+  ...{ bytesPerPoint: RECORD, ellipsoidalOrigin: -3 },
 };
 
 /** Three points at corners of the domain and one inside, LAS integers. */
@@ -193,6 +193,15 @@ describe("runNodeJob", () => {
     const records = await runRecordsJob(dataSet, job, decoders);
     expect(records.order).toEqual(order);
     expect([...records.xyz.subarray(9, 12)]).toEqual([123_456, 654_321, 10_000]);
+  });
+
+  it("DECODE_TOO_LARGE for a node of too many points, without decoding it", async () => {
+    const bomb = { ...job, pointCount: 2 ** 24 };
+    const never: Decoders = { laz: { decode: () => Promise.reject(new Error("decoded")) } };
+    const dataSet = prepareDataSet(plain);
+    for (const work of [runNodeJob(dataSet, bomb, never), runRecordsJob(dataSet, bomb, never)]) {
+      await expect(work).rejects.toThrow(expect.objectContaining({ code: "DECODE_TOO_LARGE" }));
+    }
   });
 
   it("PLACE_DOMAIN for points beyond what the transformation covers", async () => {

@@ -5,6 +5,7 @@ import { type Decoders, decode } from "./decoders.js";
 import { drawingOrder } from "./drawing-order.js";
 import { cellGrid } from "./morton-sort.js";
 import { makeArrays } from "./node-columns.js";
+import { checkNodeSize } from "./node-size.js";
 import type { ChunkJob, DataSetSpec, NodeJob, NodeRecords, NodeVertices } from "./protocol.js";
 import { integerBox, positionBox } from "./records.js";
 
@@ -41,11 +42,13 @@ export async function runNodeJob(
   const heights = [box[2], box[5]] as const;
   const points = { xyz, count, order, heights, frame, bound, place };
   const arrays = makeArrays(spec, attributes, points, job.appearance);
-  const extent = positionBox(arrays.positions);
+  const local = positionBox(arrays.positions);
+  const { minX, minY, minZ, maxX, maxY, maxZ } = domain;
   return {
     ...arrays,
-    ...{ count, frame, bound, scheme, box: extent, bytes: arrays.buffer.byteLength },
-    ...cubeMap(placement, job.cube, spec, { xyz, order }, arrays.positions, extent),
+    ...{ count, frame, bound, scheme, box: local, bytes: arrays.buffer.byteLength },
+    extent: Float64Array.of(minX, minY, minZ, maxX, maxY, maxZ),
+    ...cubeMap(placement, job.cube, spec, { xyz, order }, arrays.positions, local),
   };
 }
 
@@ -64,10 +67,11 @@ export async function runRecordsJob(
 }
 
 async function decodeChunk(
-  { encoding, file, scale, offset }: DataSetSpec,
+  { encoding, file, scale, offset, bytesPerPoint }: DataSetSpec,
   { chunk, checksum, pointCount, node, cube }: ChunkJob,
   decoders: Decoders,
 ): Promise<NodeRecords> {
+  checkNodeSize({ file, node, pointCount, bytesPerPoint });
   const expected = { pointCount, checksum, file, node };
   const { xyz, attributes } = await decode(decoders, new Uint8Array(chunk), encoding, expected);
   const count = xyz.length / 3;

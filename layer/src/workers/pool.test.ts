@@ -83,6 +83,18 @@ describe("WorkerPool", () => {
     expect(pool.pending).toBe(0);
   });
 
+  it("has a bounded number of points in hand, and a node of more goes alone", async () => {
+    const { pool, workers, job } = setUp(4);
+    const many = { ...job("many"), pointCount: 2 ** 21 };
+    const results = [pool.run(job("a")), pool.run(many), pool.run(job("b"))];
+    expect(workers).toHaveLength(1);
+    workers[0].done();
+    expect(workers[0].heard.at(-1)).toMatchObject({ job: { node: "many" } });
+    workers[0].done();
+    workers[0].done();
+    await expect(Promise.all(results)).resolves.toHaveLength(3);
+  });
+
   it("drops a job that is aborted while it waits, and never sends it", async () => {
     const { pool, workers, job } = setUp(1);
     const first = pool.run(job("a"));

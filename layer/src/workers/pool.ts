@@ -48,6 +48,9 @@ interface Slot {
 /** A job whose worker died is given to one more; two deaths are taken for the job's own fault. */
 const MAX_DEATHS = 2;
 
+/** Points that all workers together have in hand at most, each of which takes them some hundred bytes. */
+const POINTS_AT_ONCE = 2 ** 21;
+
 function createDefaultWorker(): WorkerLike {
   return new Worker(new URL("./node.worker.js", import.meta.url), { type: "module", name: "groma-node" });
 }
@@ -140,15 +143,25 @@ export class WorkerPool implements NodeExecutor {
     const index = this.#waiting.indexOf(task);
     if (index >= 0) this.#waiting.splice(index, 1);
     task.reject(task.signal?.reason);
+    // The others may have waited for this one.
+    if (index === 0) this.#dispatch();
   }
 
   #dispatch(): void {
     while (this.#waiting.length > 0) {
+      if (!this.#hasRoomFor(this.#waiting[0])) return;
       const slot = this.#slots.find((candidate) => !candidate.task) ?? this.#grow();
       if (!slot) return;
       const task = this.#waiting.shift();
       if (task) this.#give(slot, task);
     }
+  }
+
+  /** Whether a job keeps within the points that are worked on at once. One goes alone, however many it has. */
+  #hasRoomFor({ request }: Task): boolean {
+    const busy = this.#slots.flatMap(({ task }) => task?.request.job.pointCount ?? []);
+    const points = busy.reduce((sum, count) => sum + count, request.job.pointCount);
+    return busy.length === 0 || points <= POINTS_AT_ONCE;
   }
 
   #grow(): Slot | undefined {

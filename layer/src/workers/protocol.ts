@@ -8,6 +8,8 @@ export interface DataSetSpec extends TruthSources {
   readonly file: string;
   /** How chunks are encoded, and so which decoder they get. */
   readonly encoding: Encoding;
+  /** Bytes that a decoded point takes; a node of too many is refused. */
+  readonly bytesPerPoint: number;
   /** Source units per integer step, per axis. */
   readonly scale: readonly [number, number, number];
   /** Source units, per axis. */
@@ -77,7 +79,7 @@ export interface Column {
 }
 
 /**
- * A node ready to be drawn. All typed arrays but `box`, `toCube` and the frame's are views of one {@link buffer},
+ * A node ready to be drawn. All typed arrays but `box`, `extent`, `toCube` and the frame's are views of one {@link buffer},
  * which is transferred.
  */
 export interface NodeVertices {
@@ -98,6 +100,8 @@ export interface NodeVertices {
   readonly frame: Frame;
   /** Least and greatest position in the node frame: min x, y, z, max x, y, z, metres. */
   readonly box: Float32Array;
+  /** Least and greatest source coordinates of the points: min x, y, z, max x, y, z. */
+  readonly extent: Float64Array;
   /** Certified distance of a stored position from its exact place, metres. */
   readonly bound: number;
   readonly scheme: Scheme;

@@ -33,7 +33,8 @@ describe("openCopc", () => {
     expect(copc.info).toMatchObject({ center: [50, 50, 50], halfSize: 50, spacing: 1 });
     expect(copc.crs.wkt).toBe('PROJCS["x"]');
     expect(copc.statistics?.rgbBits).toBe(8);
-    const [root] = await new CopcSource(copc).page(copc.info.rootPage);
+    const opened = await CopcSource.open(copc.source);
+    const [root] = await opened.page(opened.rootPage);
     expect(root.pointCount).toBe(10);
   });
 

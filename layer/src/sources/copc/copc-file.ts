@@ -58,6 +58,7 @@ export async function openCopc(source: ByteSource, options: ReadOptions = {}): P
     fileSize: source.size,
     pointsOffset: header.pointsOffset,
     pointCount: header.pointCount,
+    recordLength: header.recordLength,
   };
   checkPageAddress(info.rootPage, limits);
   const bytes = await source.read(0, header.pointsOffset, options);

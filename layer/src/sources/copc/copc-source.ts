@@ -6,12 +6,14 @@ import { Checksums } from "./checksums.js";
 import { type CopcFile, openCopc } from "./copc-file.js";
 import type { ByteRange } from "./copc-info.js";
 import { type ChunkRange, checkPageAddress, entriesOfPage, type HierarchyLimits } from "./hierarchy.js";
+import { trustedBox } from "./trusted-box.js";
 
 /** A COPC file as a source of points. */
 export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
   readonly name: string;
   readonly pointCount: number;
   readonly boundingBox: PointSource["boundingBox"];
+  readonly warnings: PointSource["warnings"];
   readonly cube: PointSource["cube"];
   readonly spacing: number;
   readonly scale: PointSource["scale"];
@@ -19,14 +21,18 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
   readonly crs: PointSource["crs"];
   readonly attributes: PointSource["attributes"];
   readonly statistics: PointSource["statistics"];
+  readonly bytesPerPoint: number;
   readonly encoding: LazEncoding;
   readonly rootPage: ByteRange;
   readonly #bytes: ByteSource;
   readonly #file: CopcFile;
   #checksums: Promise<Checksums | undefined> | undefined;
   readonly #limits: HierarchyLimits;
+  /** The root page until it is asked for. */
+  #first: Uint8Array | undefined;
 
-  constructor(file: CopcFile) {
+  /** @param first bytes of the root page */
+  constructor(file: CopcFile, first: Uint8Array) {
     const { source, header, info } = file;
     const { pointFormat, recordLength } = header;
     const [x, y, z] = info.center.map((middle) => middle - info.halfSize);
@@ -36,8 +42,11 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
     this.#limits = file.limits;
     this.name = source.name;
     this.pointCount = header.pointCount;
-    this.boundingBox = { min: header.min, max: header.max };
     this.cube = [x, y, z, edge];
+    const { boundingBox, warnings } = trustedBox(header, this.cube, entriesOfPage(first, file.limits));
+    this.boundingBox = boundingBox;
+    this.warnings = warnings;
+    this.#first = first;
     this.spacing = info.spacing || edge / CELLS_PER_EDGE;
     this.scale = header.scale;
     this.offset = header.offset;
@@ -46,13 +55,16 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
     const extraLength = recordLength - BASE_RECORD_LENGTH[pointFormat];
     this.attributes = fields;
     this.statistics = file.statistics;
+    this.bytesPerPoint = recordLength;
     this.encoding = { kind: "laz", pointFormat, recordLength, extraLength, fields };
     this.rootPage = info.rootPage;
   }
 
   /** @throws SourceError, FormatError */
   static async open(bytes: ByteSource, options: ReadOptions = {}): Promise<CopcSource> {
-    return new CopcSource(await openCopc(bytes, options));
+    const file = await openCopc(bytes, options);
+    const { offset, length } = file.info.rootPage;
+    return new CopcSource(file, await bytes.read(offset, offset + length, options));
   }
 
   /** Whether a file that begins with these bytes is of the family of LAS, which COPC belongs to. */
@@ -67,8 +79,10 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
   async page(address: ByteRange, options: ReadOptions = {}): Promise<Iterable<HierarchyEntry<ChunkRange>>> {
     checkPageAddress(address, this.#limits);
     const { offset, length } = address;
+    const first = address === this.rootPage ? this.#first : undefined;
+    if (first) this.#first = undefined;
     const [bytes, checksums] = await Promise.all([
-      this.#bytes.read(offset, offset + length, options),
+      first ?? this.#bytes.read(offset, offset + length, options),
       this.#openChecksums().then((all) => all?.ofPage(address, options)),
     ]);
     return entriesOfPage(bytes, this.#limits, checksums);

@@ -4,7 +4,13 @@ import { FormatError } from "../../errors/index.js";
 import { entriesOfPage, type HierarchyLimits } from "./hierarchy.js";
 import { pageBytes } from "./tiny-copc.fixture.js";
 
-const limits: HierarchyLimits = { file: "a.copc.laz", fileSize: 10_000, pointsOffset: 600, pointCount: 1000 };
+const limits: HierarchyLimits = {
+  file: "a.copc.laz",
+  fileSize: 10_000,
+  pointsOffset: 600,
+  pointCount: 1000,
+  recordLength: 30,
+};
 
 const parse = (...rows: number[][]) => [...entriesOfPage(pageBytes(rows), limits)];
 
@@ -29,6 +35,21 @@ describe("entriesOfPage", () => {
     ["a page at the file's start", [0, 0, 0, 0, 0, 32, -1]],
   ])("refuses %s", (_, row) => {
     expect(() => parse(row)).toThrow(expect.objectContaining({ code: "FORMAT_HIERARCHY" }));
+  });
+
+  it("refuses a chunk longer than its points can be", () => {
+    const huge = { ...limits, fileSize: 1e9 };
+    const longest = 2 * 10 * 30 + 2 ** 16;
+    expect([...entriesOfPage(pageBytes([[0, 0, 0, 0, 600, longest, 10]]), huge)]).toHaveLength(1);
+    expect(() => [...entriesOfPage(pageBytes([[0, 0, 0, 0, 600, longest + 1, 10]]), huge)]).toThrow(
+      expect.objectContaining({ code: "FORMAT_HIERARCHY" }),
+    );
+  });
+
+  it("refuses nodes that together have more bytes than the file", () => {
+    const nodes = (count: number) => Array.from({ length: count }, (_, x) => [5, x, 0, 0, 600, 1000, 10]);
+    expect(parse(...nodes(10))).toHaveLength(10);
+    expect(() => parse(...nodes(11))).toThrow(expect.objectContaining({ code: "FORMAT_HIERARCHY" }));
   });
 
   it("says that the file is truncated where an entry lies beyond its end", () => {

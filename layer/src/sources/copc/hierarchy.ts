@@ -8,8 +8,8 @@ export const ENTRY_LENGTH = 32;
 /** LAS coordinates are 32-bit integers: below 31 halvings a cube of an octree holds one of their steps. */
 const MAX_DEPTH = 31;
 
-/** Points that one node may hold: 2^24 of them are half a gigabyte of records in a worker. */
-const MAX_NODE_POINTS = 2 ** 24;
+/** Bytes that a chunk takes at most beyond twice those of its records: LAZ hardly makes anything longer. */
+const CHUNK_SLACK = 2 ** 16;
 
 /** Bytes that one page may take: 2^20 entries. */
 const MAX_PAGE_LENGTH = ENTRY_LENGTH * 2 ** 20;
@@ -29,6 +29,8 @@ export interface HierarchyLimits {
   readonly pointsOffset: number;
   /** Number of points in the whole file. */
   readonly pointCount: number;
+  /** Bytes per uncompressed record. */
+  readonly recordLength: number;
 }
 
 /**
@@ -45,7 +47,8 @@ export function checkPageAddress(page: ByteRange, limits: HierarchyLimits): void
 
 /**
  * Reads a page of the hierarchy, entry by entry as they are taken; each is held against the file, so that nothing is
- * ever asked for that the file cannot hold.
+ * ever asked for that the file cannot hold, and so are all together: nodes that share bytes could unpack a small file
+ * to any size.
  * @param checksums one for each entry, where the file has them
  * @throws FormatError FORMAT_HIERARCHY, FORMAT_TRUNCATED
  */
@@ -55,6 +58,7 @@ export function* entriesOfPage(
   checksums?: Uint32Array,
 ): Generator<HierarchyEntry<ChunkRange>> {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  let chunks = 0;
   for (let at = 0; at + ENTRY_LENGTH <= bytes.length; at += ENTRY_LENGTH) {
     const entry: HierarchyEntry<ChunkRange> = {
       depth: view.getInt32(at, true),
@@ -69,6 +73,10 @@ export function* entriesOfPage(
       pointCount: view.getInt32(at + 28, true),
     };
     checkEntry(entry, limits);
+    if (entry.pointCount > 0) chunks += entry.address.length;
+    if (limits.fileSize !== undefined && chunks > limits.fileSize) {
+      throw badHierarchy(limits.file, `chunks of ${chunks} bytes in a file of ${limits.fileSize}`);
+    }
     yield entry;
   }
 }
@@ -85,11 +93,12 @@ function checkEntry(entry: HierarchyEntry<ByteRange>, limits: HierarchyLimits): 
     checkPageAddress(address, limits);
     return;
   }
-  if (pointCount < 0 || pointCount > Math.min(limits.pointCount, MAX_NODE_POINTS)) {
+  if (pointCount < 0 || pointCount > limits.pointCount) {
     throw badHierarchy(limits.file, `${name()} with ${pointCount} points`);
   }
   if (pointCount === 0) return;
-  if (address.length <= 0 || address.offset < limits.pointsOffset) {
+  const longest = 2 * pointCount * limits.recordLength + CHUNK_SLACK;
+  if (address.length <= 0 || address.length > longest || address.offset < limits.pointsOffset) {
     throw badHierarchy(limits.file, `${name()} with ${address.length} bytes at byte ${address.offset}`);
   }
   checkInside(address, limits);

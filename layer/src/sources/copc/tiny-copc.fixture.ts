@@ -7,6 +7,8 @@ export interface TinyCopc {
   readonly points?: number;
   readonly scale?: number;
   readonly wkt?: string;
+  /** Least x, y, z and greatest x, y, z that the header declares; the octree's cube is (0, 0, 0) to (100, 100, 100). */
+  readonly bounds?: readonly number[];
   /** Records besides COPC's own and the WKT: user id, record id, content. */
   readonly records?: readonly (readonly [string, number, Uint8Array])[];
   /** Extended records at the end: user id, record id, content, and the length that is claimed if not the true one. */
@@ -87,12 +89,9 @@ export function tinyCopc(options: TinyCopc = {}): Uint8Array {
   view.setUint8(104, formatByte);
   view.setUint16(105, recordLength, true);
   for (const at of [131, 139, 147]) view.setFloat64(at, scale, true);
-  for (const [at, max] of [
-    [179, 100],
-    [195, 100],
-    [211, 50],
-  ])
-    view.setFloat64(at, max, true);
+  const bounds = options.bounds ?? [0, 0, 0, 100, 100, 50];
+  for (const [index, at] of [187, 203, 219, 179, 195, 211].entries())
+    view.setFloat64(at, bounds[index], true);
   view.setBigUint64(247, BigInt(points), true);
   let at = 375;
   for (const [user, id, content] of records) {

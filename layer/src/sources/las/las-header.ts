@@ -24,7 +24,7 @@ export interface LasHeader {
   readonly scale: readonly [number, number, number];
   /** Source units added after scaling, per axis. */
   readonly offset: readonly [number, number, number];
-  /** Least coordinates as declared, source units. */
+  /** Least coordinates as declared, source units: whatever the writer put there, numbers or not. */
   readonly min: readonly [number, number, number];
   /** Greatest coordinates as declared, source units. */
   readonly max: readonly [number, number, number];
@@ -94,10 +94,6 @@ function checkHeader(header: LasHeader, file: string): void {
   if (header.recordLength < BASE_RECORD_LENGTH[header.pointFormat]) throw invalid("record length");
   if (header.scale.some((scale) => !Number.isFinite(scale) || scale <= 0)) throw invalid("scale");
   if (header.offset.some((offset) => !Number.isFinite(offset))) throw invalid("offset");
-  if (header.min.some((min, axis) => !(min <= header.max[axis]) || !Number.isFinite(min))) {
-    throw invalid("bounding box");
-  }
-  if (header.max.some((max) => !Number.isFinite(max))) throw invalid("bounding box");
 }
 
 /** Fixed-length text of a LAS header or VLR: ends at the first NUL, trailing blanks dropped. */
