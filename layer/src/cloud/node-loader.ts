@@ -9,6 +9,7 @@ import {
   type NodeRecords,
   type NodeVertices,
 } from "../workers/index.js";
+import { showSixteenBits } from "./appearance.js";
 import type { NodeGeometry } from "./node-geometry.js";
 
 /** The node that decides for all how colours are read and what columns count from, loaded or not. */
@@ -26,6 +27,8 @@ export interface LoaderParts {
   readonly root: OctreeNode;
   /** Told of each node that was made. */
   readonly made?: (vertices: NodeVertices) => void;
+  /** Told when nodes that were made before have to {@link showSixteenBits}. */
+  readonly judgedAgain?: () => void;
   /** Undefined: judged by the first node. */
   readonly appearance: Appearance | undefined;
 }
@@ -112,8 +115,17 @@ export class NodeLoader {
     const job = { ...(await this.#jobOf(node, signal)), appearance: this.#appearance };
     const vertices = await this.#parts.executor.run(job, signal);
     this.#appearance ??= vertices.seen;
+    const { rgbBits } = this.#appearance ?? vertices;
+    if (rgbBits === 8 && vertices.rgbBits === 16) this.#judgeAgain();
+    else if (rgbBits === 16) showSixteenBits(vertices);
     this.#parts.made?.(vertices);
     return vertices;
+  }
+
+  /** A node needs 16 bits: so do all, those that are here as well. */
+  #judgeAgain(): void {
+    if (this.#appearance) this.#appearance = { ...this.#appearance, rgbBits: 16 };
+    this.#parts.judgedAgain?.();
   }
 
   async #jobOf(node: OctreeNode, signal: AbortSignal | undefined): Promise<ChunkJob> {

@@ -125,6 +125,11 @@ export class NodeStream {
     return this.#cache.peek(node);
   }
 
+  /** Calls back with the vertices of each node that is ready. */
+  forEachVertices(work: (vertices: NodeVertices) => void): void {
+    for (const vertices of this.#cache.values()) work(vertices);
+  }
+
   /**
    * Tells what a view shows now. Loading starts and stops accordingly.
    * @param viewer stands for the view; the same object in each call

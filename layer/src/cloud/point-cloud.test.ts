@@ -1,5 +1,5 @@
 import { encodeRecord, exactTransform, type GeoreferenceRecord, resolveCrs } from "@groma/georef";
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import type { View } from "../octree/index.js";
 import { pageBytes, type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource, type ByteSource } from "../sources/index.js";
@@ -48,12 +48,20 @@ class Recorder implements NodeExecutor {
 
   async run(job: NodeJob): Promise<NodeVertices> {
     this.jobs.push(job);
-    const seen = job.appearance ?? {
-      rgbBits: this.rgbBits,
-      ranges: new Map([["intensity", [3, 700] as const]]),
-    };
+    const ranges = new Map([["intensity", [3, 700] as const]]);
+    const { rgbBits } = this;
+    const seen = job.appearance ?? { rgbBits, rgbBitsKnown: false, ranges };
     const { extent } = this;
-    return { count: job.pointCount, buffer: new ArrayBuffer(0), bytes: 0, seen, extent } as NodeVertices;
+    const columns = new Map([["rgb", { constant: [1, 2, 3, 255] }]]) as unknown as NodeVertices["columns"];
+    return {
+      count: job.pointCount,
+      buffer: new ArrayBuffer(0),
+      bytes: 0,
+      seen,
+      extent,
+      columns,
+      rgbBits,
+    } as NodeVertices;
   }
 
   /** Records whose x is their number, drawn last first. */
@@ -245,6 +253,29 @@ describe("PointCloud", () => {
       ["0-0-0-0", 8],
     ]);
     expect(cloud.attributes.find(({ name }) => name === "intensity")?.range).toEqual([3, 700]);
+  });
+
+  it("judges colours again with each node: one that needs 16 bits changes those that are here and to come", async () => {
+    const { cloud, executor } = await open({ ...twoNodes, ...withRecord });
+    executor.rgbBits = 8;
+    const view: View = {
+      ...{ position: [0, 0, 0], direction: [1, 0, 0], planes: [], height: 100, horizon: false },
+      projection: { kind: "orthographic", extent: 1 },
+    };
+    const [root] = cloud.stream.update({}, view, { maximumScreenSpaceError: 100, pointBudget: 6 }).nodes;
+    await vi.waitFor(() => expect(root.state).toBe("ready"));
+    const early = cloud.stream.vertices(root)!;
+    expect(early.columns.get("rgb")?.constant).toEqual([1, 2, 3, 255]);
+    executor.rgbBits = 16;
+    const needing = await cloud.loadNode("1-1-0-1");
+    expect(cloud.stream.vertices(root)).toBe(early);
+    expect(early.columns.get("rgb")).toMatchObject({ constant: [0, 0, 0, 255], bound: 1 });
+    expect(needing.columns.get("rgb")?.constant).toEqual([1, 2, 3, 255]);
+    await cloud.loadNode("0-0-0-0");
+    expect(executor.jobs.map(({ appearance }) => appearance?.rgbBits)).toEqual([undefined, 8, 16]);
+    executor.rgbBits = 8;
+    const late = await cloud.loadNode("1-1-0-1");
+    expect(late.columns.get("rgb")?.constant).toEqual([0, 0, 0, 255]);
   });
 
   it("lists its attributes: heights by the header, the others by the statistics where there are any", async () => {

@@ -33,7 +33,7 @@ import {
   type PoolOptions,
   WorkerPool,
 } from "../workers/index.js";
-import { recordedAppearance } from "./appearance.js";
+import { recordedAppearance, showSixteenBits } from "./appearance.js";
 import type { AttributeInfo, PointRecord } from "./attribute-info.js";
 import { attributesOf } from "./attributes.js";
 import { type Georeference, type GeoreferenceOptions, georeferenceOf } from "./georeference.js";
@@ -144,6 +144,7 @@ export class PointCloud {
       geometry: this.#geometry,
       root: this.#store.root,
       appearance: recordedAppearance(source),
+      judgedAgain: () => this.stream.forEachVertices(showSixteenBits),
       made: ({ extent }) => this.#holdAgainst(extent),
     });
     this.stream = new NodeStream(

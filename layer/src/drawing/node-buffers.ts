@@ -1,4 +1,4 @@
-import type { ColumnData, NodeVertices } from "../workers/index.js";
+import type { Column, ColumnData, NodeVertices } from "../workers/index.js";
 import type { Gpu, GpuTypes, VertexInput } from "./gpu.js";
 import { type AttributeSet, constantValue, POSITION } from "./vertex-attributes.js";
 
@@ -9,6 +9,8 @@ import { type AttributeSet, constantValue, POSITION } from "./vertex-attributes.
 export class NodeBuffers<T extends GpuTypes> {
   readonly vertices: NodeVertices;
   readonly #gpu: Gpu<T>;
+  /** The colours that it was made with. */
+  readonly #colours: Column | undefined;
   readonly #buffers = new Map<string, T["buffer"]>();
   readonly #arrays = new Map<string, T["vertexArray"]>();
   #bytes = 0;
@@ -16,6 +18,12 @@ export class NodeBuffers<T extends GpuTypes> {
   constructor(gpu: Gpu<T>, vertices: NodeVertices) {
     this.#gpu = gpu;
     this.vertices = vertices;
+    this.#colours = vertices.columns.get("rgb");
+  }
+
+  /** Whether the node has other colours by now: those of foreign files may turn out to be of 16 bits. */
+  get outdated(): boolean {
+    return this.vertices.columns.get("rgb") !== this.#colours;
   }
 
   /** Bytes on the GPU. */

@@ -76,6 +76,19 @@ describe("NodeUploads", () => {
     expect(uploads.upload(nodes, of, [PLAIN], frame(100))).toBe(0);
   });
 
+  it("draws a node in its former colours until it is whole in others, and frees those then", () => {
+    const { uploads, count } = counted();
+    const { nodes, of } = nodesOf(1, 10);
+    uploads.upload(nodes, of, [COLOURED], frame(100));
+    const former = uploads.ready(nodes[0], [COLOURED]);
+    (of().columns as Map<string, unknown>).set("rgb", { data: new Uint8Array(30) });
+    expect(uploads.ready(nodes[0], [COLOURED])).toBe(former);
+    expect(uploads.upload(nodes, of, [COLOURED], frame(100))).toBe(0);
+    const later = uploads.ready(nodes[0], [COLOURED]);
+    expect([later === undefined, later === former]).toEqual([false, false]);
+    expect([count("buffer"), count("array")]).toEqual([2, 1]);
+  });
+
   it("draws a node in a former style while it waits for what a new one reads, and frees that at last", () => {
     const { uploads, count } = counted();
     const { nodes, of } = nodesOf(3, 10);

@@ -9,6 +9,8 @@ const BYTES = 4 * 1024 * 1024;
 /** A node on the GPU, as a view draws it. */
 export interface UploadedNode {
   readonly vertices: NodeVertices;
+  /** Whether its points have changed since it was made, so that another one has to take its place. */
+  readonly outdated: boolean;
   /** Bytes on the GPU. */
   readonly bytes: number;
   /** Whether programs that read these attributes can draw it. */
@@ -57,18 +59,21 @@ export class NodeUploads<Node extends UploadedNode> {
     let left = BYTES;
     let waiting = 0;
     for (const node of nodes) {
-      if (this.ready(node, sets)) continue;
       const there = this.#nodes.get(node);
+      if (there && !there.outdated && this.ready(node, sets)) continue;
       const content = there?.vertices ?? vertices(node);
       if (!content) continue;
       if (waiting > 0 || left <= 0 || !allowance.grants()) {
         waiting++;
         continue;
       }
-      const uploaded = there ?? this.#make(content, this.#heightOffset);
-      this.#nodes.set(node, uploaded);
+      // An outdated one is drawn until another is whole.
+      const kept = there?.outdated ? undefined : there;
+      const uploaded = kept ?? this.#make(content, this.#heightOffset);
       const before = uploaded.bytes;
       for (const set of sets) uploaded.upload(set);
+      if (!kept) there?.destroy();
+      this.#nodes.set(node, uploaded);
       left -= uploaded.bytes - before;
     }
     return waiting;

@@ -46,6 +46,11 @@ export class LruCache<K, V> {
     return entry.value;
   }
 
+  /** All values, without counting as a use. */
+  *values(): Generator<V> {
+    for (const { value } of this.#entries.values()) yield value;
+  }
+
   /** Puts in a value, or another one for a key. */
   set(key: K, value: V, cost: Cost): void {
     this.delete(key);

@@ -39,10 +39,13 @@ export function layOut(planned: readonly PlannedArray[]): ArrayBuffer {
   return buffer;
 }
 
-/** A column whose points all have the same value. */
-export function constantColumn(name: string, constant: readonly number[]): Column {
+/**
+ * A column whose points all have the same value.
+ * @param bound greatest distance of it from a record's
+ */
+export function constantColumn(name: string, constant: readonly number[], bound = 0): Column {
   const components = constant.length as Column["components"];
-  return { name, components, data: new Uint8Array(0), scale: 1, offset: 0, constant, bound: 0 };
+  return { name, components, data: new Uint8Array(0), scale: 1, offset: 0, constant, bound };
 }
 
 /** Half a unit in the last place of a float32 of this magnitude: what rounding to float32 costs at most. */

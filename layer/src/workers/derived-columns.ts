@@ -42,7 +42,7 @@ export function planColour(
   const lower = rgbBits === 16 && colours[0].type === "uint16" ? 1 : 0;
   if (colours.every((channel) => isOneByte(count, channel, lower))) {
     const constant = [...colours.map(({ bytes, at }) => bytes[at + lower]), 255];
-    sink({ ...constantColumn("rgb", constant), bound: lower });
+    sink(constantColumn("rgb", constant, lower));
     return undefined;
   }
   return planArray(Uint8Array, 4 * count, (data) => {

@@ -1,3 +1,4 @@
+export { constantColumn } from "./column-plan.js";
 export { LazDecoder, type LazPerf } from "./laz-decoder.js";
 export { LocalExecutor } from "./local-executor.js";
 export { cubeSlack } from "./node-job.js";

@@ -25,7 +25,10 @@ export interface PlacedPoints extends DrawnPoints {
 }
 
 /** The arrays of a node in one buffer, and what they look like where that was to be found out. */
-export type NodeArrays = Pick<NodeVertices, "buffer" | "positions" | "columns" | "order" | "seen">;
+export type NodeArrays = Pick<
+  NodeVertices,
+  "buffer" | "positions" | "columns" | "rgbBits" | "order" | "seen"
+>;
 
 /** Makes all arrays of a node. */
 export function makeArrays(
@@ -42,7 +45,8 @@ export function makeArrays(
   let positions = new Float32Array(0);
   let { order } = points;
   const colours = coloursOf(attributes);
-  const rgbBits = given?.rgbBits ?? (colours && greatestColour(count, colours) > 255 ? 16 : 8);
+  const own = () => (colours && greatestColour(count, colours) > 255 ? 16 : 8);
+  const rgbBits = given?.rgbBitsKnown || given?.rgbBits === 16 ? given.rgbBits : own();
   const planned: (PlannedArray | undefined)[] = [
     planArray(Float32Array, 3 * count, (array) => {
       points.place(array);
@@ -59,8 +63,8 @@ export function makeArrays(
     planHeight(() => positions, count, frame, bound, spec.ellipsoidalOrigin, sink),
   ];
   const buffer = layOut(planned.filter((array) => array !== undefined));
-  const seen = given ? undefined : { rgbBits, ranges: rangesOf(columns) };
-  return { buffer, positions, columns, order, seen };
+  const seen = given ? undefined : { rgbBits, rgbBitsKnown: false, ranges: rangesOf(columns) };
+  return { buffer, positions, columns, rgbBits, order, seen };
 }
 
 function planOrder(order: DrawnPoints["order"], sink: (copy: DrawnPoints["order"]) => void): PlannedArray {

@@ -45,7 +45,7 @@ const decoders: Decoders = {
 
 const job: NodeJob = {
   ...{ dataSet: 1, chunk: new ArrayBuffer(0), pointCount: 4, node: "0-0-0-0" },
-  appearance: { rgbBits: 8, ranges: new Map() },
+  appearance: { rgbBits: 8, rgbBitsKnown: true, ranges: new Map() },
   cube: [500_000, 5_500_000, 0, 1000],
 };
 
@@ -185,6 +185,30 @@ describe("runNodeJob", () => {
       expect(seen?.ranges.get(name), name).toEqual([0, 0]);
     }
     expect(columns.has("constructor")).toBe(false);
+  });
+
+  it("takes colours for 16 bits where a node needs them, unless it is known that all are of 8", async () => {
+    const bright: Decoders = {
+      laz: {
+        decode: async (...given) => {
+          const points = await decoders.laz.decode(...given);
+          const red = points.attributes.find(({ name }) => name === "red")!;
+          new DataView(red.bytes.buffer).setUint16(red.at + red.stride, 300, true);
+          return points;
+        },
+      },
+    };
+    const dataSet = prepareDataSet(plain);
+    const bitsBy = async (appearance: NodeJob["appearance"], by = bright) => {
+      const { rgbBits, columns, order } = await runNodeJob(dataSet, { ...job, appearance }, by);
+      return [rgbBits, columns.get("rgb")?.data[4 * order.indexOf(1)]];
+    };
+    const judged = { rgbBits: 8, rgbBitsKnown: false, ranges: new Map() } as const;
+    expect(await bitsBy(undefined)).toEqual([16, 1]);
+    expect(await bitsBy(judged)).toEqual([16, 1]);
+    expect(await bitsBy({ ...judged, rgbBitsKnown: true })).toEqual([8, 300 - 256]);
+    expect(await bitsBy({ ...judged, rgbBits: 16 }, decoders)).toEqual([16, undefined]);
+    expect(await bitsBy(judged, decoders)).toEqual([8, undefined]);
   });
 
   it("hands out the records themselves in the same drawing order", async () => {

@@ -26,6 +26,8 @@ export interface DataSetSpec extends TruthSources {
 export interface Appearance {
   /** Bits per colour channel that the scan really uses. */
   readonly rgbBits: 8 | 16;
+  /** Whether the bits are known of all points, or judged by those seen so far: 8 then lasts until one needs 16. */
+  readonly rgbBitsKnown: boolean;
   /** Least and greatest value by column name, in the attribute's unit; what float32 columns count from is the least. */
   readonly ranges: ReadonlyMap<string, readonly [number, number]>;
 }
@@ -93,6 +95,8 @@ export interface NodeVertices {
    * own name. A column is absent where the point format has no such attribute.
    */
   readonly columns: ReadonlyMap<string, Column>;
+  /** Bits per channel by which the column `rgb` was made. */
+  readonly rgbBits: 8 | 16;
   /** Index in the chunk of each drawn point. Every prefix of the drawing order is an even sample of the node. */
   readonly order: Uint16Array | Uint32Array;
   readonly count: number;
