@@ -18,15 +18,17 @@ const executor = {
   addDataSet: () => 1,
   removeDataSet() {},
   destroy() {},
-  async run({ pointCount }) {
+  async run({ pointCount, cube: [x, y, z] }) {
     const buffer = new ArrayBuffer(NODE_BYTES);
-    const seen = { rgbBits: 8, ranges: {} };
+    const seen = { rgbBits: 8, rgbBitsKnown: false, ranges: new Map() };
     return {
       buffer,
       bytes: NODE_BYTES,
       count: pointCount,
       positions: new Float32Array(buffer),
       columns: new Map(),
+      rgbBits: 8,
+      extent: Float64Array.of(x, y, z, x, y, z),
       seen,
     };
   },

@@ -28,7 +28,8 @@ const quick = {
 const undecoded = (): NodeExecutor => ({
   addDataSet: () => 1,
   removeDataSet: () => undefined,
-  run: async ({ pointCount }) => ({ count: pointCount, bytes: 1, seen: {} }) as NodeVertices,
+  run: async ({ pointCount, cube: [x, y, z] }) =>
+    ({ count: pointCount, bytes: 1, rgbBits: 8, extent: Float64Array.of(x, y, z, x, y, z) }) as NodeVertices,
   records: () => Promise.reject(new Error("no record is read here")),
   pending: 0,
   destroy: () => undefined,

@@ -57,7 +57,12 @@ describe("matrixOf", () => {
 describe("NodeDrawable", () => {
   it("holds no command that its former style was drawn with", () => {
     const gpu = { vertexArray: () => ({}), free: () => undefined } as unknown as Gpu<CesiumTypes>;
-    const vertices = { positions: new Float32Array(0), columns: {}, box: [0, 0, 0, 1, 1, 1], frame: FRAME };
+    const vertices = {
+      positions: new Float32Array(0),
+      columns: new Map(),
+      box: [0, 0, 0, 1, 1, 1],
+      frame: FRAME,
+    };
     const node = new NodeDrawable(gpu, vertices as unknown as NodeVertices, 0);
     const reads = attributeSet([]);
     const state = { program: { program: {}, reads }, uniformMap: {}, pass: 0 } as unknown as DrawState;

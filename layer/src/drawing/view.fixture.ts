@@ -132,7 +132,8 @@ export async function testCloud(): Promise<PointCloud> {
 function verticesAt(origin: ArrayLike<number>): NodeVertices {
   return {
     positions: new Float32Array(3 * POINTS),
-    columns: {},
+    columns: new Map(),
+    extent: new Float64Array([0, 0, 0, 1, 1, 1]),
     count: POINTS,
     bytes: 12 * POINTS,
     frame: eastNorthUp(origin),
