@@ -91,8 +91,8 @@ describe.skipIf(pythonMissing)(`picking${pythonMissing ? ` (skipped: ${pythonMis
         stage.destroy();
       }
 
-      function distance(a: Float64Array, b: Float64Array): number {
-        return Math.hypot(a[0]! - b[0]!, a[1]! - b[1]!, a[2]! - b[2]!);
+      function distance(a: { x: number; y: number; z: number }, b: Float64Array): number {
+        return Math.hypot(a.x - b[0]!, a.y - b[1]!, a.z - b[2]!);
       }
     });
     expect(errors).toEqual([]);

@@ -15,7 +15,7 @@ export class Picked {
     const { cloud, source, attributes, node, index, position } = hit;
     const info = new Map(cloud.attributes.map((attribute) => [attribute.name, attribute]));
     const geodetic = new Float64Array(3);
-    ecefToGeodetic(position[0], position[1], position[2], geodetic);
+    ecefToGeodetic(position.x, position.y, position.z, geodetic);
     this.#facts.replaceChildren(
       ...row("x, y, z", coordinateWords(source, cloud.scale)),
       ...row("longitude, latitude", `${degreeWords(geodetic[0]!)}, ${degreeWords(geodetic[1]!)}`),

@@ -41,13 +41,13 @@ export class ClipBox {
   /** Begins anew with another cloud. */
   attach({ cloud: { bounds } }: PointCloudLayer): void {
     this.#edge = Math.max(CLIP_EDGES[0], Math.min(CLIP_EDGES[1], Math.round(bounds.radius / 4)));
-    this.moveTo([bounds.x, bounds.y, bounds.z]);
+    this.moveTo(bounds);
   }
 
   /** Puts the box around a place. @param position ECEF, metres */
-  moveTo([x, y, z]: ArrayLike<number> & Iterable<number>): void {
+  moveTo({ x, y, z }: { readonly x: number; readonly y: number; readonly z: number }): void {
     const geodetic = new Float64Array(3);
-    ecefToGeodetic(x!, y!, z!, geodetic);
+    ecefToGeodetic(x, y, z, geodetic);
     const [longitude, latitude, height] = geodetic;
     this.#middle = { longitude: longitude!, latitude: latitude!, height: height! };
     this.#write();

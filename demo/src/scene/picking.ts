@@ -1,12 +1,5 @@
 import type { PickResult, PointCloudLayer } from "@groma/layer/cesium";
-import {
-  Cartesian3,
-  Color,
-  type Entity,
-  ScreenSpaceEventHandler,
-  ScreenSpaceEventType,
-  type Viewer,
-} from "cesium";
+import { Color, type Entity, ScreenSpaceEventHandler, ScreenSpaceEventType, type Viewer } from "cesium";
 
 /** The record of a point that was clicked. */
 export type Hit = PickResult<PointCloudLayer>;
@@ -65,9 +58,8 @@ export class Picking {
     if (signal.aborted) return;
     this.clear();
     if (!hit) return;
-    const [x, y, z] = hit.position;
     this.#mark = this.#viewer.entities.add({
-      position: new Cartesian3(x, y, z),
+      position: hit.position,
       point: {
         pixelSize: 11,
         color: Color.TRANSPARENT,

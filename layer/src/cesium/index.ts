@@ -1,20 +1,4 @@
-export {
-  type BoxClip,
-  Clip,
-  type ClipPlace,
-  ClipSet,
-  type PlaneClip,
-  type PolygonClip,
-} from "../clips/index.js";
-export {
-  type AttributeInfo,
-  guessHeights,
-  PointCloud,
-  type PointCloudOptions,
-  type PointRecord,
-  type RecordValue,
-  type StreamProgress,
-} from "../cloud/index.js";
+export type { GpuMilliseconds } from "../drawing/frame.js";
 export type { GpuCounts, GpuKind } from "../drawing/gpu.js";
 export {
   ASPRS_CLASSES,
@@ -30,6 +14,7 @@ export {
   type GradientStop,
   type LedgerRow,
   type MeasuredCost,
+  type PointClass,
   type PointCloudStyle,
   type PointFilter,
   type PointShape,
@@ -37,19 +22,7 @@ export {
   type SizeMode,
   type StyleParts,
 } from "../effects/index.js";
-export type { Outage } from "../errors/index.js";
-export { SharedBudget, type SharedBudgetOptions } from "../octree/index.js";
-export type {
-  Address,
-  AddressFunction,
-  ExpiringHeaders,
-  HeadersFunction,
-  HeaderValues,
-  HttpOptions,
-  RenewalContext,
-  RetryPolicy,
-  ServerWait,
-} from "../sources/index.js";
+export * from "../index.js";
 export type { LayerSource, LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
 export type { PickOptions } from "./layer-renderer.js";
 export { PointCloudLayer } from "./point-cloud-layer.js";

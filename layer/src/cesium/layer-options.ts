@@ -1,4 +1,4 @@
-import { RequestErrorEvent, Resource, TrustedServers } from "cesium";
+import { type Cartesian3, RequestErrorEvent, Resource, TrustedServers } from "cesium";
 import type { ClipSet } from "../clips/index.js";
 import type { PointCloud, PointRecord } from "../cloud/index.js";
 import type { GpuMilliseconds } from "../drawing/frame.js";
@@ -56,7 +56,7 @@ export interface PickResult<Layer> extends PointRecord {
   readonly layer: Layer;
   readonly cloud: PointCloud;
   /** Place of the record, ECEF (EPSG:4978), metres; without the layer's height offset. */
-  readonly position: Float64Array;
+  readonly position: Cartesian3;
 }
 
 /** What a layer can be made from: as a cloud, and Cesium's `Resource` besides. */

@@ -3,7 +3,7 @@ import { describe, expect, it, vi } from "vitest";
 import { Clip, ClipSet } from "../clips/index.js";
 import { PointCloud } from "../cloud/index.js";
 import { tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
-import { BlobSource } from "../sources/index.js";
+import { BlobSource, type ByteSource } from "../sources/index.js";
 import type { NodeExecutor } from "../workers/index.js";
 import { PointCloudLayer } from "./point-cloud-layer.js";
 
@@ -133,5 +133,80 @@ describe("PointCloudLayer.clips", () => {
     expect(layer.clips).toBe(set);
     layer.clips = undefined;
     expect([layer.clips.size, layer.clips === set]).toEqual([0, false]);
+  });
+});
+
+describe("PointCloudLayer.destroy", () => {
+  it("may be called again, but nothing else works after it, in Cesium's words", async () => {
+    const layer = PointCloudLayer.fromCloud(await open());
+    layer.destroy();
+    expect([layer.destroy(), layer.isDestroyed()]).toEqual([undefined, true]);
+    const destroyed = expect.objectContaining({
+      name: "DeveloperError",
+      message: "This object was destroyed, i.e., destroy() was called.",
+    });
+    await expect(layer.pick({ x: 1, y: 1 })).rejects.toEqual(destroyed);
+    const uses: (() => void)[] = [
+      () => layer.retryFailed(),
+      () => {
+        layer.style = {};
+      },
+      () => {
+        layer.filter = undefined;
+      },
+      () => {
+        layer.clips = undefined;
+      },
+      () => {
+        layer.heightOffset = 1;
+      },
+    ];
+    for (const use of uses) expect(use).toThrow(destroyed);
+    const { frameState } = frame();
+    expect(() => layer.update(frameState)).not.toThrow();
+  });
+});
+
+describe("PointCloudLayer.fromUrl", () => {
+  const bytes = tinyCopc().slice();
+  const crs = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
+
+  /** A source that is told before each read. */
+  function watched(beforeRead: () => void): ByteSource {
+    return {
+      name: "tiny.copc.laz",
+      size: bytes.length,
+      read: async (begin, end) => {
+        beforeRead();
+        return bytes.subarray(begin, end);
+      },
+    };
+  }
+
+  it("rejects with the signal's reason, whatever it is and during whichever read it comes", async () => {
+    let reads = 0;
+    const whole = await PointCloudLayer.fromUrl(
+      watched(() => reads++),
+      { executor, crs },
+    );
+    whole.destroy();
+    expect(reads).toBeGreaterThan(1);
+    for (let abortedRead = 1; abortedRead <= reads; abortedRead++) {
+      const control = new AbortController();
+      const reason = { of: "the application" };
+      let read = 0;
+      const source = watched(() => {
+        if (++read !== abortedRead) return;
+        control.abort(reason);
+        throw new Error("what an interrupted read came to");
+      });
+      const opening = PointCloudLayer.fromUrl(source, { executor, crs, signal: control.signal });
+      await expect(opening).rejects.toBe(reason);
+    }
+    const never = PointCloudLayer.fromUrl(
+      watched(() => undefined),
+      { executor, crs, signal: AbortSignal.abort("before") },
+    );
+    await expect(never).rejects.toBe("before");
   });
 });

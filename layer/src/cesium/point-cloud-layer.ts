@@ -1,4 +1,4 @@
-import { BoundingSphere, Cartesian3, Event, SceneMode } from "cesium";
+import { BoundingSphere, Cartesian3, DeveloperError, Event, SceneMode } from "cesium";
 import { ClipSet } from "../clips/index.js";
 import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
 import { LayerFrames } from "../drawing/frame.js";
@@ -132,6 +132,7 @@ export class PointCloudLayer {
   }
 
   set style(parts: StyleParts) {
+    this.#mustExist();
     this.#style = completeStyle(parts, this.#style, this.cloud);
   }
 
@@ -141,6 +142,7 @@ export class PointCloudLayer {
   }
 
   set filter(filter: PointFilter | undefined) {
+    this.#mustExist();
     this.#filter = filter && checkFilter(filter, this.cloud);
   }
 
@@ -150,6 +152,7 @@ export class PointCloudLayer {
   }
 
   set clips(clips: ClipSet | undefined) {
+    this.#mustExist();
     this.#clips = clips ?? new ClipSet();
   }
 
@@ -159,6 +162,7 @@ export class PointCloudLayer {
   }
 
   set forced(forced: Forced) {
+    this.#mustExist();
     this.#forced = checkForced(forced, this.cloud.name);
   }
 
@@ -172,6 +176,7 @@ export class PointCloudLayer {
   }
 
   set heightOffset(metres: number) {
+    this.#mustExist();
     const { bounds, name } = this.cloud;
     this.#heightOffset = checkHeightOffset(metres, name);
     const [x, y, z] = liftOf(bounds, metres);
@@ -222,24 +227,28 @@ export class PointCloudLayer {
    * @param windowPosition CSS pixels from the upper left, as `scene.pick` takes it
    * @returns undefined where there is no point
    * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
+   * @throws DeveloperError after `destroy()`
    */
   async pick(
     windowPosition: { readonly x: number; readonly y: number },
     options: PickOptions = {},
   ): Promise<PickResult<this> | undefined> {
+    this.#mustExist();
     const found = await this.#renderer?.pick(windowPosition, options);
     if (!found || this.#destroyed) return undefined;
     const { cloud } = this;
     const record = await cloud.readPoint(found.drawn.node, found.index, { signal: options.signal });
-    return { ...record, layer: this, cloud, position: cloud.place(...record.source) };
+    const [x, y, z] = cloud.place(...record.source);
+    return { ...record, layer: this, cloud, position: new Cartesian3(x, y, z) };
   }
 
   /** Lets nodes that failed be asked for again. */
   retryFailed(): void {
+    this.#mustExist();
     this.cloud.stream.retryFailed();
   }
 
-  /** Called by Cesium for each frame and pass. Never throws, which would end Cesium's render loop. */
+  /** Called by Cesium for each frame and pass. Never throws, which would end Cesium's render loop. @internal */
   update(frameState: FrameState): void {
     if (this.#destroyed) return;
     try {
@@ -268,7 +277,10 @@ export class PointCloudLayer {
     return this.#destroyed;
   }
 
-  /** Frees all GPU objects, stops loading and, where the layer opened it, closes the data set. */
+  /**
+   * Frees all GPU objects, stops loading and, where the layer opened it, closes the data set. Called again it does
+   * nothing, since a collection that held the layer may have destroyed it; any other use then throws a DeveloperError.
+   */
   destroy(): undefined {
     if (this.#destroyed) return undefined;
     this.#destroyed = true;
@@ -278,6 +290,11 @@ export class PointCloudLayer {
     this.#watch.destroy();
     if (this.#ownsCloud) this.cloud.destroy();
     return undefined;
+  }
+
+  /** @throws DeveloperError after `destroy()`, in the words of Cesium's own objects */
+  #mustExist(): void {
+    if (this.#destroyed) throw new DeveloperError("This object was destroyed, i.e., destroy() was called.");
   }
 
   /** Frees all that is on the GPU. */

@@ -84,6 +84,7 @@ export class ClipSet {
 
   /**
    * The volumes over a data set (a `PointCloud`), compiled when first asked for after a change.
+   * @internal
    * @throws StyleError STYLE_CLIP; PlacementError where a volume in source coordinates has no place there
    */
   over(space: SourceSpace): ClipVolumes {
@@ -93,6 +94,7 @@ export class ClipSet {
   /**
    * The same in steps, of the volumes as they are now; each is compiled once for a data set. The steps throw what
    * {@link over} does.
+   * @internal
    */
   overInSteps(space: SourceSpace): Steps<ClipVolumes> {
     return this.#compile([...this.#clips], this.#revision, space);

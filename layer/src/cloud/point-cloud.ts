@@ -1,5 +1,6 @@
 import {
   type Crs,
+  type GeoreferenceRecord,
   type HeightReference,
   type OperationReport,
   PlacementError,
@@ -12,7 +13,7 @@ import {
   keyName,
   type NodeBounds,
   NodeStore,
-  OctreeNode,
+  type OctreeNode,
   parseKey,
   type SharedBudget,
   sameKey,
@@ -67,9 +68,9 @@ export class PointCloud {
   /** What a drawn position is worth: named parts and their sum, metres. */
   readonly accuracy: StatedAccuracy;
   /** Who named the coordinate system. */
-  readonly basis: Georeference["basis"];
+  readonly basis: "given" | "record" | "file";
   /** What the places come from. */
-  readonly engine: Georeference["engine"];
+  readonly engine: GeoreferenceRecord["engine"];
   /** What that engine said of the way it chose; undefined where the page derives the places itself. */
   readonly operation: OperationReport | undefined;
   /** Files of the geoids that heights go through; empty where they are drawn as they are. */
@@ -80,7 +81,7 @@ export class PointCloud {
   readonly scale: readonly [number, number, number];
   /** Whether the points have colours of their own. */
   readonly hasColour: boolean;
-  /** Brings nodes for views. */
+  /** Brings nodes for views. @internal */
   readonly stream: NodeStream;
 
   readonly #source: PointSource;
@@ -164,18 +165,24 @@ export class PointCloud {
   /**
    * Opens a data set: what it says of itself, its coordinate system and the root page of its hierarchy; no points yet.
    * @param from an address, a `File` or `Blob`, or an own source of bytes
-   * @throws SourceError, FormatError, CrsError, PlacementError, RecordError
+   * @throws SourceError, FormatError, CrsError, PlacementError, RecordError; the signal's reason when aborted
    */
   static async fromUrl(from: SourceLike, options: PointCloudOptions = {}): Promise<PointCloud> {
-    const source = await openSource(from, options);
-    const cloud = new PointCloud(source, await georeferenceOf(source, options), options);
+    const { signal } = options;
+    let cloud: PointCloud | undefined;
     try {
-      await cloud.#openRoot(options.signal);
+      const source = await openSource(from, options);
+      const georeference = await georeferenceOf(source, options);
+      signal?.throwIfAborted();
+      cloud = new PointCloud(source, georeference, options);
+      await cloud.#openRoot(signal);
+      signal?.throwIfAborted();
+      return cloud;
     } catch (thrown) {
-      cloud.destroy();
-      throw thrown;
+      cloud?.destroy();
+      // Whatever an abort made fail on the way.
+      throw signal?.aborted ? signal.reason : thrown;
     }
-    return cloud;
   }
 
   /** Box of all points, source units: as declared, or the octree's cube where that is found wrong. */
@@ -242,19 +249,19 @@ export class PointCloud {
 
   /**
    * One point exactly as it is recorded: its integers and all attributes, decoded again from the file.
-   * @param from the node, its key or its name `depth-x-y-z`
+   * @param from a node or batch, its key, or its name `depth-x-y-z`
    * @param point how many-th point in drawing order, or the index of its record in the chunk
    * @throws FormatError FORMAT_NODE where there is no such node or no such point in it
    * @throws SourceError, DecodeError; the signal's reason when aborted
    */
   async readPoint(
-    from: OctreeNode | VoxelKey | string,
+    from: { readonly key: VoxelKey } | VoxelKey | string,
     point: number | { readonly record: number },
     options: { signal?: AbortSignal | undefined } = {},
   ): Promise<PointRecord> {
     const signal = options.signal ?? new AbortController().signal;
     // A node may have left the octree since it was drawn: its key tells which one takes its place.
-    const key = from instanceof OctreeNode ? from.key : from;
+    const key = typeof from === "object" && "key" in from ? from.key : from;
     const { name, records } = await this.#withPoints(key, signal, async (node) => {
       return { name: node.name, records: await this.#loader.records(node, signal) };
     });

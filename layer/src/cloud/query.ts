@@ -99,7 +99,7 @@ export class PointQuery {
   #frontier: { readonly key: VoxelKey; readonly within: boolean }[] = [{ key: ROOT_KEY, within: false }];
   #following: Promise<void> | undefined;
 
-  /** @throws RangeError where the spacing is not a number from 0 on */
+  /** @internal @throws RangeError where the spacing is not a number from 0 on */
   constructor(parts: QueryParts, { volume, spacing = 0 }: QueryOptions) {
     if (!(spacing >= 0)) throw new RangeError(`spacing needs metres from 0 on, not ${spacing}`);
     this.#parts = parts;

@@ -36,9 +36,9 @@ const held = (value: number) => (value > 0 ? value : 0);
 export class SharedBudget {
   /** Most points drawn at once. */
   points: number;
-  /** Bytes of decoded nodes of all clouds. */
+  /** Bytes of decoded nodes of all clouds. @internal */
   readonly cpu: ByteLedger;
-  /** Bytes on the GPU of all layers; whoever uploads tells it. */
+  /** Bytes on the GPU of all layers; whoever uploads tells it. @internal */
   readonly gpu: ByteLedger;
   readonly #shares = new Map<object, Share>();
   #threshold = 0;
@@ -68,6 +68,7 @@ export class SharedBudget {
    * Gives a view its part.
    * @param viewer stands for the view; the same object in each call
    * @param limit points that this view may have at most, whatever the budget leaves
+   * @internal
    */
   grant(viewer: object, demand: Demand, limit: number): Grant {
     this.#shares.delete(viewer);
@@ -86,7 +87,7 @@ export class SharedBudget {
     return { counts, threshold };
   }
 
-  /** A view ends: its points are free for the others. */
+  /** A view ends: its points are free for the others. @internal */
   release(viewer: object): void {
     this.#shares.delete(viewer);
     const demands = [...this.#shares.values()].map((share) => share.demand);

@@ -3,6 +3,7 @@ export { LazDecoder, type LazPerf } from "./laz-decoder.js";
 export { LocalExecutor } from "./local-executor.js";
 export { cubeSlack } from "./node-job.js";
 export { checkNodeSize } from "./node-size.js";
+export type { DecodedPoints, Encoded, Expected, PointDecoder } from "./point-decoder.js";
 export { type PoolOptions, type WorkerLike, WorkerPool } from "./pool.js";
 export type {
   Appearance,
@@ -14,5 +15,7 @@ export type {
   NodeJob,
   NodeRecords,
   NodeVertices,
+  WorkerReply,
+  WorkerRequest,
 } from "./protocol.js";
 export { exactValue, type StoredAttribute } from "./stored-attribute.js";

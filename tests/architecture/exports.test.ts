@@ -1,0 +1,73 @@
+import { join } from "node:path";
+import ts from "typescript";
+import { describe, expect, it } from "vitest";
+import { projectRoot } from "../project.js";
+
+/** What applications import. */
+const ENTRIES = ["layer/src/index.ts", "layer/src/cesium/index.ts"];
+const OURS = /\/(georef|layer)\/(src|dist)\//;
+
+/**
+ * Names of the project's own types that an entry's declarations mention in what they let others see, but that the entry
+ * does not export: an application could use such a value and not write down its type.
+ */
+function unnameable(program: ts.Program, entry: string): string[] {
+  const checker = program.getTypeChecker();
+  const module = checker.getSymbolAtLocation(program.getSourceFile(entry)!)!;
+  const resolved = (symbol: ts.Symbol) =>
+    symbol.flags & ts.SymbolFlags.Alias ? checker.getAliasedSymbol(symbol) : symbol;
+  const exported = new Set(checker.getExportsOfModule(module).map(resolved));
+  const missing = new Set<string>();
+  const look = (node: ts.Node): void => {
+    // Neither bodies nor private or internal members are seen by others.
+    if (ts.isBlock(node) || isPrivate(node) || isInternal(node)) return;
+    if (ts.isPropertyDeclaration(node) && node.type === undefined) return;
+    const name = ts.isTypeReferenceNode(node)
+      ? node.typeName
+      : ts.isExpressionWithTypeArguments(node)
+        ? node.expression
+        : undefined;
+    const symbol = name && checker.getSymbolAtLocation(name);
+    const target = symbol && resolved(symbol);
+    if (target && !(target.flags & ts.SymbolFlags.TypeParameter)) {
+      const ours = target.declarations?.some((one) => OURS.test(one.getSourceFile().fileName));
+      if (ours && !exported.has(target)) missing.add(target.name);
+    }
+    ts.forEachChild(node, look);
+  };
+  for (const symbol of exported) {
+    for (const declaration of symbol.declarations ?? []) {
+      if (OURS.test(declaration.getSourceFile().fileName)) look(seenPart(declaration));
+    }
+  }
+  return [...missing].sort();
+}
+
+/** Of a constant only its type is seen, if it has one written down. */
+function seenPart(declaration: ts.Declaration): ts.Node {
+  return ts.isVariableDeclaration(declaration) && declaration.type ? declaration.type : declaration;
+}
+
+function isPrivate(node: ts.Node): boolean {
+  if (!ts.isClassElement(node)) return false;
+  if (node.name && ts.isPrivateIdentifier(node.name)) return true;
+  return ts.canHaveModifiers(node)
+    ? (ts.getModifiers(node) ?? []).some(({ kind }) => kind === ts.SyntaxKind.PrivateKeyword)
+    : false;
+}
+
+/** What `stripInternal` leaves out of the declarations. */
+function isInternal(node: ts.Node): boolean {
+  return ts.getJSDocTags(node).some(({ tagName }) => tagName.text === "internal");
+}
+
+describe("every type that an entry's declarations mention", () => {
+  const files = ENTRIES.map((entry) => join(projectRoot, entry));
+  const config = ts.readConfigFile(join(projectRoot, "layer/tsconfig.json"), ts.sys.readFile).config;
+  const { options } = ts.parseJsonConfigFileContent(config, ts.sys, join(projectRoot, "layer"));
+  const program = ts.createProgram(files, { ...options, noEmit: true, composite: false, incremental: false });
+
+  it.each(ENTRIES)("is exported by %s", { timeout: 120_000 }, (entry) => {
+    expect(unnameable(program, join(projectRoot, entry))).toEqual([]);
+  });
+});
