@@ -315,7 +315,7 @@ describe.skipIf(pythonMissing)(
       await page.fill("#height-code", "2056");
       await page.press("#height-code", "Enter");
       await page.waitForFunction(() => document.querySelector("#message")?.textContent !== "");
-      expect(await page.textContent("#message")).toContain("EPSG:2056 is none of the height systems");
+      expect(await page.textContent("#message")).toContain("EPSG:2056 is not a vertical coordinate system");
       expect(await height()).toBe("ellipsoidal");
       expect(await page.inputValue("#height")).toBe("ellipsoidal");
 

@@ -466,9 +466,9 @@ describe("ClipSet", () => {
     [Clip.box({ centre: center, size: [1, 1, 1] } as never), 'a box has no "centre". Did you mean "center"?'],
     [Clip.plane({ through: center, roll: 1 } as never), 'a plane has no "roll". Use mode, through, heading'],
     [Clip.polygon(SQUARE, { botom: 3 } as never), 'a polygon has no "botom". Did you mean "bottom"?'],
-    [Clip.polygon(SQUARE, { mode: "insde" } as never), 'there is no mode "insde". Did you mean "inside"?'],
-    [{ ...Clip.polygon(SQUARE), mode: "toString" }, 'there is no mode "toString". Use inside, outside or'],
-    [{ ...Clip.polygon(SQUARE), kind: "constructor" }, "this is no volume"],
+    [Clip.polygon(SQUARE, { mode: "insde" } as never), 'unknown mode "insde". Did you mean "inside"?'],
+    [{ ...Clip.polygon(SQUARE), mode: "toString" }, 'unknown mode "toString". Use inside, outside or'],
+    [{ ...Clip.polygon(SQUARE), kind: "constructor" }, "this is not a clip volume"],
   ])("refuses misspelt names and says what was meant: %j", (clip, message) => {
     const set = new ClipSet();
     expect(() => set.add(clip as Clip)).toThrow(expect.objectContaining({ code: "STYLE_CLIP" }));

@@ -28,11 +28,11 @@ const PROPERTIES: ReadonlyMap<unknown, readonly string[]> = new Map<Clip["kind"]
  */
 export function checkClip(clip: Clip): void {
   const names = PROPERTIES.get(clip?.kind);
-  if (!names) fail("this is no volume", "Use Clip.box, Clip.plane or Clip.polygon");
+  if (!names) fail("this is not a clip volume", "Use Clip.box, Clip.plane or Clip.polygon");
   const unknown = Object.keys(clip).find((name) => name !== "kind" && !names.includes(name));
   if (unknown !== undefined) fail(`a ${clip.kind} has no ${shown(unknown)}`, instead(unknown, names));
   if (!Object.hasOwn(ROLES, clip.mode)) {
-    fail(`there is no mode ${shown(clip.mode)}`, instead(clip.mode, Object.keys(ROLES)));
+    fail(`unknown mode ${shown(clip.mode)}`, instead(clip.mode, Object.keys(ROLES)));
   }
   if (clip.kind === "polygon") checkPolygon(clip);
   else if (clip.kind === "box") {
@@ -41,7 +41,7 @@ export function checkClip(clip: Clip): void {
       fail(`a box cannot be ${[size].flat().join(" × ")} m large`, "Give three lengths greater than 0");
     }
     if (!areNumbers([clip.heading, clip.pitch, clip.roll], 3)) {
-      fail("a box is turned by what is no angle", "Give finite angles");
+      fail("the angles of a box are not finite numbers", "Give finite angles");
     }
     checkPlace(clip.center);
   } else {
@@ -121,21 +121,21 @@ function checkPlace(place: ClipPlace): void {
   const onEarth = source !== undefined || Math.abs(Number(latitude)) <= Math.PI / 2;
   if (areNumbers(numbers, 3) && onEarth) return;
   fail(
-    `(${[numbers].flat().join(", ")}) is no place`,
+    `(${[numbers].flat().join(", ")}) is not a position`,
     "Give longitude and latitude in radians and height in metres, or source",
   );
 }
 
 function checkPolygon({ coordinates, ring, bottom, top }: PolygonClip): void {
   if (coordinates !== "geodetic" && coordinates !== "source") {
-    fail(`there are no coordinates ${shown(coordinates)}`, "Use geodetic or source");
+    fail(`unknown coordinates ${shown(coordinates)}`, "Use geodetic or source");
   }
   if (ring.length < 3) fail(`a polygon cannot have ${ring.length} corners`, "Give three corners or more");
   const fits = (corner: Corner) =>
     areNumbers(corner, 2) && (coordinates === "source" || Math.abs(corner[1]) <= Math.PI / 2);
   if (!ring.every(fits)) {
     fail(
-      "a corner of a polygon is no place",
+      "a corner of a polygon is not a position",
       "Give longitude and latitude in radians, or x and y of the data set",
     );
   }

@@ -58,7 +58,7 @@ export async function declaredCrs(
     return resolveWithNotes(sources, (code) => epsg?.(code) ?? table(code));
   } catch (thrown) {
     if (!first || !(thrown instanceof SourceError)) throw thrown;
-    const text = `what its codes would tell besides is not known: ${thrown.cause}`;
+    const text = `its EPSG codes could not be looked up: ${thrown.cause}`;
     return { ...first, notes: [...first.notes, { code: thrown.code, text }] };
   }
 }

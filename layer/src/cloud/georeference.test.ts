@@ -201,8 +201,8 @@ describe("georeferenceOf a file with a transformation", () => {
   });
 
   it.each([
-    ["CRS_UNKNOWN", "EPSG:2056", /EPSG:2056 is none of the height systems/],
-    ["CRS_UNKNOWN", "EPSG:1", /EPSG:1 is none of the height systems/],
+    ["CRS_UNKNOWN", "EPSG:2056", /EPSG:2056 is not a vertical coordinate system/],
+    ["CRS_UNKNOWN", "EPSG:1", /EPSG:1 is not a vertical coordinate system/],
     ["CRS_UNKNOWN", "NAP", /"NAP" is no height reference/],
     ["CRS_UNKNOWN", "EPSG:2056+5728", /is no height reference/],
     ["CRS_UNSUPPORTED", "EPSG:5861", /"LAT depth" counts depths, not heights/],
@@ -214,7 +214,7 @@ describe("georeferenceOf a file with a transformation", () => {
     }
   });
 
-  it("SOURCE_HEIGHTS where the data of height systems cannot be had", async () => {
+  it("SOURCE_HEIGHTS where the data of height systems cannot be loaded", async () => {
     const options = { vertical: "EPSG:5728", heightData: noHeightData };
     await expect(open(withRecords(record, transformation), options)).rejects.toThrow(
       expect.objectContaining({ code: "SOURCE_HEIGHTS" }),
@@ -374,7 +374,7 @@ describe("georeferenceOf a file that names codes", () => {
     const both = await open({ records: [text(utm(32)), keys([3072, 25832])] }, { epsgTable });
     expect([both.crs.code, datumNote(both)]).toEqual([
       "EPSG:25832",
-      expect.stringMatching(/codes would tell .* it cannot be had/),
+      expect.stringMatching(/codes could not be looked up: it cannot be had/),
     ]);
   });
 

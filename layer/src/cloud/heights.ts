@@ -46,7 +46,7 @@ export async function lookupFor(
   throw new CrsError({
     code: "CRS_UNKNOWN",
     file,
-    cause: `EPSG:${code} is none of the height systems of EPSG`,
+    cause: `EPSG:${code} is not a vertical coordinate system of EPSG`,
     fix: "give the code of a vertical coordinate system, such as EPSG:5728, or ellipsoidal",
   });
 }

@@ -35,7 +35,7 @@ export async function packagedFile<T>(
   throw new SourceError({
     code,
     file: address.href,
-    cause: `${what} cannot be had: ${cause}`,
+    cause: `${what} cannot be loaded: ${cause}`,
     fix: "put the files of @groma/layer/dist/cloud beside the code, as bundlers do that follow new URL(…, import.meta.url)",
   });
 }

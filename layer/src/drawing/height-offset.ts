@@ -10,7 +10,7 @@ export function checkHeightOffset(metres: number, file: string): number {
   throw new StyleError({
     code: "STYLE_HEIGHT_OFFSET",
     file,
-    cause: `points cannot be drawn ${metres} m above their places`,
+    cause: `points cannot be drawn ${metres} m above their positions`,
     fix: `Use metres from ${-GREATEST} to ${GREATEST}`,
   });
 }

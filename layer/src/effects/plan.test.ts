@@ -191,9 +191,9 @@ describe("what is forced", () => {
   });
 
   it.each<[unknown, string]>([
-    [{ eyeDomeLightning: true }, 'there is no effect "eyeDomeLightning". Did you mean "eyeDomeLighting"?'],
-    [{ constructor: true }, 'there is no effect "constructor"'],
-    [JSON.parse('{ "__proto__": true }'), 'there is no effect "__proto__"'],
+    [{ eyeDomeLightning: true }, 'unknown effect "eyeDomeLightning". Did you mean "eyeDomeLighting"?'],
+    [{ constructor: true }, 'unknown effect "constructor"'],
+    [JSON.parse('{ "__proto__": true }'), 'unknown effect "__proto__"'],
     [{ disc: "yes" }, 'forced.disc cannot be "yes". Use true or false'],
     [{ disc: 1 }, "forced.disc cannot be 1"],
     [{ rgb: true }, "rgb cannot be forced, it follows from the style"],

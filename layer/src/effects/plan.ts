@@ -77,7 +77,7 @@ export function checkForced(forced: Forced, file: string): Forced {
   const entries = entriesOf(forced, undefined, place, "an object of effects, each true or false");
   for (const [name, on] of entries) {
     const effect = EFFECTS.find((known) => known.name === name);
-    if (!effect) place.refuse(`there is no effect ${shown(name)}`, instead(name, names));
+    if (!effect) place.refuse(`unknown effect ${shown(name)}`, instead(name, names));
     if (on === undefined) continue;
     if (effect.forcible === "never") {
       place.refuse(`${name} cannot be forced, it follows from the style`, instead(name, names));

@@ -288,7 +288,7 @@ describe("the properties of a style", () => {
         ],
       },
       "STYLE_GRADIENT",
-      "the stops of gradient are no gradient. Use two stops or more",
+      "the stops of gradient do not form a gradient. Use two stops or more",
     ],
     [
       { blend: { color: "intensity", shara: 0.5 } },
@@ -320,7 +320,7 @@ describe("the properties of a style", () => {
       "STYLE_CLASSES",
       'classes.6 has no "shwo". Did you mean "show"? Otherwise use name, color or show',
     ],
-    [{ classes: { 300: {} } }, "STYLE_CLASSES", 'there is no class "300". Use numbers from 0 to 255'],
+    [{ classes: { 300: {} } }, "STYLE_CLASSES", 'unknown class "300". Use numbers from 0 to 255'],
     [{ minimumSize: 9, maximumSize: 3 }, "STYLE_POINT_SIZE", "sizes cannot run from 9 to 3 pixels"],
     [{ minimumSize: 51 }, "STYLE_POINT_SIZE", "sizes cannot run from 51 to 50 pixels"],
   ])("%j: %s", (given, code, message) => {

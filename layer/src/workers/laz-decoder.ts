@@ -51,7 +51,7 @@ export class LazDecoder implements PointDecoder<Encoded<"laz">> {
     } catch (thrown) {
       // After a trap the memory of the module is in no known state: the next chunk gets a fresh one.
       this.#module = undefined;
-      throw badChunk(file, node, thrown instanceof Error ? thrown.message : "the decoder gave up");
+      throw badChunk(file, node, thrown instanceof Error ? thrown.message : "the decoder failed");
     }
   }
 }

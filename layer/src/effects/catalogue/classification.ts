@@ -21,7 +21,7 @@ const table: Kind<ClassTable> = {
     const edited: Record<number, PointClass> = { ...present };
     for (const [number, edit] of entriesOf(given, undefined, place, this.valid)) {
       if (!NUMBERS.includes(number))
-        place.refuse(`there is no class ${shown(number)}`, "use numbers from 0 to 255");
+        place.refuse(`unknown class ${shown(number)}`, "use numbers from 0 to 255");
       if (edit === undefined) continue;
       edited[Number(number)] = pointClass.read(edit, inside(place, `.${number}`), present[Number(number)]);
     }

@@ -29,7 +29,7 @@ const stops: Kind<readonly GradientStop[]> = {
     const all = list(stop).read(given, place);
     const rising = all.every(({ at }, index) => index === 0 || at >= all[index - 1].at);
     if (all.length >= 2 && rising) return all;
-    return place.refuse(`the stops of ${place.name} are no gradient`, `use ${this.valid}`);
+    return place.refuse(`the stops of ${place.name} do not form a gradient`, `use ${this.valid}`);
   },
 };
 

@@ -35,7 +35,7 @@ export async function refusalOf(
   }
   await discardBody(response);
   if (status === 404 || status === 410) {
-    const cause = known ? "the file vanished while it was being read" : "there is no such file";
+    const cause = known ? "the file vanished while it was being read" : "the file does not exist";
     return { error: error("SOURCE_NOT_FOUND", cause, "Check the address") };
   }
   if (status === 401 || status === 403) {
