@@ -18,10 +18,16 @@ function unnameable(program: ts.Program, entry: string): string[] {
     symbol.flags & ts.SymbolFlags.Alias ? checker.getAliasedSymbol(symbol) : symbol;
   const exported = new Set(checker.getExportsOfModule(module).map(resolved));
   const missing = new Set<string>();
+  const known = new Set<ts.Symbol>();
   const look = (node: ts.Node): void => {
     // Neither bodies nor private or internal members are seen by others.
     if (ts.isBlock(node) || isPrivate(node) || isInternal(node)) return;
     if (ts.isPropertyDeclaration(node) && node.type === undefined) return;
+    // What a type is compared with decides which branch is seen, and is not seen itself.
+    if (ts.isConditionalTypeNode(node)) {
+      for (const part of [node.checkType, node.trueType, node.falseType]) look(part);
+      return;
+    }
     const name = ts.isTypeReferenceNode(node)
       ? node.typeName
       : ts.isExpressionWithTypeArguments(node)
@@ -30,8 +36,13 @@ function unnameable(program: ts.Program, entry: string): string[] {
     const symbol = name && checker.getSymbolAtLocation(name);
     const target = symbol && resolved(symbol);
     if (target && !(target.flags & ts.SymbolFlags.TypeParameter)) {
-      const ours = target.declarations?.some((one) => OURS.test(one.getSourceFile().fileName));
-      if (ours && !exported.has(target)) missing.add(target.name);
+      const ours = target.declarations?.find((one) => OURS.test(one.getSourceFile().fileName));
+      if (ours && !exported.has(target) && !known.has(target)) {
+        known.add(target);
+        // An alias that its file keeps to itself is a way of writing; what it is made of is what others meet.
+        if (ts.isTypeAliasDeclaration(ours) && !isExported(ours)) look(ours.type);
+        else missing.add(target.name);
+      }
     }
     ts.forEachChild(node, look);
   };
@@ -46,6 +57,10 @@ function unnameable(program: ts.Program, entry: string): string[] {
 /** Of a constant only its type is seen, if it has one written down. */
 function seenPart(declaration: ts.Declaration): ts.Node {
   return ts.isVariableDeclaration(declaration) && declaration.type ? declaration.type : declaration;
+}
+
+function isExported(declaration: ts.TypeAliasDeclaration): boolean {
+  return declaration.modifiers?.some(({ kind }) => kind === ts.SyntaxKind.ExportKeyword) ?? false;
 }
 
 function isPrivate(node: ts.Node): boolean {

@@ -7,6 +7,7 @@ export {
   EFFECT_NAMES,
   type EffectName,
   type EyeDomeLighting,
+  type EyeDomeStyle,
   eyeDomeOf,
   type Forced,
   GRADIENTS,

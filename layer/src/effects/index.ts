@@ -1,4 +1,4 @@
-export { type EyeDomeLighting, eyeDomeOf } from "./catalogue/eye-dome-lighting.js";
+export { type EyeDomeLighting, type EyeDomeStyle, eyeDomeOf } from "./catalogue/eye-dome-lighting.js";
 export {
   type ColourBy,
   EFFECT_NAMES,
