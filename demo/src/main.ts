@@ -168,7 +168,7 @@ function start(viewer: Viewer): void {
     wanted: Flight["way"] | "stay",
   ): Promise<void> {
     groma.layer = undefined;
-    showFacts(layer.cloud, { given: crs !== undefined });
+    showFacts(layer, { given: crs !== undefined });
     heights.attach(layer.cloud, how.vertical);
     controls.attach(layer);
     box.attach(layer);

@@ -1,6 +1,6 @@
 import type { AccuracyPart, OperationReport } from "@groma/georef";
 import { printable } from "@groma/georef/printable";
-import type { PointCloud } from "@groma/layer/cesium";
+import type { PointCloudLayer, SourceWarning } from "@groma/layer/cesium";
 import { byId, setText, textElement } from "./elements.js";
 import {
   accuracyWords,
@@ -19,14 +19,23 @@ import {
  * Writes what a cloud is, where it is and what that is worth.
  * @param given whether the reader gave its coordinate system
  */
-export function showFacts(cloud: PointCloud, { given }: { given: boolean }): void {
+export function showFacts({ cloud, nodeLoaded }: PointCloudLayer, { given }: { given: boolean }): void {
   const { name, pointCount, crs, geoids, operation, accuracy } = cloud;
   setText(byId("title", HTMLHeadingElement), name);
   document.title = `${printable(name)} · Groma`;
   const remark = accuracy.parts.find((part) => part.name === "height")?.note;
+  const doubts = document.createElement("div");
+  showDoubts(doubts, cloud.warnings);
+  // Some of what a file says of itself is refuted only by the points that arrive.
+  let shown = cloud.warnings;
+  nodeLoaded.addEventListener(() => {
+    if (cloud.warnings === shown) return;
+    shown = cloud.warnings;
+    showDoubts(doubts, shown);
+  });
   const facts = byId("facts", HTMLDListElement);
   facts.replaceChildren(
-    ...fact("Points", { text: countWords(pointCount) }),
+    ...fact("Points", { text: countWords(pointCount) }, doubts),
     ...fact("Coordinate system", crsWords(crs, { given })),
     ...fact("Height", heightWords(crs, { geoids, remark })),
     ...fact(
@@ -39,6 +48,11 @@ export function showFacts(cloud: PointCloud, { given }: { given: boolean }): voi
     ...fact("Accuracy", accuracyWords(accuracy), partsOf(accuracy.parts)),
   );
   facts.hidden = false;
+}
+
+/** Writes what a data set says of itself and does not hold. */
+function showDoubts(place: HTMLElement, warnings: readonly SourceWarning[]): void {
+  place.replaceChildren(...warnings.map(({ message }) => warning(message)));
 }
 
 function fact(term: string, { text, note }: Words, ...more: HTMLElement[]): HTMLElement[] {

@@ -28,6 +28,18 @@ function bytesOf(...descriptors: readonly Descriptor[]): Uint8Array {
 }
 
 describe("parseExtraBytes", () => {
+  it("reads names that are not UTF-8 as Latin-1, so that different names stay different", () => {
+    const named = (...name: number[]) => {
+      const bytes = bytesOf({ code: 9 });
+      bytes.set(name, 4);
+      return parseExtraBytes(bytes, 4)[0]?.name;
+    };
+    expect(named(0x48, 0xf6, 0x68, 0x65)).toBe("Höhe");
+    expect(named(0x48, 0xf5, 0x68, 0x65)).toBe("Hõhe");
+    expect(named(0x80)).toBe("\u0080");
+    expect(named(0x48, 0xc3, 0xb6)).toBe("Hö");
+  });
+
   it("reads types, places, scales, offsets and what means no value", () => {
     const found = parseExtraBytes(
       bytesOf(

@@ -96,11 +96,19 @@ function checkHeader(header: LasHeader, file: string): void {
   if (header.offset.some((offset) => !Number.isFinite(offset))) throw invalid("offset");
 }
 
-/** Fixed-length text of a LAS header or VLR: ends at the first NUL, trailing blanks dropped. */
+/**
+ * Fixed-length text of a LAS header or VLR: ends at the first NUL, trailing blanks dropped. LAS 1.4 R15 table 3 asks for
+ * ASCII; what is neither that nor UTF-8 is read as Latin-1, byte by byte, as the converter reads it.
+ */
 export function readText(bytes: Uint8Array, at: number, length: number): string {
   const field = bytes.subarray(at, at + length);
   const end = field.indexOf(0);
-  return new TextDecoder("utf-8").decode(end < 0 ? field : field.subarray(0, end)).trimEnd();
+  const text = end < 0 ? field : field.subarray(0, end);
+  try {
+    return new TextDecoder("utf-8", { fatal: true, ignoreBOM: true }).decode(text).trimEnd();
+  } catch {
+    return String.fromCharCode(...text).trimEnd();
+  }
 }
 
 /**
