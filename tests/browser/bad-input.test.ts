@@ -12,6 +12,9 @@ const withoutCrs = data("lion_takanawa.copc.laz");
 const missing = scan.missing ?? withoutCrs.missing;
 const HTML = new TextEncoder().encode("<!DOCTYPE html><title>Sign in</title>");
 
+const skipped = (file: { missing?: string | undefined }) =>
+  file.missing ? ` (skipped: ${file.missing})` : "";
+
 describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing})` : ""}`, () => {
   let good: View;
   let goodCloud: string;
@@ -71,6 +74,12 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
     expect(watch.errors.filter((text) => !/Failed to load resource/.test(text))).toEqual([]);
   }
 
+  /** How many points the layer draws once it has settled. */
+  async function drawn(): Promise<number> {
+    await page.waitForFunction(() => window.groma?.layer?.settled, undefined, { timeout: 120_000 });
+    return page.evaluate(() => window.groma.layer.statistics.pointsDrawn);
+  }
+
   it.each<[string, string, Misbehaviour]>([
     ["SOURCE_NO_RANGE", "a server without Range", ({ response }) => response.writeHead(200).end(file)],
     ["SOURCE_HTML", "a web page instead of data", ({ response }) => response.writeHead(200).end(HTML)],
@@ -102,6 +111,21 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
     await screenshot(page, "bad-input-no-crs");
     await livesOn();
   });
+
+  const wrongBounds = data("reports/k30_bbox_wrong.copc.laz");
+  it.skipIf(wrongBounds.missing)(
+    `a file whose bounds do not hold its points is drawn, and the page says so${skipped(wrongBounds)}`,
+    { timeout: 180_000 },
+    async () => {
+      bad = await BadServer.start(readFileSync(wrongBounds.path));
+      await show(bad.url);
+      expect(await drawn()).toBeGreaterThan(100);
+      expect(await page.locator("#facts .warning").allTextContents()).toContainEqual(
+        expect.stringContaining("the declared bounds do not hold the points"),
+      );
+      await screenshot(page, "bad-input-wrong-bounds");
+    },
+  );
 
   it("an address that is none of a cloud is not followed", { timeout: 60_000 }, async () => {
     await show("javascript:alert(1)");
