@@ -1,10 +1,17 @@
 import { type Cartesian3, RequestErrorEvent, Resource, TrustedServers } from "cesium";
-import type { ClipSet } from "../clips/index.js";
-import type { PointCloud, PointRecord } from "../cloud/index.js";
+import { ClipSet } from "../clips/index.js";
+import {
+  CLOUD_OPTIONS,
+  optionPlace,
+  type PointCloud,
+  type PointCloudOptions,
+  type PointRecord,
+} from "../cloud/index.js";
 import type { GpuMilliseconds } from "../drawing/frame.js";
 import type { GpuCounts } from "../drawing/gpu.js";
 import type { Forced, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
+import { flag, type Kind, type Kinds, kindOf, number, some } from "../options/index.js";
 import type { HttpOptions, SourceLike } from "../sources/index.js";
 
 /** How a layer draws; all can be changed later. */
@@ -28,6 +35,54 @@ export interface PointCloudLayerOptions {
   readonly forced?: Forced | undefined;
   /** What `scene.pick` returns as `id`. Default: the cloud's name. */
   readonly id?: unknown;
+}
+
+/** Held against the data set, once that is open, by whoever it is handed to. */
+const checkedLater: Kind<never> = kindOf("anything", (_given): _given is never => true);
+
+/** What each option of a layer may be. */
+export const LAYER_OPTIONS: Kinds<PointCloudLayerOptions> = {
+  show: flag,
+  style: checkedLater,
+  maximumScreenSpaceError: number(0),
+  pointBudget: number(0),
+  budget: CLOUD_OPTIONS.budget,
+  heightOffset: checkedLater,
+  clips: kindOf("a ClipSet", (given): given is ClipSet => given instanceof ClipSet),
+  filter: checkedLater,
+  forced: checkedLater,
+  id: checkedLater,
+};
+
+/** Options of a layer and of the data set that it opens. */
+type OpeningOptions = PointCloudLayerOptions & PointCloudOptions;
+
+/** The options, and of them those that say how the data set is opened. @throws StyleError STYLE_OPTION */
+export function checkOpeningOptions(given: OpeningOptions): {
+  readonly options: OpeningOptions;
+  readonly opening: PointCloudOptions;
+} {
+  const kinds: Kinds<OpeningOptions> = { ...CLOUD_OPTIONS, ...LAYER_OPTIONS };
+  const options = some(kinds).read(given, optionPlace("options", "PointCloudLayer.fromUrl"));
+  const opening = Object.entries(options).filter(([name]) => Object.hasOwn(CLOUD_OPTIONS, name));
+  return { options, opening: Object.fromEntries(opening) };
+}
+
+/** Options of a layer of a data set that is open. @throws StyleError STYLE_OPTION */
+export function checkLayerOptions(given: PointCloudLayerOptions, file: string): PointCloudLayerOptions {
+  return some(LAYER_OPTIONS).read(given, optionPlace("options", file));
+}
+
+/** One of these options, as it is assigned to a layer. @throws StyleError STYLE_OPTION */
+export function checkLayerOption<Name extends keyof PointCloudLayerOptions>(
+  name: Name,
+  given: NonNullable<PointCloudLayerOptions[Name]>,
+  file: string,
+): NonNullable<PointCloudLayerOptions[Name]> {
+  // A kind reads undefined as little as any other value that is none of it.
+  return LAYER_OPTIONS[name].read(given, optionPlace(name, file)) as NonNullable<
+    PointCloudLayerOptions[Name]
+  >;
 }
 
 /** Numbers about the frame drawn last. */

@@ -2,6 +2,7 @@ import { Cartesian3, PerspectiveFrustum, SceneMode } from "cesium";
 import { describe, expect, it, vi } from "vitest";
 import { Clip, ClipSet } from "../clips/index.js";
 import { PointCloud } from "../cloud/index.js";
+import { SharedBudget } from "../octree/index.js";
 import { tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource, type ByteSource } from "../sources/index.js";
 import type { NodeExecutor } from "../workers/index.js";
@@ -81,7 +82,7 @@ describe("PointCloudLayer.update", () => {
       after();
       return before;
     };
-    layer.budget = { points: 1 } as never;
+    layer.budget = Object.assign(new SharedBudget(), { grant: undefined }) as never;
     expect(update()).toBe(0);
     expect(told).toEqual([expect.objectContaining({ name: "DrawError", code: "DRAW_FRAME" })]);
     update();
@@ -112,7 +113,7 @@ describe("PointCloudLayer.update", () => {
     layer.error.addEventListener(() => {
       throw new Error("of the application");
     });
-    layer.budget = {} as never;
+    layer.budget = Object.assign(new SharedBudget(), { grant: undefined }) as never;
     const { frameState, after } = frame();
     layer.update(frameState);
     expect(() => after()).not.toThrow();
@@ -208,5 +209,75 @@ describe("PointCloudLayer.fromUrl", () => {
       { executor, crs, signal: AbortSignal.abort("before") },
     );
     await expect(never).rejects.toBe("before");
+  });
+});
+
+describe("options", () => {
+  const refused = (text: string) =>
+    expect.objectContaining({
+      name: "StyleError",
+      code: "STYLE_OPTION",
+      message: expect.stringContaining(text),
+    });
+
+  it.each<[object, string]>([
+    [{ pointBudget: Number.NaN }, "options.pointBudget cannot be NaN. Use a number from 0 on"],
+    [{ maximumScreenSpaceError: -1 }, "options.maximumScreenSpaceError cannot be -1"],
+    [{ show: "yes" }, "options.show cannot be"],
+    [{ clips: [] }, "Use a ClipSet"],
+    [{ budget: { points: 1 } }, "Use a SharedBudget"],
+    [{ poinBudget: 1 }, 'options has no "poinBudget". Did you mean "pointBudget"'],
+    [JSON.parse('{ "__proto__": 1 }'), 'options has no "__proto__"'],
+    [{ constructor: 1 }, 'options has no "constructor"'],
+    [{ toString: 1 }, 'options has no "toString"'],
+  ])("%o is refused before anything is read, and for an open cloud", async (options, text) => {
+    let reads = 0;
+    const read = async () => {
+      reads++;
+      return new Uint8Array();
+    };
+    const source: ByteSource = { name: "a", size: 1, read };
+    await expect(PointCloudLayer.fromUrl(source, options)).rejects.toEqual(refused(text));
+    expect(reads).toBe(0);
+    const cloud = await open();
+    expect(() => PointCloudLayer.fromCloud(cloud, options)).toThrow(refused(text));
+  });
+
+  it.each<[object, string]>([
+    [{ timeout: "5" }, "options.timeout cannot be"],
+    [{ timeout: Number.POSITIVE_INFINITY }, "options.timeout cannot be Infinity"],
+    [{ tolerance: Number.NaN }, "options.tolerance cannot be NaN"],
+    [{ crs: 2056 }, "options.crs cannot be 2056. Use a string"],
+    [{ credentials: "included" }, 'Did you mean "include"'],
+    [{ retry: { attemps: 2 } }, 'options.retry has no "attemps"'],
+    [{ limits: { requests: 0 } }, "options.limits.requests cannot be 0"],
+    [{ headers: "a" }, "options.headers cannot be"],
+    [{ signal: {} }, "Use an AbortSignal"],
+    [{ executor: {} }, "options.executor cannot be an object"],
+    [{ constructor: 1 }, 'options has no "constructor"'],
+  ])("%o is refused for a data set", async (options, text) => {
+    await expect(PointCloud.fromUrl(new Blob(), options)).rejects.toEqual(refused(text));
+    await expect(PointCloudLayer.fromUrl(new Blob(), options)).rejects.toEqual(refused(text));
+  });
+
+  it.each(["show", "maximumScreenSpaceError", "pointBudget", "budget", "clips"] as const)(
+    "%s is refused when assigned, and stays as it was",
+    async (name) => {
+      const layer = PointCloudLayer.fromCloud(await open());
+      const before = layer[name];
+      for (const value of [Number.NaN, -1, "1", null, {}]) {
+        expect(() => Object.assign(layer, { [name]: value })).toThrow(refused(`${name} cannot be`));
+      }
+      expect(layer[name]).toBe(before);
+    },
+  );
+
+  it("heightOffset is a number", async () => {
+    const cloud = await open();
+    for (const heightOffset of ["5", [5]]) {
+      expect(() => PointCloudLayer.fromCloud(cloud, { heightOffset } as never)).toThrow(
+        "STYLE_HEIGHT_OFFSET",
+      );
+    }
   });
 });

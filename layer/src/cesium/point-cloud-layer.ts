@@ -21,6 +21,9 @@ import type { FrameState } from "./engine/cesium-private.js";
 import { ContextWatch } from "./engine/context-watch.js";
 import { cameraOfFrame } from "./frame-camera.js";
 import {
+  checkLayerOption,
+  checkLayerOptions,
+  checkOpeningOptions,
   type LayerSource,
   type LayerStatistics,
   type PickResult,
@@ -37,14 +40,6 @@ import type { CesiumView } from "./node-drawable.js";
  * no coordinate of the earth's size ever becomes a float32. Drawn in 3D only, not in 2D and Columbus view.
  */
 export class PointCloudLayer {
-  /** Whether the layer is drawn; a hidden layer loads nothing. */
-  show: boolean;
-  /** Pixels between neighbouring points above which the next level is drawn. */
-  maximumScreenSpaceError: number;
-  /** Most points drawn at once. */
-  pointBudget: number;
-  /** Points and bytes that this layer shares with others. */
-  budget: SharedBudget | undefined;
   /** The data set. */
   readonly cloud: PointCloud;
   /** Sphere around all points as they are drawn, to fly to; moves with {@link heightOffset}. */
@@ -70,7 +65,11 @@ export class PointCloudLayer {
   readonly #unsubscribe: () => void;
   readonly #watch = new ContextWatch(() => this.#release());
   readonly #failures = new FrameFailures();
-  #clips: ClipSet;
+  #show = true;
+  #maximumScreenSpaceError = 2;
+  #pointBudget = 1_000_000;
+  #budget: SharedBudget | undefined;
+  #clips = new ClipSet();
   #style: PointCloudStyle;
   #filter: PointFilter | undefined;
   #forced: Forced = {};
@@ -88,7 +87,7 @@ export class PointCloudLayer {
     this.maximumScreenSpaceError = options.maximumScreenSpaceError ?? 2;
     this.budget = options.budget;
     this.pointBudget = options.pointBudget ?? (options.budget ? Number.POSITIVE_INFINITY : 1_000_000);
-    this.#clips = options.clips ?? new ClipSet();
+    this.clips = options.clips;
     this.filter = options.filter;
     this.forced = options.forced ?? {};
     this.#style = defaultStyle(cloud);
@@ -109,10 +108,11 @@ export class PointCloudLayer {
    */
   static async fromUrl(
     source: LayerSource,
-    options: PointCloudLayerOptions & PointCloudOptions = {},
+    given: PointCloudLayerOptions & PointCloudOptions = {},
   ): Promise<PointCloudLayer> {
+    const { options, opening } = checkOpeningOptions(given);
     const { from, http } = resolveSource(source);
-    const cloud = await PointCloud.fromUrl(from, { ...http, ...options });
+    const cloud = await PointCloud.fromUrl(from, { ...http, ...opening });
     try {
       return new PointCloudLayer(cloud, options, true);
     } catch (thrown) {
@@ -123,7 +123,46 @@ export class PointCloudLayer {
 
   /** A layer of a data set that is open already, and that stays open when the layer is destroyed. */
   static fromCloud(cloud: PointCloud, options: PointCloudLayerOptions = {}): PointCloudLayer {
-    return new PointCloudLayer(cloud, options, false);
+    return new PointCloudLayer(cloud, checkLayerOptions(options, cloud.name), false);
+  }
+
+  /** Whether the layer is drawn; a hidden layer loads nothing. @throws StyleError STYLE_OPTION */
+  get show(): boolean {
+    return this.#show;
+  }
+
+  set show(show: boolean) {
+    this.#show = this.#checked("show", show);
+  }
+
+  /**
+   * Pixels between neighbouring points above which the next level is drawn, from 0 on.
+   * @throws StyleError STYLE_OPTION
+   */
+  get maximumScreenSpaceError(): number {
+    return this.#maximumScreenSpaceError;
+  }
+
+  set maximumScreenSpaceError(pixels: number) {
+    this.#maximumScreenSpaceError = this.#checked("maximumScreenSpaceError", pixels);
+  }
+
+  /** Most points drawn at once, from 0 to Infinity. @throws StyleError STYLE_OPTION */
+  get pointBudget(): number {
+    return this.#pointBudget;
+  }
+
+  set pointBudget(points: number) {
+    this.#pointBudget = this.#checked("pointBudget", points);
+  }
+
+  /** Points and bytes that this layer shares with others. @throws StyleError STYLE_OPTION */
+  get budget(): SharedBudget | undefined {
+    return this.#budget;
+  }
+
+  set budget(budget: SharedBudget | undefined) {
+    this.#budget = budget === undefined ? undefined : this.#checked("budget", budget);
   }
 
   /** How points are drawn. Assigning some of the properties leaves the others as they are. @throws StyleError */
@@ -146,14 +185,17 @@ export class PointCloudLayer {
     this.#filter = filter && checkFilter(filter, this.cloud);
   }
 
-  /** Volumes that cut or highlight; assigning undefined gives the layer an empty set of its own. */
+  /**
+   * Volumes that cut or highlight; assigning undefined gives the layer an empty set of its own.
+   * @throws StyleError STYLE_OPTION
+   */
   get clips(): ClipSet {
     return this.#clips;
   }
 
   set clips(clips: ClipSet | undefined) {
     this.#mustExist();
-    this.#clips = clips ?? new ClipSet();
+    this.#clips = clips === undefined ? new ClipSet() : this.#checked("clips", clips);
   }
 
   /** Effects that are on or off whatever the scene calls for. @throws StyleError STYLE_FORCED */
@@ -290,6 +332,13 @@ export class PointCloudLayer {
     this.#watch.destroy();
     if (this.#ownsCloud) this.cloud.destroy();
     return undefined;
+  }
+
+  #checked<Name extends keyof PointCloudLayerOptions>(
+    name: Name,
+    value: NonNullable<PointCloudLayerOptions[Name]>,
+  ): NonNullable<PointCloudLayerOptions[Name]> {
+    return checkLayerOption(name, value, this.cloud.name);
   }
 
   /** @throws DeveloperError after `destroy()`, in the words of Cesium's own objects */

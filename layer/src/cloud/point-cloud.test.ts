@@ -13,7 +13,8 @@ import type {
   NodeVertices,
 } from "../workers/index.js";
 import { transformationBytes } from "../workers/transformation.fixture.js";
-import { PointCloud, type PointCloudOptions } from "./point-cloud.js";
+import type { PointCloudOptions } from "./cloud-options.js";
+import { PointCloud } from "./point-cloud.js";
 
 const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
 const FEET = { name: "foot", kind: "linear", size: 0.3048 } as const;

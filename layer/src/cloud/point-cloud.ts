@@ -15,11 +15,10 @@ import {
   NodeStore,
   type OctreeNode,
   parseKey,
-  type SharedBudget,
   sameKey,
   type VoxelKey,
 } from "../octree/index.js";
-import { type OpenedSource, type OpenOptions, openSource, type SourceLike } from "../sources/open-source.js";
+import { type OpenedSource, openSource, type SourceLike } from "../sources/open-source.js";
 import {
   type PointSource,
   type SourceBox,
@@ -27,35 +26,18 @@ import {
   wrongBounds,
 } from "../sources/point-source.js";
 import type { CloudStatistics } from "../sources/statistics.js";
-import {
-  type Appearance,
-  type NodeExecutor,
-  type NodeVertices,
-  type PoolOptions,
-  WorkerPool,
-} from "../workers/index.js";
+import { type Appearance, type NodeExecutor, type NodeVertices, WorkerPool } from "../workers/index.js";
 import { recordedAppearance, showSixteenBits } from "./appearance.js";
 import type { AttributeInfo, PointRecord } from "./attribute-info.js";
 import { attributesOf } from "./attributes.js";
-import { type Georeference, type GeoreferenceOptions, georeferenceOf } from "./georeference.js";
+import { checkCloudOptions, type PointCloudOptions } from "./cloud-options.js";
+import { type Georeference, georeferenceOf } from "./georeference.js";
 import { NodeGeometry } from "./node-geometry.js";
 import { NodeLoader, noNode } from "./node-loader.js";
-import { NodeStream, type StreamLimits } from "./node-stream.js";
+import { NodeStream } from "./node-stream.js";
 import { openPage } from "./open-page.js";
 import { pointRecord } from "./point-record.js";
 import { PointQuery, type QueryOptions, type QueryParts } from "./query.js";
-
-/** How a data set is opened. */
-export interface PointCloudOptions extends GeoreferenceOptions, OpenOptions {
-  /** Where nodes are decoded. Default: an own pool of workers. */
-  readonly executor?: NodeExecutor | undefined;
-  /** Options of that pool. */
-  readonly workers?: PoolOptions | undefined;
-  /** How much is loaded at once and kept. */
-  readonly limits?: StreamLimits | undefined;
-  /** Budget that several clouds share; its bytes hold for what is kept. Default: none. */
-  readonly budget?: SharedBudget | undefined;
-}
 
 /** A data set, opened once, whatever number of views draw it. Knows no view and no library of views. */
 export class PointCloud {
@@ -165,9 +147,11 @@ export class PointCloud {
   /**
    * Opens a data set: what it says of itself, its coordinate system and the root page of its hierarchy; no points yet.
    * @param from an address, a `File` or `Blob`, or an own source of bytes
+   * @throws StyleError STYLE_OPTION for an option that there is not, or that is none of its kind
    * @throws SourceError, FormatError, CrsError, PlacementError, RecordError; the signal's reason when aborted
    */
-  static async fromUrl(from: SourceLike, options: PointCloudOptions = {}): Promise<PointCloud> {
+  static async fromUrl(from: SourceLike, given: PointCloudOptions = {}): Promise<PointCloud> {
+    const options = checkCloudOptions(given);
     const { signal } = options;
     let cloud: PointCloud | undefined;
     try {

@@ -6,7 +6,7 @@ const GREATEST = 10_000;
 
 /** @throws StyleError STYLE_HEIGHT_OFFSET for what is no length of that kind */
 export function checkHeightOffset(metres: number, file: string): number {
-  if (Math.abs(metres) <= GREATEST) return metres;
+  if (typeof metres === "number" && Math.abs(metres) <= GREATEST) return metres;
   throw new StyleError({
     code: "STYLE_HEIGHT_OFFSET",
     file,

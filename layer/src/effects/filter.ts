@@ -8,6 +8,7 @@ import {
   list,
   oneOf,
   type Place,
+  some,
   whole,
 } from "../options/index.js";
 import { type ClassStyle, hidesClasses, showsClass } from "./classes.js";
@@ -77,11 +78,7 @@ export function checkFilter(filter: PointFilter, { attributes, name: file }: Sty
   const single = attributes.filter(({ kind, components = 1 }) => kind !== "color" && components === 1);
   const names = single.map(({ name }) => name);
   const kinds = { classes: CLASSES, returns: RETURNS, ranges: rangesOf(names) };
-  const given = entriesOf(filter, Object.keys(kinds), place, "an object with classes, returns or ranges");
-  const entries = given
-    .filter(([, value]) => value !== undefined)
-    .map(([name, value]) => [name, kinds[name as keyof typeof kinds].read(value, inside(place, `.${name}`))]);
-  return frozen(Object.fromEntries(entries));
+  return frozen(some<PointFilter>(kinds).read(filter, place));
 }
 
 const CLASSES = list(whole(0, 255));

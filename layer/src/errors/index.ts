@@ -32,7 +32,7 @@ export class DecodeError extends GromaError {
   static override readonly kind = "DecodeError";
 }
 
-/** An application asked for a way of drawing that does not exist or that the data cannot give. Codes start with `STYLE_`. */
+/** An application gave an option that does not exist or that nothing can be done with. Codes start with `STYLE_`. */
 export class StyleError extends GromaError {
   static override readonly kind = "StyleError";
 }

@@ -14,7 +14,9 @@ export {
   oneOf,
   type Place,
   parts,
+  some,
   text,
   whole,
+  withMethods,
 } from "./kinds.js";
 export { closest, instead, listed, shown } from "./words.js";

@@ -35,18 +35,18 @@ export function kindOf<Value>(valid: string, holds: (given: unknown) => given is
   };
 }
 
-/** A finite number within bounds, both included. */
-export function number(least: number, greatest: number): Kind<number> {
+/** A number within bounds, both included; with one bound only, Infinity is one too. */
+export function number(least: number, greatest = Number.POSITIVE_INFINITY): Kind<number> {
   return kindOf(
-    `a number from ${least} to ${greatest}`,
+    `a number from ${least} ${greatest === Number.POSITIVE_INFINITY ? "on" : `to ${greatest}`}`,
     (given): given is number => typeof given === "number" && given >= least && given <= greatest,
   );
 }
 
 /** A whole number within bounds, both included. */
-export function whole(least: number, greatest: number): Kind<number> {
+export function whole(least: number, greatest = Number.POSITIVE_INFINITY): Kind<number> {
   return kindOf(
-    `a whole number from ${least} to ${greatest}`,
+    `a whole number from ${least} ${greatest === Number.POSITIVE_INFINITY ? "on" : `to ${greatest}`}`,
     (given): given is number =>
       Number.isInteger(given) && Number(given) >= least && Number(given) <= greatest,
   );
@@ -138,6 +138,35 @@ export function parts<Value extends object, Context = unknown>(
       return Object.fromEntries(entries) as Value;
     },
   };
+}
+
+/** An object with some of the properties named, each checked; those left out, or undefined, stay out. */
+export function some<Value extends object, Context = unknown>(
+  kinds: Kinds<Value, Context>,
+): Kind<Value, Context> {
+  const names = Object.keys(kinds);
+  const valid = `an object with ${listed(names)}`;
+  return {
+    valid,
+    read(given, place) {
+      const entries = entriesOf(given, names, place, valid)
+        .filter(([, value]) => value !== undefined)
+        .map(([name, value]) => [name, kinds[name as keyof Value].read(value, inside(place, `.${name}`))]);
+      return Object.fromEntries(entries) as Value;
+    },
+  };
+}
+
+/** An object that has the methods named, its own or inherited, whoever made it. */
+export function withMethods<Value extends object>(
+  what: string,
+  ...methods: readonly (keyof Value & string)[]
+): Kind<Value> {
+  return kindOf(
+    what,
+    (given): given is Value =>
+      isObject(given) && methods.every((name) => typeof (given as Partial<Value>)[name] === "function"),
+  );
 }
 
 /** What is an object is of one kind, what is not of the other. */
