@@ -161,6 +161,21 @@ describe("PointCloudLayer.destroy", () => {
       () => {
         layer.heightOffset = 1;
       },
+      () => {
+        layer.show = false;
+      },
+      () => {
+        layer.maximumScreenSpaceError = 1;
+      },
+      () => {
+        layer.pointBudget = 1;
+      },
+      () => {
+        layer.budget = undefined;
+      },
+      () => {
+        layer.forced = {};
+      },
     ];
     for (const use of uses) expect(use).toThrow(destroyed);
     const { frameState } = frame();

@@ -121,7 +121,10 @@ export class PointCloudLayer {
     }
   }
 
-  /** A layer of a data set that is open already, and that stays open when the layer is destroyed. */
+  /**
+   * A layer of a data set that is open already, and that stays open when the layer is destroyed.
+   * @throws StyleError
+   */
   static fromCloud(cloud: PointCloud, options: PointCloudLayerOptions = {}): PointCloudLayer {
     return new PointCloudLayer(cloud, checkLayerOptions(options, cloud.name), false);
   }
@@ -132,6 +135,7 @@ export class PointCloudLayer {
   }
 
   set show(show: boolean) {
+    this.#mustExist();
     this.#show = this.#checked("show", show);
   }
 
@@ -144,6 +148,7 @@ export class PointCloudLayer {
   }
 
   set maximumScreenSpaceError(pixels: number) {
+    this.#mustExist();
     this.#maximumScreenSpaceError = this.#checked("maximumScreenSpaceError", pixels);
   }
 
@@ -153,6 +158,7 @@ export class PointCloudLayer {
   }
 
   set pointBudget(points: number) {
+    this.#mustExist();
     this.#pointBudget = this.#checked("pointBudget", points);
   }
 
@@ -162,6 +168,7 @@ export class PointCloudLayer {
   }
 
   set budget(budget: SharedBudget | undefined) {
+    this.#mustExist();
     this.#budget = budget === undefined ? undefined : this.#checked("budget", budget);
   }
 
