@@ -21,11 +21,18 @@ const georef = (name, allowed) =>
     allowed.map((other) => `georef/src/${other}`),
   );
 
+/** A room of the command line, and the rooms of the library that every one of them may know. */
+const command = (name, allowed) =>
+  onlyTo(`cli-${name}`, `converter/cli/${name}`, [
+    ...allowed.map((other) => `converter/cli/${other}`),
+    ...["georef", "layer/(src|dist)"],
+  ]);
+
 const layer = (name, allowed) =>
   onlyTo(`layer-${name}`, `layer/src/${name}`, [...allowed.map((other) => `layer/src/${other}`), "georef"]);
 
 /** What everybody may know of a source of points, whatever its format. */
-const CONTRACT = "sources/(point-source|point-attribute|statistics|checksum)\\.ts";
+const CONTRACT = "sources/contract";
 /** What chooses the format. */
 const OPEN_SOURCE = "sources/open-source\\.ts";
 
@@ -62,6 +69,18 @@ module.exports = {
       "layer/(src|dist)/export",
       "layer/(src|dist)/errors",
     ]),
+    command("given", []),
+    command("core", []),
+    command("server", []),
+    command("terminal", ["core", "given"]),
+    command("proj/program", []),
+    command("proj/grids", ["proj/program"]),
+    command("proj", []),
+    command("place", ["proj", "core", "given", "terminal"]),
+    command("pdal", ["core", "terminal"]),
+    command("inspect", ["place", "core", "terminal"]),
+    command("conversion", ["pdal", "place", "core", "given", "terminal"]),
+    command("commands", ["conversion", "inspect", "server", "place", "core", "given", "terminal"]),
     layer("errors", []),
     layer("sources", ["errors"]),
     layer("sources/bytes", ["errors"]),
@@ -78,6 +97,8 @@ module.exports = {
     layer("options", []),
     layer("clips", ["octree", "options", "errors"]),
     layer("effects", ["clips", "octree", "options", "errors"]),
+    layer("effects/declaration", ["clips", "octree", "options", "errors"]),
+    layer("effects/catalogue", ["effects/declaration", "clips", "octree", "options", "errors"]),
     layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "errors"]),
     // A view hands out all that every application needs, beside its own.
     layer("cesium", [

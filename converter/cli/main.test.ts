@@ -307,8 +307,8 @@ describe("the command line", () => {
     };
     follow("main.js");
     expect([...loaded].sort()).toEqual([
-      "./choices.js",
-      "./output.js",
+      "./given/choices.js",
+      "./terminal/output.js",
       "@groma/georef/printable",
       "commander",
     ]);

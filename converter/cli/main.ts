@@ -1,9 +1,9 @@
 #!/usr/bin/env node
 // What a command needs is loaded when it is run, so that help and refused options come at once.
 import { Command, CommanderError, InvalidArgumentError, Option } from "commander";
-import { PROGRESS_KINDS, SAMPLINGS } from "./choices.js";
-import { complain, endWithReader, fail } from "./output.js";
+import { PROGRESS_KINDS, SAMPLINGS } from "./given/choices.js";
 import type { EngineChoice } from "./place/engine.js";
+import { complain, endWithReader, fail } from "./terminal/output.js";
 
 const ENGINES: readonly NonNullable<EngineChoice["engine"]>[] = ["proj", "proj4js"];
 

@@ -11,7 +11,7 @@ const EXITS = [
   {
     room: "converter/cli",
     writing: /process\.std(out|err)\.write|\bconsole\.|\bstdout\.write/,
-    files: ["output.ts", "progress.ts"],
+    files: ["terminal/output.ts", "terminal/progress.ts"],
   },
   {
     room: "demo/src",

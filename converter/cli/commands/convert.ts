@@ -3,9 +3,9 @@ import { convert } from "../conversion/convert.js";
 import { dryRun, planForMachines, planInWords } from "../conversion/dry-run.js";
 import type { ConvertOptions } from "../conversion/options.js";
 import { summaryForMachines, summaryInWords } from "../conversion/summary.js";
-import { interruptible } from "../interruption.js";
-import { print, printJson } from "../output.js";
-import { createProgress, defaultProgress } from "../progress.js";
+import { interruptible } from "../terminal/interruption.js";
+import { print, printJson } from "../terminal/output.js";
+import { createProgress, defaultProgress } from "../terminal/progress.js";
 
 export interface ConvertCommandOptions extends ConvertOptions {
   readonly dryRun?: boolean;

@@ -1,5 +1,5 @@
 import { inspect } from "../inspect/inspect.js";
-import { print, printJson } from "../output.js";
+import { print, printJson } from "../terminal/output.js";
 
 /**
  * The `info` command. A file without a usable CRS is described all the same; what is wrong with it is said.

@@ -1,9 +1,9 @@
 import { ecefToGeodetic, GromaError, PlacementError, placePoint, statedAccuracy } from "@groma/georef";
-import { scanFile } from "../core.js";
-import { placeInWords } from "../describe.js";
-import { print, printJson } from "../output.js";
-import { type Placed, placed } from "../placed.js";
-import { type Row, readRows } from "../rows.js";
+import { scanFile } from "../core/core.js";
+import { type Row, readRows } from "../given/rows.js";
+import { placeInWords } from "../place/describe.js";
+import { type Placed, placed } from "../place/placed.js";
+import { print, printJson } from "../terminal/output.js";
 
 const DEGREE = Math.PI / 180;
 

@@ -1,7 +1,7 @@
 import { statSync } from "node:fs";
 import { resolve } from "node:path";
-import { print } from "../output.js";
 import { ServerError, type ServingOptions, serve } from "../server/server.js";
+import { print } from "../terminal/output.js";
 
 /**
  * The `serve` command: the files of a folder with Range, until the process is stopped.

@@ -7,15 +7,15 @@ import { convert } from "../conversion/convert.js";
 import type { ConvertOptions } from "../conversion/options.js";
 import { isLas } from "../conversion/sources.js";
 import { placeSummary } from "../conversion/summary.js";
-import { coreProgram, type Scan, scanFile } from "../core.js";
-import { crsInWords, heightInWords } from "../describe.js";
-import { georeference } from "../georeference.js";
-import { interruptible } from "../interruption.js";
-import { count, print } from "../output.js";
+import { coreProgram, type Scan, scanFile } from "../core/core.js";
+import { crsInWords, heightInWords } from "../place/describe.js";
 import { chosenProj } from "../place/engine.js";
-import { placed } from "../placed.js";
-import { createProgress, defaultProgress } from "../progress.js";
+import { georeference } from "../place/georeference.js";
+import { placed } from "../place/placed.js";
 import { mountFile, ServerError, type ServingOptions, serve } from "../server/server.js";
+import { interruptible } from "../terminal/interruption.js";
+import { count, print } from "../terminal/output.js";
+import { createProgress, defaultProgress } from "../terminal/progress.js";
 
 /** Of the options of a conversion, those that `view` takes too say how the file is read and where it is. */
 export interface ViewOptions extends ConvertOptions, ServingOptions {}

@@ -2,7 +2,7 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, expect, it } from "vitest";
-import type { Georeferenced } from "../georeference.js";
+import type { Georeferenced } from "../place/georeference.js";
 import { coreArguments } from "./arguments.js";
 
 const scratch = mkdtempSync(join(tmpdir(), "groma-arguments-"));

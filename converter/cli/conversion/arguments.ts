@@ -1,7 +1,7 @@
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import type { Georeferenced } from "../georeference.js";
-import { outputWkt } from "../output-wkt.js";
+import type { Georeferenced } from "../place/georeference.js";
+import { outputWkt } from "../place/output-wkt.js";
 import type { ConvertOptions } from "./options.js";
 
 /** Inputs that go onto the command line; more of them might not fit. */

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
-import type { Georeferenced } from "../georeference.js";
 import type { PdalReport } from "../pdal/report.js";
+import type { Georeferenced } from "../place/georeference.js";
 import { type DryRun, planForMachines, planInWords } from "./dry-run.js";
 
 const crs: Georeferenced["crs"] = {

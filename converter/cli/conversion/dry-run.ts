@@ -1,13 +1,13 @@
 import { tmpdir } from "node:os";
 import { dirname, resolve } from "node:path";
 import type { Fault } from "@groma/georef";
-import { type CoreEvent, type Plan, planFiles } from "../core.js";
-import { crsInWords, heightInWords } from "../describe.js";
-import type { Georeferenced } from "../georeference.js";
-import { count, counted, labelled, size, skippedRow } from "../output.js";
+import { type CoreEvent, type Plan, planFiles } from "../core/core.js";
+import { freeBytes, withScratch } from "../core/scratch.js";
 import { type PdalReport, pdalInWords, pdalReport } from "../pdal/report.js";
+import { crsInWords, heightInWords } from "../place/describe.js";
+import type { Georeferenced } from "../place/georeference.js";
 import { centreRow, type Whereabouts } from "../place/whereabouts.js";
-import { freeBytes, withScratch } from "../scratch.js";
+import { count, counted, labelled, size, skippedRow } from "../terminal/output.js";
 import { coreArguments } from "./arguments.js";
 import type { ConvertOptions } from "./options.js";
 import { prepare } from "./prepare.js";

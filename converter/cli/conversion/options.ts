@@ -1,6 +1,6 @@
-import type { ProgressKind, Sampling } from "../choices.js";
-import type { Given } from "../georeference.js";
+import type { ProgressKind, Sampling } from "../given/choices.js";
 import type { EngineChoice } from "../place/engine.js";
+import type { Given } from "../place/georeference.js";
 
 /** What a conversion is told. */
 export interface ConvertOptions extends Given, EngineChoice {

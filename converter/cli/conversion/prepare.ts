@@ -1,12 +1,12 @@
 import { existsSync, statSync } from "node:fs";
 import { dirname } from "node:path";
 import { type Fault, GromaError } from "@groma/georef";
-import type { CoreEvent, PointBounds, Scan } from "../core.js";
-import { commonGeoreference, type Georeferenced, type Named } from "../georeference.js";
+import type { CoreEvent, PointBounds, Scan } from "../core/core.js";
 import type { Planned } from "../pdal/bring.js";
 import type { Pdal } from "../pdal/find.js";
 import type { Job } from "../pdal/pipeline.js";
 import { chosenProj } from "../place/engine.js";
+import { commonGeoreference, type Georeferenced, type Named } from "../place/georeference.js";
 import { expectedWhereabouts, type Whereabouts } from "../place/whereabouts.js";
 import { expandInputs, InputError } from "./inputs.js";
 import type { ConvertOptions } from "./options.js";

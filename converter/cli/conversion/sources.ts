@@ -2,7 +2,7 @@ import { existsSync } from "node:fs";
 import { open } from "node:fs/promises";
 import { availableParallelism } from "node:os";
 import type { Fault } from "@groma/georef";
-import { CoreError, type Scan, scanFile } from "../core.js";
+import { CoreError, type Scan, scanFile } from "../core/core.js";
 import type { Job } from "../pdal/pipeline.js";
 import { isAddress } from "./inputs.js";
 

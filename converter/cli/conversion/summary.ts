@@ -1,9 +1,9 @@
 import { basename } from "node:path";
 import { statedAccuracy } from "@groma/georef";
-import { accuracyInWords, placeInWords, remarks } from "../describe.js";
-import { count, counted, labelled, length, size, skippedRow } from "../output.js";
 import { pdalInWords } from "../pdal/report.js";
+import { accuracyInWords, placeInWords, remarks } from "../place/describe.js";
 import { centreRow } from "../place/whereabouts.js";
+import { count, counted, labelled, length, size, skippedRow } from "../terminal/output.js";
 import type { Converted } from "./convert.js";
 
 /** What a conversion made, for machines: the last of its JSON lines. */

@@ -1,5 +1,5 @@
 import { create } from "laz-perf/lib/node/index.js";
-import type { Scan } from "../core.js";
+import type { Scan } from "../core/core.js";
 
 /** The part of laz-perf's module that is used; its own types lean on a package that is not there. */
 interface LazPerf {

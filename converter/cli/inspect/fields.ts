@@ -1,4 +1,4 @@
-import type { Scan } from "../core.js";
+import type { Scan } from "../core/core.js";
 
 /** One attribute of a record. */
 export interface Field {

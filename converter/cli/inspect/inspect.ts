@@ -1,8 +1,8 @@
 import { type AccuracyPart, CrsError } from "@groma/georef";
-import { type Scan, type ScanStatistics, scanFile, type Verified, verifyFile } from "../core.js";
-import { type GeodeticBounds, geodeticBounds } from "../describe.js";
+import { type Scan, type ScanStatistics, scanFile, type Verified, verifyFile } from "../core/core.js";
+import { type GeodeticBounds, geodeticBounds } from "../place/describe.js";
+import { type Placed, placed } from "../place/placed.js";
 import { type Whereabouts, whereabouts } from "../place/whereabouts.js";
-import { type Placed, placed } from "../placed.js";
 import { FileSource } from "./file-source.js";
 import { type GpsSpan, gpsSpan } from "./gps-time.js";
 import { type HeaderDetails, headerDetails } from "./header.js";

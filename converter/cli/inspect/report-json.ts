@@ -1,5 +1,5 @@
 import { statedAccuracy } from "@groma/georef";
-import { density } from "../describe.js";
+import { density } from "../place/describe.js";
 import { className } from "./classes.js";
 import type { Inspection } from "./inspect.js";
 

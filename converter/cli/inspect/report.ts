@@ -1,4 +1,4 @@
-import type { Scan, ScanStatistics } from "../core.js";
+import type { Scan, ScanStatistics } from "../core/core.js";
 import {
   accuracyInWords,
   density,
@@ -6,9 +6,9 @@ import {
   heightInWords,
   placeInWords,
   remarks,
-} from "../describe.js";
-import { count, counted, labelled, length, size } from "../output.js";
+} from "../place/describe.js";
 import { centreRow } from "../place/whereabouts.js";
+import { count, counted, labelled, length, size } from "../terminal/output.js";
 import { className } from "./classes.js";
 import { gpsSpanInWords } from "./gps-time.js";
 import type { HeaderDetails } from "./header.js";

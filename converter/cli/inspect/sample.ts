@@ -1,4 +1,4 @@
-import type { Scan, ScanStatistics } from "../core.js";
+import type { Scan, ScanStatistics } from "../core/core.js";
 import { fields } from "./fields.js";
 import type { FileSource } from "./file-source.js";
 import type { HeaderDetails } from "./header.js";

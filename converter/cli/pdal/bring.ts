@@ -1,7 +1,7 @@
 import { open, stat } from "node:fs/promises";
 import { basename, join } from "node:path";
-import type { CoreEvent } from "../core.js";
-import { requireSpace } from "../scratch.js";
+import type { CoreEvent } from "../core/core.js";
+import { requireSpace } from "../core/scratch.js";
 import type { Pdal } from "./find.js";
 import { commonScale, type Form, formOf } from "./form.js";
 import type { Job } from "./pipeline.js";

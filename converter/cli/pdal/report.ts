@@ -1,4 +1,4 @@
-import { count } from "../output.js";
+import { count } from "../terminal/output.js";
 import type { Planned } from "./bring.js";
 import type { Pdal } from "./find.js";
 import { asideName } from "./form.js";

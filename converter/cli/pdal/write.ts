@@ -1,4 +1,4 @@
-import { type Scan, scanFile } from "../core.js";
+import { type Scan, scanFile } from "../core/core.js";
 import { PdalError } from "./errors.js";
 import type { Pdal } from "./find.js";
 import { asideName, type Form } from "./form.js";

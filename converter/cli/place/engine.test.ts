@@ -3,9 +3,9 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { resolveCrs } from "@groma/georef";
 import { afterAll, describe, expect, it } from "vitest";
-import { epsg } from "../epsg.js";
-import { findProj } from "../proj/find.js";
+import { findProj } from "../proj/program/find.js";
 import { chosenProj, engineTransformation } from "./engine.js";
+import { epsg } from "./epsg.js";
 
 const folder = mkdtempSync(join(tmpdir(), "groma-engine-"));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));

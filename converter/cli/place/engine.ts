@@ -1,8 +1,8 @@
 import { type Crs, CrsError, type Domain, GromaError } from "@groma/georef";
-import { OptionError } from "../option-error.js";
-import { ProjError } from "../proj/errors.js";
+import { OptionError } from "../given/option-error.js";
 import { proj4jsTransformation } from "../proj/fallback.js";
-import { findProj, type Proj } from "../proj/find.js";
+import { ProjError } from "../proj/program/errors.js";
+import { findProj, type Proj } from "../proj/program/find.js";
 import type { EngineResult } from "../proj/report.js";
 import { projTransformation } from "../proj/transformation.js";
 

@@ -7,8 +7,8 @@ import {
   localCrs,
   type Similarity,
 } from "@groma/georef";
-import { OptionError } from "../option-error.js";
-import { readRows } from "../rows.js";
+import { OptionError } from "../given/option-error.js";
+import { readRows } from "../given/rows.js";
 
 const DEGREE = Math.PI / 180;
 

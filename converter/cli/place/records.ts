@@ -15,13 +15,13 @@ import {
   truthOf,
   verticalSystems,
 } from "@groma/georef";
-import type { PointBounds } from "../core.js";
-import { epsgRows } from "../epsg.js";
-import type { Georeferenced } from "../georeference.js";
+import type { PointBounds } from "../core/core.js";
 import { egm96 } from "../proj/egm96.js";
 import { type EngineReport, UNKNOWN_HEIGHT_NOTE } from "../proj/report.js";
 import { type EngineChoice, type EngineSurroundings, engineTransformation } from "./engine.js";
+import { epsgRows } from "./epsg.js";
 import { geoidsOf } from "./geoids.js";
+import type { Georeferenced } from "./georeference.js";
 import { countriesOf } from "./whereabouts.js";
 
 /** Bound on the drawn position that the page keeps by default, metres. */

@@ -1,6 +1,6 @@
 import { resolveCrs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { epsg, epsgRows } from "../epsg.js";
+import { epsg, epsgRows } from "./epsg.js";
 import { likelyCrs } from "./likely-crs.js";
 import { expectedWhereabouts } from "./whereabouts.js";
 

@@ -16,9 +16,9 @@ import {
   truthOf,
   verticalSystems,
 } from "@groma/georef";
-import type { PointBounds } from "../core.js";
-import { epsg, epsgRows } from "../epsg.js";
-import { length } from "../output.js";
+import type { PointBounds } from "../core/core.js";
+import { length } from "../terminal/output.js";
+import { epsg, epsgRows } from "./epsg.js";
 import { likelyCrs } from "./likely-crs.js";
 
 const DEGREE = Math.PI / 180;

@@ -9,8 +9,8 @@ import {
 import type { Candidate } from "./candidate.js";
 import { runProjection } from "./cct.js";
 import { ellipsoidAxes } from "./ellipsoid.js";
-import type { Proj } from "./find.js";
 import type { EllipsoidText, PlannedStep } from "./plan.js";
+import type { Proj } from "./program/find.js";
 
 const ARC_SECOND = Math.PI / 648_000;
 /** In place of a grid's file name. */

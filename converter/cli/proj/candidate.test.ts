@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { choose } from "./candidate.js";
-import { findProj } from "./find.js";
 import type { Operation } from "./operation.js";
+import { findProj } from "./program/find.js";
 
 const proj = await findProj();
 const absent = proj ? "" : " (skipped: PROJ is not installed)";

@@ -9,7 +9,6 @@ import {
   spread,
 } from "@groma/georef";
 import { runPipeline, runToRadians } from "./cct.js";
-import type { Proj } from "./find.js";
 import { cutFrom } from "./grids/cut.js";
 import { type GridImage, type GridKind, unreadable } from "./grids/grid-image.js";
 import { locateGrid } from "./grids/locate.js";
@@ -17,6 +16,7 @@ import { openGrid } from "./grids/open.js";
 import type { Operation } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
 import type { GridName, Plan } from "./plan.js";
+import type { Proj } from "./program/find.js";
 
 /** An operation that can be followed for a domain. */
 export interface Candidate {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { readPoints, runPipeline, runProjection } from "./cct.js";
-import { findProj } from "./find.js";
+import { findProj } from "./program/find.js";
 import { splitPipeline } from "./step-text.js";
 
 const proj = await findProj();

@@ -1,6 +1,6 @@
-import { ProjError } from "./errors.js";
-import type { Proj } from "./find.js";
-import { run } from "./run.js";
+import { ProjError } from "./program/errors.js";
+import type { Proj } from "./program/find.js";
+import { run } from "./program/run.js";
 import { pipelineWords, type StepText } from "./step-text.js";
 
 /** Radians to degrees, so that the unit of what `cct` prints does not depend on what it takes the numbers for. */

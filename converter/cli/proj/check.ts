@@ -1,6 +1,6 @@
 import { compileTransformation, type Domain, PlacementError, type Transformation } from "@groma/georef";
 import { runPipeline } from "./cct.js";
-import type { Proj } from "./find.js";
+import type { Proj } from "./program/find.js";
 import type { StepText } from "./step-text.js";
 
 /** Points inside of the domain that are compared, besides its eight corners. */

@@ -1,8 +1,8 @@
 import type { EllipsoidAxes } from "@groma/georef";
 import { runPipeline } from "./cct.js";
-import { ProjError } from "./errors.js";
-import type { Proj } from "./find.js";
 import type { EllipsoidText } from "./plan.js";
+import { ProjError } from "./program/errors.js";
+import type { Proj } from "./program/find.js";
 
 /** Longitude, latitude in degrees, height: where an axis of the ellipsoid comes out. */
 const AXES = new Float64Array([0, 0, 0, 0, 90, 0]);

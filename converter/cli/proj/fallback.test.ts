@@ -9,7 +9,7 @@ import {
 import { describe, expect, it } from "vitest";
 import { egm96 } from "./egm96.js";
 import { proj4jsTransformation } from "./fallback.js";
-import { findProj } from "./find.js";
+import { findProj } from "./program/find.js";
 import { projTransformation } from "./transformation.js";
 
 const proj = await findProj();

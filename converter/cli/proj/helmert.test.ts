@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { runPipeline } from "./cct.js";
-import { findProj } from "./find.js";
 import { compose, helmertMap, IDENTITY, isIdentity, type LinearMap } from "./helmert.js";
+import { findProj } from "./program/find.js";
 import { splitPipeline } from "./step-text.js";
 
 const proj = await findProj();

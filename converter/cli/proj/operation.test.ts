@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { findProj } from "./find.js";
 import { listOperations, readOperations } from "./operation.js";
+import { findProj } from "./program/find.js";
 
 const proj = await findProj();
 const absent = proj ? "" : " (skipped: PROJ is not installed)";

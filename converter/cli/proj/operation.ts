@@ -1,7 +1,7 @@
 import { CrsError } from "@groma/georef";
-import type { Proj } from "./find.js";
 import { withCurrentNames } from "./grids/current-names.js";
-import { failed, run } from "./run.js";
+import type { Proj } from "./program/find.js";
+import { failed, run } from "./program/run.js";
 import { type CrsText, withArgument } from "./source.js";
 
 /** An operation that PROJ proposes. */

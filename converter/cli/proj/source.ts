@@ -2,8 +2,8 @@ import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { type Crs, CrsError } from "@groma/georef";
-import type { Proj } from "./find.js";
-import { run } from "./run.js";
+import type { Proj } from "./program/find.js";
+import { run } from "./program/run.js";
 
 /** A CRS in words that PROJ reads. */
 export interface CrsText {

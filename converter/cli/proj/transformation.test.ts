@@ -3,9 +3,9 @@ import { type Crs, compileTransformation, type Domain, encodeTransformation } fr
 import { describe, expect, it } from "vitest";
 import { dataFolder } from "../../../tests/project.js";
 import { runPipeline } from "./cct.js";
-import { findProj } from "./find.js";
 import { listOperations } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
+import { findProj } from "./program/find.js";
 import { projTransformation } from "./transformation.js";
 
 const grids = `${dataFolder}/grids`;

@@ -1,4 +1,4 @@
-import type { PointSource } from "../sources/point-source.js";
+import type { PointSource } from "../sources/contract/point-source.js";
 import { type Appearance, type Column, constantColumn, type NodeVertices } from "../workers/index.js";
 
 /**

@@ -1,5 +1,5 @@
 import type { Crs } from "@groma/georef";
-import type { PointAttribute } from "../sources/point-attribute.js";
+import type { PointAttribute } from "../sources/contract/point-attribute.js";
 import type { Appearance } from "../workers/index.js";
 import type { AttributeInfo } from "./attribute-info.js";
 

@@ -1,6 +1,6 @@
 import type { SourceError } from "../errors/index.js";
 import type { OctreeNode } from "../octree/index.js";
-import type { ServerWait } from "../sources/point-source.js";
+import type { ServerWait } from "../sources/contract/point-source.js";
 
 /** What is known of a node that could not be had for now. */
 interface Missing {

@@ -21,7 +21,7 @@ import {
   type TruthSources,
   truthOf,
 } from "@groma/georef";
-import type { PointSource } from "../sources/point-source.js";
+import type { PointSource } from "../sources/contract/point-source.js";
 import { declaredCrs, packagedEpsg } from "./declared-crs.js";
 import { type HeightData, packagedHeights } from "./height-data.js";
 import { crsWithHeights, derivedByEgm96, lookupFor, operationRegiven, regiven } from "./heights.js";

@@ -21,7 +21,7 @@ import {
   verticalLookup,
   withHeights,
 } from "@groma/georef";
-import type { PointSource } from "../sources/point-source.js";
+import type { PointSource } from "../sources/contract/point-source.js";
 import type { HeightData } from "./height-data.js";
 
 const CODE = /^\s*EPSG:(\d{1,6})\s*$/i;

@@ -1,6 +1,6 @@
 import { type Crs, ecefToGeodetic, type PointTransform, pointTransform, type Truth } from "@groma/georef";
 import { ancestorAt, isWithin, keyName, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
-import type { PointSource } from "../sources/point-source.js";
+import type { PointSource } from "../sources/contract/point-source.js";
 import { cubeSlack } from "../workers/index.js";
 import { type AffineMap, affineBounds, affineMap } from "./affine-bounds.js";
 

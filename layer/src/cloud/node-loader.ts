@@ -1,6 +1,6 @@
 import { FormatError } from "../errors/index.js";
 import { LruCache, type OctreeNode } from "../octree/index.js";
-import type { PointSource } from "../sources/point-source.js";
+import type { PointSource } from "../sources/contract/point-source.js";
 import {
   type Appearance,
   type ChunkJob,

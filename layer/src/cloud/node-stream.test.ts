@@ -2,7 +2,7 @@ import { describe, expect, it, vi } from "vitest";
 import { SourceError } from "../errors/index.js";
 import { NodeStore, type OctreeNode, SharedBudget, type View } from "../octree/index.js";
 import { insertPage } from "../octree/insert-page.fixture.js";
-import type { HierarchyEntry } from "../sources/point-source.js";
+import type { HierarchyEntry } from "../sources/contract/point-source.js";
 import type { NodeVertices } from "../workers/index.js";
 import { NodeStream } from "./node-stream.js";
 

@@ -11,7 +11,7 @@ import {
   type TraversalOptions,
   type View,
 } from "../octree/index.js";
-import type { ServerWait } from "../sources/point-source.js";
+import type { ServerWait } from "../sources/contract/point-source.js";
 import type { NodeVertices } from "../workers/index.js";
 import { Comeback } from "./comeback.js";
 

@@ -1,5 +1,5 @@
 import type { NodeStore, OctreeNode } from "../octree/index.js";
-import type { PointSource } from "../sources/point-source.js";
+import type { PointSource } from "../sources/contract/point-source.js";
 import { Pace } from "./pace.js";
 
 /** Entries between two looks at the clock. */

@@ -1,5 +1,5 @@
 import { type NodeBounds, NodeStore, type OctreeNode, type View, type VoxelKey } from "../octree/index.js";
-import type { HierarchyEntry } from "../sources/point-source.js";
+import type { HierarchyEntry } from "../sources/contract/point-source.js";
 
 /** Metres of the root's edge; the octree's corner is at the origin of ECEF. */
 export const EDGE = 1024;

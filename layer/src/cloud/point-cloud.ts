@@ -18,14 +18,14 @@ import {
   sameKey,
   type VoxelKey,
 } from "../octree/index.js";
-import { type OpenedSource, openSource, type SourceLike } from "../sources/open-source.js";
 import {
   type PointSource,
   type SourceBox,
   type SourceWarning,
   wrongBounds,
-} from "../sources/point-source.js";
-import type { CloudStatistics } from "../sources/statistics.js";
+} from "../sources/contract/point-source.js";
+import type { CloudStatistics } from "../sources/contract/statistics.js";
+import { type OpenedSource, openSource, type SourceLike } from "../sources/open-source.js";
 import { type Appearance, type NodeExecutor, type NodeVertices, WorkerPool } from "../workers/index.js";
 import { recordedAppearance, showSixteenBits } from "./appearance.js";
 import type { AttributeInfo, PointRecord } from "./attribute-info.js";

@@ -1,4 +1,4 @@
-import type { PointSource } from "../sources/point-source.js";
+import type { PointSource } from "../sources/contract/point-source.js";
 import { exactValue, type NodeRecords } from "../workers/index.js";
 import type { PointRecord, RecordValue } from "./attribute-info.js";
 

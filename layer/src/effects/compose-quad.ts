@@ -1,6 +1,6 @@
-import { QUAD_STAGES, type QuadPart } from "./effect.js";
+import { QUAD_STAGES, type QuadPart } from "./declaration/effect.js";
+import type { QuadShader, ShaderTarget } from "./declaration/shader.js";
 import { type EffectPlan, effectsOf } from "./effect-plan.js";
-import type { QuadShader, ShaderTarget } from "./shader.js";
 import { readBy, shaderText, stagedStatements } from "./shader-text.js";
 
 /**

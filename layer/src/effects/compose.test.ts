@@ -3,10 +3,10 @@ import { CESIUM } from "../cesium/engine/shader-target.js";
 import { EFFECT_NAMES, type EffectName } from "./catalogue/index.js";
 import { composePointShader } from "./compose.js";
 import { composeQuad } from "./compose-quad.js";
+import type { PointPass, PointShader, QuadShader } from "./declaration/shader.js";
 import { type EffectPlan, layerUniforms, passesOf, styleTextures } from "./effect-plan.js";
 import { planEffects, withoutClips } from "./plan.js";
 import { combinations, hasOwnTest, richFacts, styleOf } from "./scene.fixture.js";
-import type { PointPass, PointShader, QuadShader } from "./shader.js";
 import { WEBGL2 } from "./webgl2-target.fixture.js";
 
 /** By what each effect is known in a program's text. Those that are not here have a test of their own. */

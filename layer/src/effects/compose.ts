@@ -6,15 +6,15 @@ import {
   showsColour,
   type Varying,
   VERTEX_STAGES,
-} from "./effect.js";
-import { type EffectPlan, effectsOf, passesOf } from "./effect-plan.js";
+} from "./declaration/effect.js";
 import {
   type AttributeDeclaration,
   attributeName,
   type PointPass,
   type PointShader,
   type ShaderTarget,
-} from "./shader.js";
+} from "./declaration/shader.js";
+import { type EffectPlan, effectsOf, passesOf } from "./effect-plan.js";
 import { readBy, shaderText, stagedStatements, unique } from "./shader-text.js";
 
 /**

@@ -1,7 +1,7 @@
 import { type AnyEffect, EFFECTS, type EffectName, type PointCloudStyle } from "./catalogue/index.js";
-import type { Scene } from "./effect.js";
-import type { DrawnNode } from "./facts.js";
-import type { PointPass, TextureData, UniformValues } from "./shader.js";
+import type { Scene } from "./declaration/effect.js";
+import type { DrawnNode } from "./declaration/facts.js";
+import type { PointPass, TextureData, UniformValues } from "./declaration/shader.js";
 
 /** What an effect takes, measured. */
 export interface MeasuredCost {

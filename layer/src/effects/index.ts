@@ -7,10 +7,26 @@ export {
   type PointShape,
   type SizeMode,
 } from "./catalogue/index.js";
-export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./classes.js";
 export { composePointShader } from "./compose.js";
 export { composeQuad } from "./compose-quad.js";
-export { drawnSpacing, footprint } from "./drawn-spacing.js";
+export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./declaration/classes.js";
+export { drawnSpacing, footprint } from "./declaration/drawn-spacing.js";
+export type { ColumnScale, DrawnNode, PlacingFacts, SceneFacts } from "./declaration/facts.js";
+export { checkFilter, type PointFilter, passesFilter, type ReturnKind } from "./declaration/filter.js";
+export { GRADIENTS, type GradientName, type GradientStop } from "./declaration/gradients.js";
+export type { StyledAttribute, StyledCloud } from "./declaration/option.js";
+export type {
+  AttributeDeclaration,
+  PointPass,
+  PointShader,
+  QuadShader,
+  ShaderTarget,
+  TextureData,
+  UniformDeclaration,
+  UniformType,
+  UniformValues,
+} from "./declaration/shader.js";
+export { encodeVisibleOctree, type VisibleNode, type VisibleOctree } from "./declaration/visible-octree.js";
 export {
   type EffectPlan,
   type LedgerRow,
@@ -22,11 +38,7 @@ export {
   readsNodeTexture,
   styleTextures,
 } from "./effect-plan.js";
-export type { ColumnScale, DrawnNode, PlacingFacts, SceneFacts } from "./facts.js";
-export { checkFilter, type PointFilter, passesFilter, type ReturnKind } from "./filter.js";
-export { GRADIENTS, type GradientName, type GradientStop } from "./gradients.js";
 export { groundSpacing, type Patch } from "./ground-spacing.js";
-export type { StyledAttribute, StyledCloud } from "./option.js";
 export {
   type CloudPlacing,
   cloudPlacing,
@@ -42,16 +54,4 @@ export {
   widestPoint,
   withoutClips,
 } from "./plan.js";
-export type {
-  AttributeDeclaration,
-  PointPass,
-  PointShader,
-  QuadShader,
-  ShaderTarget,
-  TextureData,
-  UniformDeclaration,
-  UniformType,
-  UniformValues,
-} from "./shader.js";
 export { completeStyle, defaultStyle, type StyleParts } from "./style.js";
-export { encodeVisibleOctree, type VisibleNode, type VisibleOctree } from "./visible-octree.js";

@@ -1,5 +1,5 @@
 import { type AccuracyPart, ecefToGeodetic } from "@groma/georef";
-import type { PlacingFacts } from "./facts.js";
+import type { PlacingFacts } from "./declaration/facts.js";
 
 /** A data set as far as its placing is stated; a `PointCloud` is one. */
 export interface PlacedCloud {

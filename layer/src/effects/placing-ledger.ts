@@ -1,5 +1,5 @@
+import type { PlacingFacts, SceneFacts } from "./declaration/facts.js";
 import type { LedgerRow } from "./effect-plan.js";
-import type { PlacingFacts, SceneFacts } from "./facts.js";
 
 /** Mean radius of the earth, metres (IUGG). */
 const EARTH_RADIUS = 6_371_008.8;

@@ -1,8 +1,8 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { EFFECT_NAMES, EFFECTS, type EffectName, type PointCloudStyle } from "./catalogue/index.js";
-import { ASPRS_CLASSES } from "./classes.js";
-import type { SceneFacts } from "./facts.js";
+import { ASPRS_CLASSES } from "./declaration/classes.js";
+import type { SceneFacts } from "./declaration/facts.js";
 import { checkForced, type Forced, planEffects, widestPoint } from "./plan.js";
 import { richFacts, styleOf } from "./scene.fixture.js";
 

@@ -1,10 +1,10 @@
 import { StyleError } from "../errors/index.js";
 import { entriesOf, flag, frozen, inside, instead, type Place, shown } from "../options/index.js";
 import { type AnyEffect, EFFECTS, type EffectName, type PointCloudStyle } from "./catalogue/index.js";
-import { LEAST_SHARE } from "./colouring.js";
-import type { Colouring, Scene } from "./effect.js";
+import { LEAST_SHARE } from "./declaration/colouring.js";
+import type { Colouring, Scene } from "./declaration/effect.js";
+import type { SceneFacts } from "./declaration/facts.js";
 import type { EffectPlan, LedgerRow } from "./effect-plan.js";
-import type { SceneFacts } from "./facts.js";
 import { placingRows } from "./placing-ledger.js";
 
 /** Effects that the user forces on or off, whatever their magnitude. */

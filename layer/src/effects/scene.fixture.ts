@@ -1,6 +1,6 @@
 import { existsSync } from "node:fs";
 import type { EffectName, PointCloudStyle } from "./catalogue/index.js";
-import type { SceneFacts } from "./facts.js";
+import type { SceneFacts } from "./declaration/facts.js";
 import { defaultStyle } from "./style.js";
 
 /** Whether an effect has a test file beside it. */

@@ -1,4 +1,4 @@
-import type { ShaderTarget, ShaderWord, UniformDeclaration } from "./shader.js";
+import type { ShaderTarget, ShaderWord, UniformDeclaration } from "./declaration/shader.js";
 
 /** What the `main` of a shader is written from. */
 export interface ShaderSource {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { EFFECTS, type PointCloudStyle } from "./catalogue/index.js";
-import { ASPRS_CLASSES } from "./classes.js";
-import { GRADIENTS } from "./gradients.js";
+import { ASPRS_CLASSES } from "./declaration/classes.js";
+import { GRADIENTS } from "./declaration/gradients.js";
 import { hasOwnTest, richFacts, styleOf } from "./scene.fixture.js";
 import { completeStyle, defaultStyle, STYLE_OPTIONS, type StyleParts } from "./style.js";
 

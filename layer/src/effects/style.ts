@@ -1,8 +1,8 @@
 import { StyleError } from "../errors/index.js";
 import { frozen, instead, type Place, shown } from "../options/index.js";
 import { EFFECTS, type PointCloudStyle } from "./catalogue/index.js";
-import { COLOUR_OPTION } from "./colouring.js";
-import { type Option, option, type StyleContext, type StyledCloud, wordFor } from "./option.js";
+import { COLOUR_OPTION } from "./declaration/colouring.js";
+import { type Option, option, type StyleContext, type StyledCloud, wordFor } from "./declaration/option.js";
 
 /** What may be given of a value: of an object any part of it, at any depth. */
 type Given<Value> = Value extends readonly unknown[]

@@ -1,4 +1,4 @@
-import type { ShaderTarget } from "./shader.js";
+import type { ShaderTarget } from "./declaration/shader.js";
 
 /** Plain WebGL 2 without a library of views. */
 export const WEBGL2: ShaderTarget = {

@@ -1,4 +1,4 @@
-import type { HierarchyEntry } from "../sources/point-source.js";
+import type { HierarchyEntry } from "../sources/contract/point-source.js";
 import type { NodeStore } from "./node-store.js";
 import type { OctreeNode } from "./octree-node.js";
 

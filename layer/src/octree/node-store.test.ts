@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { HierarchyEntry } from "../sources/point-source.js";
+import type { HierarchyEntry } from "../sources/contract/point-source.js";
 import { insertPage } from "./insert-page.fixture.js";
 import { NodeStore } from "./node-store.js";
 

@@ -1,4 +1,4 @@
-import { badHierarchy } from "../sources/point-source.js";
+import { badHierarchy } from "../sources/contract/point-source.js";
 import { type HierarchyPage, OctreeNode } from "./octree-node.js";
 import { PageDraft } from "./page-draft.js";
 import { ROOT_KEY, type VoxelKey } from "./voxel-key.js";

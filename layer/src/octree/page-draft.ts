@@ -1,4 +1,4 @@
-import { badHierarchy, type HierarchyEntry } from "../sources/point-source.js";
+import { badHierarchy, type HierarchyEntry } from "../sources/contract/point-source.js";
 import { HierarchyPage, OctreeNode } from "./octree-node.js";
 import { ancestorAt, isWithin, keyName, sameKey } from "./voxel-key.js";
 

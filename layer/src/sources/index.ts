@@ -11,10 +11,8 @@ export type { ServerWait } from "./bytes/host-schedule.js";
 export { type HttpOptions, HttpSource, type RetryPolicy } from "./bytes/http-source.js";
 export { openBytes, type SourceLike } from "./bytes/open-bytes.js";
 export type { RenewalContext } from "./bytes/renewable.js";
-export { checkChecksum } from "./checksum.js";
-export { decodeStatistics } from "./copc/statistics-record.js";
-export { type Encoding, type OpenedSource, type OpenOptions, openSource } from "./open-source.js";
-export type { NumberType, PointAttribute } from "./point-attribute.js";
+export { checkChecksum } from "./contract/checksum.js";
+export type { NumberType, PointAttribute } from "./contract/point-attribute.js";
 export type {
   CrsDeclaration,
   EncodedChunk,
@@ -22,5 +20,7 @@ export type {
   PointSource,
   SourceBox,
   SourceWarning,
-} from "./point-source.js";
-export type { AttributeStatistics, CloudStatistics } from "./statistics.js";
+} from "./contract/point-source.js";
+export type { AttributeStatistics, CloudStatistics } from "./contract/statistics.js";
+export { decodeStatistics } from "./copc/statistics-record.js";
+export { type Encoding, type OpenedSource, type OpenOptions, openSource } from "./open-source.js";

@@ -3,8 +3,8 @@ import type { ReadOptions } from "./bytes/byte-source.js";
 import { looksLikeHtml } from "./bytes/http-answer.js";
 import type { HttpOptions } from "./bytes/http-source.js";
 import { openBytes, type SourceLike } from "./bytes/open-bytes.js";
+import type { PointSource } from "./contract/point-source.js";
 import { CopcSource } from "./copc/copc-source.js";
-import type { PointSource } from "./point-source.js";
 
 /** The formats that are known; each tells its files by how they begin. A further one is a line here. */
 const FORMATS = [CopcSource] as const;

@@ -1,4 +1,4 @@
-import { checkChecksum } from "../sources/checksum.js";
+import { checkChecksum } from "../sources/contract/checksum.js";
 import type { Encoding } from "../sources/open-source.js";
 import type { LazDecoder } from "./laz-decoder.js";
 import type { DecodedPoints, Encoded, Expected, PointDecoder } from "./point-decoder.js";

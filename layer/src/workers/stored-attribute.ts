@@ -1,4 +1,4 @@
-import type { NumberType, PointAttribute } from "../sources/point-attribute.js";
+import type { NumberType, PointAttribute } from "../sources/contract/point-attribute.js";
 
 /** One attribute of decoded points: where its numbers are. Many attributes may share bytes, as those of records do. */
 export interface StoredAttribute extends PointAttribute {

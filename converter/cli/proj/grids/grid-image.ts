@@ -1,5 +1,5 @@
 import type { Bounds, Grid } from "@groma/georef";
-import { ProjError } from "../errors.js";
+import { ProjError } from "../program/errors.js";
 
 /** Where the nodes of a grid stand: radians, south-western node, steps to the east and north. */
 export interface Lattice {

@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { type Bounds, compileTransformation, type Grid, type Step } from "@groma/georef";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { runToRadians } from "../cct.js";
-import { findProj, type Proj } from "../find.js";
+import { findProj, type Proj } from "../program/find.js";
 import { splitPipeline } from "../step-text.js";
 import { composite } from "./composite.js";
 import { cutFrom } from "./cut.js";

@@ -1,7 +1,7 @@
 import { stat } from "node:fs/promises";
 import { basename, dirname, join, resolve } from "node:path";
-import type { Proj } from "../find.js";
-import { run } from "../run.js";
+import type { Proj } from "../program/find.js";
+import { run } from "../program/run.js";
 import { unreadable } from "./grid-image.js";
 
 /** Names that stay in the folder they are looked for in. */

@@ -1,6 +1,6 @@
-import type { Effect } from "../effect.js";
-import { limitedWidth, PIXELS_PER_METRE, type SizeStyle } from "../points.js";
-import { OCTREE_READING } from "../visible-octree.js";
+import type { Effect } from "../declaration/effect.js";
+import { limitedWidth, PIXELS_PER_METRE, type SizeStyle } from "../declaration/points.js";
+import { OCTREE_READING } from "../declaration/visible-octree.js";
 import type { SpacedSizeStyle } from "./attenuated-size.js";
 
 /** Points as wide as the deepest drawn node around each is dense (thesis, 4.3.3). */

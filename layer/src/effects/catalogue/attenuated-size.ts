@@ -1,7 +1,7 @@
 import { number } from "../../options/index.js";
-import type { Effect } from "../effect.js";
-import { option } from "../option.js";
-import { limitedWidth, overlapBeside, PIXELS_PER_METRE, type SizeStyle } from "../points.js";
+import type { Effect } from "../declaration/effect.js";
+import { option } from "../declaration/option.js";
+import { limitedWidth, overlapBeside, PIXELS_PER_METRE, type SizeStyle } from "../declaration/points.js";
 
 /** How wide points are that go by the distance between them. */
 export interface SpacedSizeStyle {

@@ -1,7 +1,7 @@
 import { number, parts } from "../../options/index.js";
-import { colourBy, LEAST_SHARE } from "../colouring.js";
-import { type Effect, showsColour } from "../effect.js";
-import { optional, type StyleContext } from "../option.js";
+import { colourBy, LEAST_SHARE } from "../declaration/colouring.js";
+import { type Effect, showsColour } from "../declaration/effect.js";
+import { optional, type StyleContext } from "../declaration/option.js";
 
 /** A second colouring, and its share of a point's colour. */
 export interface Blend {

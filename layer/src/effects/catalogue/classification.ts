@@ -6,10 +6,10 @@ import {
   type ClassTable,
   classTexture,
   type PointClass,
-} from "../classes.js";
-import { colouringEffect, colouringsOf, colourStatements } from "../colouring.js";
-import { type Effect, showsColour } from "../effect.js";
-import { option } from "../option.js";
+} from "../declaration/classes.js";
+import { colouringEffect, colouringsOf, colourStatements } from "../declaration/colouring.js";
+import { type Effect, showsColour } from "../declaration/effect.js";
+import { option } from "../declaration/option.js";
 
 const pointClass = parts<PointClass>({ name: text, color: colour, show: flag });
 const NUMBERS = Object.keys(ASPRS_CLASSES);

@@ -1,5 +1,5 @@
-import { CLIP_READING } from "../clip-reading.js";
-import { type Effect, rejectIf } from "../effect.js";
+import { CLIP_READING } from "../declaration/clip-reading.js";
+import { type Effect, rejectIf } from "../declaration/effect.js";
 
 /** Volumes that cut (thesis, 5.3.3). */
 export const clip: Effect<{ name: "clip" }> = {

@@ -1,5 +1,5 @@
-import type { Effect } from "../effect.js";
-import { DISC, type ShapeStyle } from "../points.js";
+import type { Effect } from "../declaration/effect.js";
+import { DISC, type ShapeStyle } from "../declaration/points.js";
 
 /** Round points (thesis, 4.2.1). */
 export const disc: Effect<{ name: "disc"; reads: ShapeStyle; words: { shape: "disc" } }> = {

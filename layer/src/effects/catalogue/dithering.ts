@@ -1,10 +1,10 @@
-/// <reference path="../three-chunk.d.ts" />
+/// <reference path="./three-chunk.d.ts" />
 import common from "three/src/renderers/shaders/ShaderChunk/common.glsl.js";
 import ditheringFunction from "three/src/renderers/shaders/ShaderChunk/dithering_pars_fragment.glsl.js";
 import { flag } from "../../options/index.js";
-import { LEAST_SHARE, shareOf } from "../colouring.js";
-import type { Effect } from "../effect.js";
-import { option } from "../option.js";
+import { LEAST_SHARE, shareOf } from "../declaration/colouring.js";
+import type { Effect } from "../declaration/effect.js";
+import { option } from "../declaration/option.js";
 import type { EyeDomeStyle } from "./eye-dome-lighting.js";
 
 export interface DitheringStyle {

@@ -1,7 +1,7 @@
 import { either, number, oneOf, parts } from "../../options/index.js";
-import { RGB, shareOf } from "../colouring.js";
-import type { Effect } from "../effect.js";
-import { onOffOrAuto, option } from "../option.js";
+import { RGB, shareOf } from "../declaration/colouring.js";
+import type { Effect } from "../declaration/effect.js";
+import { onOffOrAuto, option } from "../declaration/option.js";
 
 /** Eye-Dome Lighting in numbers (thesis, 4.4). */
 export interface EyeDomeLighting {

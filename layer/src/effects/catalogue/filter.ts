@@ -1,7 +1,7 @@
-import { CLASS_ENTRY, type ClassStyle, classTexture, hidesClasses } from "../classes.js";
-import { type Effect, rejectIf, type Scene } from "../effect.js";
-import type { ColumnScale } from "../facts.js";
-import { RETURN_BITS } from "../filter.js";
+import { CLASS_ENTRY, type ClassStyle, classTexture, hidesClasses } from "../declaration/classes.js";
+import { type Effect, rejectIf, type Scene } from "../declaration/effect.js";
+import type { ColumnScale } from "../declaration/facts.js";
+import { RETURN_BITS } from "../declaration/filter.js";
 
 /** What the filter asks for: classes, kinds of returns, columns that it holds against ranges. */
 export interface Conditions {

@@ -1,7 +1,7 @@
 import { number } from "../../options/index.js";
-import type { Effect } from "../effect.js";
-import { option } from "../option.js";
-import { overlapBeside, type SizeStyle } from "../points.js";
+import type { Effect } from "../declaration/effect.js";
+import { option } from "../declaration/option.js";
+import { overlapBeside, type SizeStyle } from "../declaration/points.js";
 
 export interface FixedSizeStyle {
   /** Width of a point where the size is fixed, CSS pixels, 1 to 64. Default: 2. */

@@ -1,15 +1,20 @@
 import { colour, either, interval, type Kind, list, number, oneOf, parts } from "../../options/index.js";
-import { type ColourStyle, colouringEffect, colouringsOf, colourStatements } from "../colouring.js";
-import { type Effect, type Scene, showsColour } from "../effect.js";
-import type { ColumnScale } from "../facts.js";
+import {
+  type ColourStyle,
+  colouringEffect,
+  colouringsOf,
+  colourStatements,
+} from "../declaration/colouring.js";
+import { type Effect, type Scene, showsColour } from "../declaration/effect.js";
+import type { ColumnScale } from "../declaration/facts.js";
 import {
   GRADIENT_COLOUR,
   GRADIENT_NAMES,
   type GradientName,
   type GradientStop,
   gradientTexture,
-} from "../gradients.js";
-import { option, optional } from "../option.js";
+} from "../declaration/gradients.js";
+import { option, optional } from "../declaration/option.js";
 import { tone } from "./tone.js";
 
 /** Which colours values have. */

@@ -1,7 +1,7 @@
 import { colour, number, parts } from "../../options/index.js";
-import { CLIP_READING } from "../clip-reading.js";
-import { type Effect, showsColour } from "../effect.js";
-import { option } from "../option.js";
+import { CLIP_READING } from "../declaration/clip-reading.js";
+import { type Effect, showsColour } from "../declaration/effect.js";
+import { option } from "../declaration/option.js";
 
 /** How points inside volumes that highlight look. */
 export interface Highlight {

@@ -1,4 +1,4 @@
-import type { Effect } from "../effect.js";
+import type { Effect } from "../declaration/effect.js";
 import { adaptiveSize } from "./adaptive-size.js";
 import { attenuatedSize } from "./attenuated-size.js";
 import { blend } from "./blend.js";

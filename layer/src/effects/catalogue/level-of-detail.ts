@@ -1,7 +1,7 @@
-import { type ColourStyle, colouringEffect, colourStatements } from "../colouring.js";
-import { type Effect, showsColour } from "../effect.js";
-import { GRADIENT_COLOUR } from "../gradients.js";
-import { OCTREE_READING } from "../visible-octree.js";
+import { type ColourStyle, colouringEffect, colourStatements } from "../declaration/colouring.js";
+import { type Effect, showsColour } from "../declaration/effect.js";
+import { GRADIENT_COLOUR } from "../declaration/gradients.js";
+import { OCTREE_READING } from "../declaration/visible-octree.js";
 import { type GradientStyle, styleGradient } from "./gradient.js";
 
 /** The level of the deepest drawn node around each point as a colour (thesis, 4.1). */

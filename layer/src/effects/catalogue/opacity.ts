@@ -1,7 +1,7 @@
 import { number } from "../../options/index.js";
-import { LEAST_SHARE } from "../colouring.js";
-import type { Effect } from "../effect.js";
-import { option } from "../option.js";
+import { LEAST_SHARE } from "../declaration/colouring.js";
+import type { Effect } from "../declaration/effect.js";
+import { option } from "../declaration/option.js";
 
 export interface OpacityStyle {
   /** Of the cloud as a whole; 0 to 1. Default: 1. */

@@ -1,5 +1,5 @@
-import type { Effect } from "../effect.js";
-import { DISC, PIXELS_PER_METRE, type ShapeStyle } from "../points.js";
+import type { Effect } from "../declaration/effect.js";
+import { DISC, PIXELS_PER_METRE, type ShapeStyle } from "../declaration/points.js";
 
 /**
  * Points as paraboloids, so that neighbours meet half way as in a Voronoi diagram (thesis, 4.2.3; M. Schütz, M. Wimmer,

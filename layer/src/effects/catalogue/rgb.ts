@@ -1,5 +1,5 @@
-import { colouringEffect, colouringsOf, colourStatements, RGB } from "../colouring.js";
-import { type Effect, showsColour } from "../effect.js";
+import { colouringEffect, colouringsOf, colourStatements, RGB } from "../declaration/colouring.js";
+import { type Effect, showsColour } from "../declaration/effect.js";
 import { tone } from "./tone.js";
 
 /** The colours that the scan recorded. */

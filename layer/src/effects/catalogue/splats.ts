@@ -1,7 +1,7 @@
 import { number } from "../../options/index.js";
-import type { Effect } from "../effect.js";
-import { onOffOrAuto, option } from "../option.js";
-import { DISC, PIXELS_PER_METRE } from "../points.js";
+import type { Effect } from "../declaration/effect.js";
+import { onOffOrAuto, option } from "../declaration/option.js";
+import { DISC, PIXELS_PER_METRE } from "../declaration/points.js";
 
 export interface SplatStyle {
   /** Blends overlapping points in three passes (thesis, 4.2.2); `auto`: where they overlap by 3 px. Default: false. */

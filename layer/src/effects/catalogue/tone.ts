@@ -1,7 +1,7 @@
 import { number } from "../../options/index.js";
-import { LEAST_SHARE, shareOf } from "../colouring.js";
-import { type Effect, showsColour } from "../effect.js";
-import { option } from "../option.js";
+import { LEAST_SHARE, shareOf } from "../declaration/colouring.js";
+import { type Effect, showsColour } from "../declaration/effect.js";
+import { option } from "../declaration/option.js";
 
 /** Gamma, brightness and contrast. */
 export interface ToneStyle {

@@ -2,7 +2,7 @@ import { expect, it } from "vitest";
 import { decode } from "../../workers/decoders.js";
 import type { LazDecoder } from "../../workers/laz-decoder.js";
 import { BlobSource } from "../bytes/blob-source.js";
-import { crc32c } from "../checksum.js";
+import { crc32c } from "../contract/checksum.js";
 import { CopcSource } from "./copc-source.js";
 import { type TinyCopc, tinyCopc } from "./tiny-copc.fixture.js";
 

@@ -1,5 +1,7 @@
 import type { GeoTiffKeys } from "@groma/georef";
 import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
+import type { CrsDeclaration } from "../contract/point-source.js";
+import type { CloudStatistics } from "../contract/statistics.js";
 import { type ExtraBytes, parseExtraBytes } from "../las/extra-bytes.js";
 import {
   BASE_RECORD_LENGTH,
@@ -9,8 +11,6 @@ import {
   truncated,
 } from "../las/las-header.js";
 import { findVlr, readVlr, type VlrEntry, walkEvlrs, walkVlrs } from "../las/vlrs.js";
-import type { CrsDeclaration } from "../point-source.js";
-import type { CloudStatistics } from "../statistics.js";
 import { COPC_INFO_END, type CopcInfo, parseCopcInfo } from "./copc-info.js";
 import { checkPageAddress, type HierarchyLimits } from "./hierarchy.js";
 import { decodeStatistics } from "./statistics-record.js";

@@ -1,7 +1,7 @@
 import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
+import type { EncodedChunk, HierarchyEntry, PointSource } from "../contract/point-source.js";
 import { BASE_RECORD_LENGTH, readText } from "../las/las-header.js";
 import { type LazEncoding, recordFields } from "../las/record-fields.js";
-import type { EncodedChunk, HierarchyEntry, PointSource } from "../point-source.js";
 import { Checksums } from "./checksums.js";
 import { type CopcFile, openCopc } from "./copc-file.js";
 import type { ByteRange } from "./copc-info.js";

@@ -1,5 +1,5 @@
 import { FormatError } from "../../errors/index.js";
-import { badHierarchy, type HierarchyEntry } from "../point-source.js";
+import { badHierarchy, type HierarchyEntry } from "../contract/point-source.js";
 import type { ByteRange } from "./copc-info.js";
 
 /** Bytes of one entry of a hierarchy page (copc.io, "hierarchy VLR"). */

@@ -1,5 +1,5 @@
 import { FormatError } from "../../errors/index.js";
-import type { AttributeStatistics, CloudStatistics } from "../statistics.js";
+import type { AttributeStatistics, CloudStatistics } from "../contract/statistics.js";
 
 /**
  * Decodes and validates the statistics record: VLR `groma`, record id 2 (UTF-8 JSON, version 1).

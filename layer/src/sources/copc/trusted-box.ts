@@ -1,11 +1,11 @@
-import type { LasHeader } from "../las/las-header.js";
 import {
   type HierarchyEntry,
   type PointSource,
   type SourceBox,
   type SourceWarning,
   wrongBounds,
-} from "../point-source.js";
+} from "../contract/point-source.js";
+import type { LasHeader } from "../las/las-header.js";
 
 /** Nodes that the header's bounds are held against. */
 const MOST_NODES = 4096;

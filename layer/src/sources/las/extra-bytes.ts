@@ -1,4 +1,4 @@
-import type { NumberType } from "../point-attribute.js";
+import type { NumberType } from "../contract/point-attribute.js";
 import { readText } from "./las-header.js";
 
 /** One numeric attribute that is stored after the standard fields of a record. */

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { DERIVED_COLUMNS } from "../point-attribute.js";
+import { DERIVED_COLUMNS } from "../contract/point-attribute.js";
 import type { ExtraBytes } from "./extra-bytes.js";
 import { recordFields } from "./record-fields.js";
 

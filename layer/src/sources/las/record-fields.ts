@@ -1,4 +1,4 @@
-import { DERIVED_COLUMNS, type NumberType, type PointAttribute } from "../point-attribute.js";
+import { DERIVED_COLUMNS, type NumberType, type PointAttribute } from "../contract/point-attribute.js";
 import type { ExtraBytes } from "./extra-bytes.js";
 import { BASE_RECORD_LENGTH } from "./las-header.js";
 

@@ -1,9 +1,9 @@
 import { describe, expect, it } from "vitest";
+import { nodeUniforms } from "../effect-plan.js";
+import { planEffects } from "../plan.js";
+import { richFacts, styleOf } from "../scene.fixture.js";
 import { ASPRS_CLASSES } from "./classes.js";
-import { nodeUniforms } from "./effect-plan.js";
 import { checkFilter, type PointFilter, passesFilter } from "./filter.js";
-import { planEffects } from "./plan.js";
-import { richFacts, styleOf } from "./scene.fixture.js";
 
 describe("filters on exact records", () => {
   const filter: PointFilter = { returns: ["intermediate", "single"], ranges: { gpsTime: [10, 20] } };

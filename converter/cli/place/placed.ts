@@ -8,10 +8,10 @@ import {
   type Truth,
   truthOf,
 } from "@groma/georef";
-import type { Scan } from "./core.js";
+import type { Scan } from "../core/core.js";
+import { fitBoundOf, geoidsOf } from "./geoids.js";
 import { type Georeferenced, georeference, georeferenceRecord } from "./georeference.js";
-import { fitBoundOf, geoidsOf } from "./place/geoids.js";
-import { TOLERANCE } from "./place/records.js";
+import { TOLERANCE } from "./records.js";
 
 /** Where a file's points are, as the file itself says it: by the same code that a page uses, without PROJ. */
 export interface Placed {

@@ -14,7 +14,7 @@ export class CoreError extends GromaError {
 export const coreProgram =
   process.env.GROMA_CORE ||
   fileURLToPath(
-    new URL(`../target/release/groma-core${process.platform === "win32" ? ".exe" : ""}`, import.meta.url),
+    new URL(`../../target/release/groma-core${process.platform === "win32" ? ".exe" : ""}`, import.meta.url),
   );
 
 /** Answers a line of the core: what is written to its standard input, which then ends; or nothing. */

@@ -1,4 +1,4 @@
-import { CLIP_ROLES } from "../clips/clip-roles.js";
+import { CLIP_ROLES } from "../../clips/clip-roles.js";
 import type { DrawnNode } from "./facts.js";
 import type { UniformDeclaration, UniformValues } from "./shader.js";
 

@@ -1,4 +1,4 @@
-import { frozen } from "../options/index.js";
+import { frozen } from "../../options/index.js";
 import type { TextureData } from "./shader.js";
 
 /** A class of points. */

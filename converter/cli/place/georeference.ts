@@ -13,10 +13,10 @@ import {
   similarSystems,
   verticalSystems,
 } from "@groma/georef";
-import type { Scan } from "./core.js";
+import type { Scan } from "../core/core.js";
 import { epsg, epsgRows } from "./epsg.js";
-import { type GivenPlace, isPlaced, type LocalPlace, localPlace } from "./place/local.js";
-import { expectedWhereabouts } from "./place/whereabouts.js";
+import { type GivenPlace, isPlaced, type LocalPlace, localPlace } from "./local.js";
+import { expectedWhereabouts } from "./whereabouts.js";
 
 /** What the user says of the coordinates; it goes before what the files say. */
 export interface Given extends GivenPlace {

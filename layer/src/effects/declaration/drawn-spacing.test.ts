@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { groundSpacing } from "../ground-spacing.js";
 import { type DrawnDensity, drawnSpacing } from "./drawn-spacing.js";
-import { groundSpacing } from "./ground-spacing.js";
 
 const node = (parts: Partial<DrawnDensity>): DrawnDensity => ({
   key: { depth: 6, x: 0, y: 0, z: 0 },

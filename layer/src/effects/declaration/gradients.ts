@@ -1,4 +1,4 @@
-import { frozen } from "../options/index.js";
+import { frozen } from "../../options/index.js";
 import type { TextureData } from "./shader.js";
 
 /** A colour at a place of a gradient. */

@@ -1,4 +1,4 @@
-import { ancestorAt, keyName, octant, type VoxelKey } from "../octree/voxel-key.js";
+import { ancestorAt, keyName, octant, type VoxelKey } from "../../octree/voxel-key.js";
 import { type DrawnDensity, drawnSpacing } from "./drawn-spacing.js";
 import type { DrawnNode } from "./facts.js";
 import type { UniformDeclaration, UniformValues } from "./shader.js";

@@ -1,4 +1,4 @@
-import type { VoxelKey } from "../octree/voxel-key.js";
+import type { VoxelKey } from "../../octree/voxel-key.js";
 
 /** What of a node is drawn, where it is the deepest that is. */
 export interface DrawnDensity {

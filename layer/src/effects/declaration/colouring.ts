@@ -1,4 +1,4 @@
-import { closest, type Kind, listed, shown } from "../options/index.js";
+import { closest, type Kind, listed, shown } from "../../options/index.js";
 import type { Colouring, Effect, PartContext, Scene } from "./effect.js";
 import type { Option, StyleContext } from "./option.js";
 

@@ -8,10 +8,10 @@ import {
   statedAccuracy,
   type Truth,
 } from "@groma/georef";
-import type { Scan } from "./core.js";
-import { length } from "./output.js";
+import type { Scan } from "../core/core.js";
+import { howToGet } from "../proj/grids/current-names.js";
+import { length } from "../terminal/output.js";
 import type { Placed } from "./placed.js";
-import { howToGet } from "./proj/grids/current-names.js";
 
 const DEGREE = Math.PI / 180;
 

@@ -1,5 +1,5 @@
-import type { ProgressKind } from "./choices.js";
-import type { CoreEvent } from "./core.js";
+import type { CoreEvent } from "../core/core.js";
+import type { ProgressKind } from "../given/choices.js";
 import { complain, count, printJson } from "./output.js";
 import { createPace, type Pace } from "./pace.js";
 

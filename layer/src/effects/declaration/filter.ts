@@ -1,4 +1,4 @@
-import { StyleError } from "../errors/index.js";
+import { StyleError } from "../../errors/index.js";
 import {
   entriesOf,
   frozen,
@@ -10,7 +10,7 @@ import {
   type Place,
   some,
   whole,
-} from "../options/index.js";
+} from "../../options/index.js";
 import { type ClassStyle, hidesClasses, showsClass } from "./classes.js";
 import type { StyledCloud } from "./option.js";
 

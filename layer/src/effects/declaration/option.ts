@@ -1,4 +1,4 @@
-import { type Kind, oneOf, type Place } from "../options/index.js";
+import { type Kind, oneOf, type Place } from "../../options/index.js";
 
 /** What the values of an attribute are: colours, numbers, class numbers or bits. */
 export type AttributeKind = "color" | "scalar" | "class" | "flags";

@@ -1,4 +1,4 @@
-import { DecodeError } from "../errors/index.js";
+import { DecodeError } from "../../errors/index.js";
 
 /** Castagnoli's polynomial, reflected (RFC 3720, appendix B.4). */
 const POLYNOMIAL = 0x82f6_3b78;

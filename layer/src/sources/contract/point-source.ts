@@ -1,11 +1,11 @@
 import type { GeoTiffKeys, LasDeclaration } from "@groma/georef";
-import { FormatError } from "../errors/index.js";
-import type { ReadOptions } from "./bytes/byte-source.js";
-import type { ServerWait } from "./bytes/host-schedule.js";
+import { FormatError } from "../../errors/index.js";
+import type { ReadOptions } from "../bytes/byte-source.js";
+import type { ServerWait } from "../bytes/host-schedule.js";
 import type { PointAttribute } from "./point-attribute.js";
 import type { CloudStatistics } from "./statistics.js";
 
-export type { ServerWait } from "./bytes/host-schedule.js";
+export type { ServerWait } from "../bytes/host-schedule.js";
 
 /**
  * One data set in a format of point clouds: what it says of itself before any point is read, the pages of its octree,
