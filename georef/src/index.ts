@@ -6,6 +6,7 @@ export { type FittedPlane, fitPlane } from "./cartesian/plane.js";
 export { quantise } from "./cartesian/quantise.js";
 export { planarArea } from "./cartesian/shoelace.js";
 export { type Slab, slab } from "./cartesian/slab.js";
+export { cross, difference, dot, unit, type Vector } from "./cartesian/vectors.js";
 export {
   type AreaOfUse,
   areaOf,
@@ -32,11 +33,13 @@ export type {
 export { epsgLookup, type PackedEpsg, packEpsg } from "./crs/epsg-table.js";
 export { resolveCrs, resolveWithNotes } from "./crs/resolve.js";
 export { sameHeights, samePlane } from "./crs/same.js";
+export { type CurvatureRadii, curvatureRadii, radiusAlong } from "./ellipsoid/curvature.js";
 export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
-export { eastNorthUp, type Frame } from "./ellipsoid/frame.js";
+export { eastNorthUp, type Frame, pointIn, pointOf, turnIn, turnOut } from "./ellipsoid/frame.js";
 export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
 export { ENGINE, type ExactTransform, exactTransform } from "./engines/exact.js";
+export { type GridPlane, gridPlane, type PlaneInverse } from "./engines/projection.js";
 export {
   placePoint,
   pointTransform,

@@ -34,3 +34,43 @@ export function eastNorthUp(origin: ArrayLike<number>): Frame {
     ),
   };
 }
+
+/** A direction of ECEF in a frame. */
+export function turnIn(
+  { rotation: r }: Frame,
+  x: number,
+  y: number,
+  z: number,
+): readonly [number, number, number] {
+  return [r[0] * x + r[1] * y + r[2] * z, r[3] * x + r[4] * y + r[5] * z, r[6] * x + r[7] * y + r[8] * z];
+}
+
+/** A point of ECEF in a frame; the difference to its origin is formed first. */
+export function pointIn(frame: Frame, x: number, y: number, z: number): readonly [number, number, number] {
+  const { origin } = frame;
+  return turnIn(frame, x - origin[0], y - origin[1], z - origin[2]);
+}
+
+/** A point of a frame in ECEF. */
+export function pointOf(
+  { rotation: r, origin }: Frame,
+  x: number,
+  y: number,
+  z: number,
+): readonly [number, number, number] {
+  return [
+    origin[0] + r[0] * x + r[3] * y + r[6] * z,
+    origin[1] + r[1] * x + r[4] * y + r[7] * z,
+    origin[2] + r[2] * x + r[5] * y + r[8] * z,
+  ];
+}
+
+/** A direction of a frame in ECEF. */
+export function turnOut(
+  { rotation: r }: Frame,
+  x: number,
+  y: number,
+  z: number,
+): readonly [number, number, number] {
+  return [r[0] * x + r[3] * y + r[6] * z, r[1] * x + r[4] * y + r[7] * z, r[2] * x + r[5] * y + r[8] * z];
+}

@@ -5,8 +5,10 @@ import {
   geodesicBetween,
   geodesicFrom,
   geodeticToEcef,
+  pointIn,
   pointTransform,
   resolveCrs,
+  type Vector,
 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import { Clip } from "./clip.js";
@@ -15,7 +17,6 @@ import { draws } from "./clip-shader.fixture.js";
 import { sourceRing } from "./rings.js";
 import { type Corner, extendedPlace } from "./source-space.js";
 import { finish } from "./steps.js";
-import { pointIn, type Vector } from "./vectors.js";
 import type { SourceSpace } from "./volume.js";
 
 /** The same numbers at each run (mulberry32). */

@@ -1,4 +1,4 @@
-import { eastNorthUp, geodeticToEcef } from "@groma/georef";
+import { eastNorthUp, geodeticToEcef, unit, type Vector } from "@groma/georef";
 import { StyleError } from "../errors/index.js";
 import { instead, shown } from "../options/index.js";
 import type { BoxClip, Clip, ClipPlace, PlaneClip, PolygonClip } from "./clip.js";
@@ -9,7 +9,6 @@ import { geodeticShape, sourceShape } from "./prism-shapes.js";
 import { capOf, FARTHEST, placed } from "./rings.js";
 import { type Corner, extendedPlace } from "./source-space.js";
 import type { Steps } from "./steps.js";
-import { unit, type Vector } from "./vectors.js";
 import { remembering, type SourceSpace, type Volume } from "./volume.js";
 
 /** What a volume of each kind has. */

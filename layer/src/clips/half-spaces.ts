@@ -1,6 +1,6 @@
+import { dot, pointOf, turnIn, type Vector } from "@groma/georef";
 import { PLANES } from "./clip-roles.js";
 import type { Steps } from "./steps.js";
-import { dot, pointOf, turnIn, type Vector } from "./vectors.js";
 import type { ClipNode, Relation, Volume, VolumeRecord } from "./volume.js";
 
 /** What lies on the inner side of a plane: n · (p − through) ≥ 0, ECEF, n of unit length. */

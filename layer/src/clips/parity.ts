@@ -1,6 +1,6 @@
+import { cross, difference, dot, unit, type Vector } from "@groma/georef";
 import type { Ring } from "./rings.js";
 import { STRIDE, type Steps } from "./steps.js";
-import { cross, difference, dot, unit, type Vector } from "./vectors.js";
 
 /** Pieces that share a bounding sphere. */
 const GROUP = 32;

@@ -1,8 +1,8 @@
+import { pointIn, type Vector } from "@groma/georef";
 import type { PieceGroup } from "./parity.js";
 import { type NodePlan, toPlan } from "./plan-of-node.js";
 import type { Ring } from "./rings.js";
 import { STRIDE, type Steps } from "./steps.js";
-import { pointIn, type Vector } from "./vectors.js";
 import type { ClipNode } from "./volume.js";
 
 /** Edges in the plan of a node, one after the other: from (ax, ay) to (bx, by), metres. */

@@ -1,5 +1,4 @@
-import { ecefToGeodetic, WGS84 } from "@groma/georef";
-import { pointOf, type Vector } from "./vectors.js";
+import { ecefToGeodetic, pointOf, type Vector, WGS84 } from "@groma/georef";
 import type { ClipNode } from "./volume.js";
 
 /**

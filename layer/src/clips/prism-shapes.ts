@@ -1,10 +1,10 @@
+import { pointIn } from "@groma/georef";
 import { groupsOf, insideTest } from "./parity.js";
 import { heightIn, type NodePlan } from "./plan-of-node.js";
 import type { End, PrismShape } from "./prism.js";
 import { capOf, footOf, geodesicRing, placed, sourceRing } from "./rings.js";
 import { type Corner, extendedPlace, insideRing, ringOver, sourceOf } from "./source-space.js";
 import type { Steps } from "./steps.js";
-import { pointIn } from "./vectors.js";
 import type { ClipNode, Place, SourceSpace } from "./volume.js";
 
 /** Heights between which a prism stands; without one it has no end there. */

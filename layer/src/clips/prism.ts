@@ -1,3 +1,4 @@
+import { pointOf, type Vector } from "@groma/georef";
 import { HAS_BOTTOM, HAS_TOP, PRISM, STARTS_INSIDE } from "./clip-roles.js";
 import type { PieceGroup } from "./parity.js";
 import {
@@ -16,7 +17,6 @@ import {
 import { fromPlan, type NodePlan, planOf } from "./plan-of-node.js";
 import { footOf, type Ring } from "./rings.js";
 import { STRIDE, type Steps } from "./steps.js";
-import { pointOf, type Vector } from "./vectors.js";
 import type { ClipNode, Relation, Volume, VolumeRecord } from "./volume.js";
 
 /** Distance that a line through a node may leave out of a chain of edges, metres, where float32 is finer than that. */

@@ -1,6 +1,15 @@
-import { ecefToGeodetic, geodesicBetween, geodesicFrom, geodeticToEcef } from "@groma/georef";
+import {
+  cross,
+  difference,
+  dot,
+  ecefToGeodetic,
+  geodesicBetween,
+  geodesicFrom,
+  geodeticToEcef,
+  unit,
+  type Vector,
+} from "@groma/georef";
 import { STRIDE, type Steps } from "./steps.js";
-import { cross, difference, dot, unit, type Vector } from "./vectors.js";
 import type { Place } from "./volume.js";
 
 /**
