@@ -24,6 +24,12 @@ export {
   type StyleParts,
 } from "../effects/index.js";
 export * from "../index.js";
-export type { LayerSource, LayerStatistics, PickResult, PointCloudLayerOptions } from "./layer-options.js";
-export type { PickOptions } from "./layer-renderer.js";
+export type {
+  LayerSource,
+  LayerStatistics,
+  PickOptions,
+  PickResult,
+  PointCloudLayerOptions,
+  WindowPosition,
+} from "./layer-options.js";
 export { PointCloudLayer } from "./point-cloud-layer.js";

@@ -1,17 +1,11 @@
 import { type Cartesian3, RequestErrorEvent, Resource, TrustedServers } from "cesium";
-import { ClipSet } from "../clips/index.js";
-import {
-  CLOUD_OPTIONS,
-  optionPlace,
-  type PointCloud,
-  type PointCloudOptions,
-  type PointRecord,
-} from "../cloud/index.js";
+import { CLIPS_OPTION, type ClipSet } from "../clips/index.js";
+import { CLOUD_OPTIONS, type PointCloud, type PointCloudOptions, type PointRecord } from "../cloud/index.js";
 import type { GpuMilliseconds } from "../drawing/frame.js";
 import type { GpuCounts } from "../drawing/gpu.js";
 import type { Forced, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
-import { flag, type Kind, type Kinds, kindOf, number, some } from "../options/index.js";
+import { flag, type Kind, type Kinds, kindOf, number, optionPlace, some } from "../options/index.js";
 import type { HttpOptions, SourceLike } from "../sources/index.js";
 
 /** How a layer draws; all can be changed later. */
@@ -48,7 +42,7 @@ export const LAYER_OPTIONS: Kinds<PointCloudLayerOptions> = {
   pointBudget: number(0),
   budget: CLOUD_OPTIONS.budget,
   heightOffset: checkedLater,
-  clips: kindOf("a ClipSet", (given): given is ClipSet => given instanceof ClipSet),
+  clips: CLIPS_OPTION,
   filter: checkedLater,
   forced: checkedLater,
   id: checkedLater,
@@ -83,6 +77,35 @@ export function checkLayerOption<Name extends keyof PointCloudLayerOptions>(
   return LAYER_OPTIONS[name].read(given, optionPlace(name, file)) as NonNullable<
     PointCloudLayerOptions[Name]
   >;
+}
+
+/** A place of the canvas: CSS pixels from the upper left, as a `Cartesian2` has them. */
+export interface WindowPosition {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** How a place of the picture is asked for its point. */
+export interface PickOptions {
+  /** Edge of the square around it in which the nearest point counts, CSS pixels, at most 1000. Default: 9. */
+  readonly window?: number | undefined;
+  readonly signal?: AbortSignal | undefined;
+}
+
+const windowPosition = kindOf(
+  "finite numbers x and y, CSS pixels",
+  (given): given is WindowPosition =>
+    typeof given === "object" &&
+    given !== null &&
+    [(given as WindowPosition).x, (given as WindowPosition).y].every(Number.isFinite),
+);
+
+const pickOptions = some<PickOptions>({ window: number(0, 1000), signal: CLOUD_OPTIONS.signal });
+
+/** Place and options of a pick. @throws StyleError STYLE_OPTION */
+export function checkPick(position: WindowPosition, options: PickOptions, file: string): PickOptions {
+  windowPosition.read(position, optionPlace("windowPosition", file));
+  return pickOptions.read(options, optionPlace("options", file));
 }
 
 /** Numbers about the frame drawn last. */

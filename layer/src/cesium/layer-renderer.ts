@@ -8,19 +8,13 @@ import { type ProbedFrame, type Relief, SilhouetteProbe } from "../drawing/silho
 import type { Context, FrameState, PickId } from "./engine/cesium-private.js";
 import { GpuObjects } from "./engine/gpu-objects.js";
 import { RenderStates } from "./engine/render-states.js";
+import type { PickOptions, WindowPosition } from "./layer-options.js";
 import { type CesiumNode, type CesiumView, matrixOf, NodeDrawable } from "./node-drawable.js";
 import { NumberPicture } from "./number-picture.js";
 import { OffscreenPass } from "./offscreen-pass.js";
 import { candidatesAt } from "./pick-candidates.js";
 import { PointDrawing, spheresOf } from "./point-drawing.js";
 import { fitFrustum, type PointFrustum } from "./point-frustum.js";
-
-/** How a place of the picture is asked for its point. */
-export interface PickOptions {
-  /** Edge of the square around it in which the nearest point counts, CSS pixels. Default: 9. */
-  readonly window?: number | undefined;
-  readonly signal?: AbortSignal | undefined;
-}
 
 /** All that a layer has and does on the GPU, in one context of Cesium. */
 export class LayerRenderer implements Renderer<CesiumView> {
@@ -112,7 +106,7 @@ export class LayerRenderer implements Renderer<CesiumView> {
    * The point that the last frame shows nearest to a place of the canvas.
    * @param position CSS pixels from the upper left
    */
-  async pick(position: { readonly x: number; readonly y: number }, { window = 9, signal }: PickOptions) {
+  async pick(position: WindowPosition, { window = 9, signal }: PickOptions) {
     const frameState = this.#frameState;
     const { nodes, widestPoint } = this.content;
     if (!frameState || nodes.length === 0) return undefined;

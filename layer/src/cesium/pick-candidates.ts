@@ -1,4 +1,5 @@
 import { type Camera, Cartesian2, Cartesian3, type Ray } from "cesium";
+import type { WindowPosition } from "./layer-options.js";
 import type { CesiumNode } from "./node-drawable.js";
 
 const place = new Cartesian2();
@@ -12,7 +13,7 @@ const away = new Cartesian3();
  */
 export function candidatesAt(
   camera: Camera,
-  position: { readonly x: number; readonly y: number },
+  position: WindowPosition,
   reach: number,
   nodes: readonly CesiumNode[],
 ): CesiumNode[] {

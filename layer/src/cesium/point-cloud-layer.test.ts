@@ -287,6 +287,46 @@ describe("options", () => {
     },
   );
 
+  it("budget and clips may come from another copy of the library", async () => {
+    vi.resetModules();
+    const copy = await import("../index.js");
+    expect(copy.SharedBudget).not.toBe(SharedBudget);
+    const [budget, clips] = [new copy.SharedBudget({ points: 5 }), new copy.ClipSet()];
+    clips.add(copy.Clip.plane({ through: { source: [0, 0, 0] } }));
+    const layer = PointCloudLayer.fromCloud(await open(), { budget: budget as never, clips: clips as never });
+    const { frameState, after } = frame();
+    layer.update(frameState);
+    after();
+    expect([layer.budget, layer.clips, layer.clips.cutting]).toEqual([budget, clips, 1]);
+    expect(budget.granted).toBeLessThanOrEqual(5);
+  });
+
+  it.each<[unknown, unknown, string]>([
+    [{ x: Number.NaN, y: 1 }, {}, "windowPosition cannot be an object. Use finite numbers x and y"],
+    [{ x: 1 }, {}, "windowPosition cannot be"],
+    [[1, 2], {}, "windowPosition cannot be an array of 2"],
+    [undefined, {}, "windowPosition cannot be undefined"],
+    [{ x: 1, y: 1 }, { window: Number.NaN }, "options.window cannot be NaN. Use a number from 0 to 1000"],
+    [{ x: 1, y: 1 }, { window: -1 }, "options.window cannot be -1"],
+    [{ x: 1, y: 1 }, { window: 1e9 }, "options.window cannot be 1000000000"],
+    [{ x: 1, y: 1 }, { signal: new AbortController() }, "Use an AbortSignal"],
+    [{ x: 1, y: 1 }, { widow: 5 }, 'Did you mean "window"'],
+    [{ x: 1, y: 1 }, null, "options cannot be null"],
+  ])("a pick at %o with %o is refused", async (position, options, text) => {
+    const layer = PointCloudLayer.fromCloud(await open());
+    await expect(layer.pick(position as never, options as never)).rejects.toEqual(refused(text));
+    expect(await layer.pick(new Cartesian3(1, 2, 3), { window: 1000, signal: undefined })).toBeUndefined();
+  });
+
+  it("of a call on a data set are refused", async () => {
+    const cloud = await open();
+    const wrong = { signal: {} } as never;
+    await expect(cloud.loadNode("0-0-0-0", wrong)).rejects.toEqual(refused("Use an AbortSignal"));
+    await expect(cloud.readPoint("0-0-0-0", 0, wrong)).rejects.toEqual(refused("Use an AbortSignal"));
+    expect(() => cloud.query({ spacing: Number.NaN })).toThrow(refused("options.spacing cannot be NaN"));
+    expect(() => cloud.query({ voulme: 1 } as never)).toThrow(refused('Did you mean "volume"'));
+  });
+
   it("heightOffset is a number", async () => {
     const cloud = await open();
     for (const heightOffset of ["5", [5]]) {

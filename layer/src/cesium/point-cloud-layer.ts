@@ -24,13 +24,16 @@ import {
   checkLayerOption,
   checkLayerOptions,
   checkOpeningOptions,
+  checkPick,
   type LayerSource,
   type LayerStatistics,
+  type PickOptions,
   type PickResult,
   type PointCloudLayerOptions,
   resolveSource,
+  type WindowPosition,
 } from "./layer-options.js";
-import { LayerRenderer, type PickOptions } from "./layer-renderer.js";
+import { LayerRenderer } from "./layer-renderer.js";
 import type { CesiumView } from "./node-drawable.js";
 
 /**
@@ -276,13 +279,11 @@ export class PointCloudLayer {
    * @param windowPosition CSS pixels from the upper left, as `scene.pick` takes it
    * @returns undefined where there is no point
    * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
-   * @throws DeveloperError after `destroy()`
+   * @throws StyleError STYLE_OPTION; DeveloperError after `destroy()`
    */
-  async pick(
-    windowPosition: { readonly x: number; readonly y: number },
-    options: PickOptions = {},
-  ): Promise<PickResult<this> | undefined> {
+  async pick(windowPosition: WindowPosition, given: PickOptions = {}): Promise<PickResult<this> | undefined> {
     this.#mustExist();
+    const options = checkPick(windowPosition, given, this.cloud.name);
     const found = await this.#renderer?.pick(windowPosition, options);
     if (!found || this.#destroyed) return undefined;
     const { cloud } = this;

@@ -1,11 +1,17 @@
+import { type Kind, SHARED, shared } from "../options/index.js";
 import type { Clip } from "./clip.js";
 import { type ClipVolume, ClipVolumes } from "./clip-volumes.js";
 import { checkClip, compileClip } from "./compile-clip.js";
 import { finish, type Steps } from "./steps.js";
 import type { SourceSpace, Volume } from "./volume.js";
 
+/** Name of the class, and version of what is internal here (see {@link SHARED}). */
+const MARK = "ClipSet 1";
+
 /** The volumes of a scene; layers may share one. */
 export class ClipSet {
+  /** @internal */
+  readonly [SHARED] = MARK;
   readonly #clips: Clip[] = [];
   readonly #listeners = new Set<() => void>();
   readonly #compiled = new WeakMap<SourceSpace, WeakMap<Clip, Volume>>();
@@ -122,3 +128,6 @@ export class ClipSet {
     for (const listener of this.#listeners) listener();
   }
 }
+
+/** What an option of volumes may be. */
+export const CLIPS_OPTION: Kind<ClipSet> = shared(MARK);

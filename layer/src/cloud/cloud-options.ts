@@ -1,12 +1,12 @@
-import { StyleError } from "../errors/index.js";
-import { SharedBudget } from "../octree/index.js";
+import { BUDGET_OPTION, type SharedBudget } from "../octree/index.js";
 import {
   type Kind,
   type Kinds,
   kindOf,
   number,
   oneOf,
-  type Place,
+  optionPlace,
+  signal,
   some,
   text,
   whole,
@@ -33,8 +33,6 @@ export interface PointCloudOptions extends GeoreferenceOptions, OpenOptions {
 /** Milliseconds. Twelve times that, the longest that is waited, is still a time that timers can count. */
 const DAY = 86_400_000;
 
-const budget = kindOf("a SharedBudget", (given): given is SharedBudget => given instanceof SharedBudget);
-
 const callback: Kind<never> = kindOf("a function", (given): given is never => typeof given === "function");
 
 /** What each option of a data set may be. */
@@ -55,11 +53,16 @@ export const CLOUD_OPTIONS: Kinds<PointCloudOptions> = {
   retry: some({ attempts: whole(1), backoff: number(0, DAY), patience: number(0) }),
   headLength: whole(1),
   onWait: callback,
-  signal: withMethods<AbortSignal>("an AbortSignal", "throwIfAborted", "addEventListener"),
+  signal,
   executor: withMethods<NodeExecutor>("an executor of nodes", "addDataSet", "removeDataSet"),
   workers: some<PoolOptions>({ size: whole(1), createWorker: callback, jobTimeout: number(1, DAY) }),
-  limits: some<StreamLimits>({ requests: number(1), cacheBytes: number(0), knownNodes: number(1), budget }),
-  budget,
+  limits: some<StreamLimits>({
+    requests: number(1),
+    cacheBytes: number(0),
+    knownNodes: number(1),
+    budget: BUDGET_OPTION,
+  }),
+  budget: BUDGET_OPTION,
 };
 
 /** Options with which a data set can be opened; what is left out stays out. @throws StyleError STYLE_OPTION */
@@ -68,15 +71,13 @@ export function checkCloudOptions(options: PointCloudOptions): PointCloudOptions
 }
 
 /**
- * Where an option stands that is refused as a StyleError STYLE_OPTION.
- * @param file the data set's name, or the call where none is open yet
+ * What stops a call on a data set; where none is given, a signal that is never aborted.
+ * @throws StyleError STYLE_OPTION
  */
-export function optionPlace(name: string, file: string): Place {
-  return {
-    name,
-    context: undefined,
-    refuse: (cause, fix) => {
-      throw new StyleError({ code: "STYLE_OPTION", file, cause, fix });
-    },
-  };
+export function checkSignal(
+  options: { readonly signal?: AbortSignal | undefined },
+  file: string,
+): AbortSignal {
+  const checked = some<typeof options>({ signal }).read(options, optionPlace("options", file));
+  return checked.signal ?? new AbortController().signal;
 }

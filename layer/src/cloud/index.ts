@@ -1,5 +1,5 @@
 export type { AttributeInfo, PointRecord, RecordValue } from "./attribute-info.js";
-export { CLOUD_OPTIONS, optionPlace, type PointCloudOptions } from "./cloud-options.js";
+export { CLOUD_OPTIONS, type PointCloudOptions } from "./cloud-options.js";
 export type { GeoreferenceOptions } from "./georeference.js";
 export type { HeightData } from "./height-data.js";
 export { guessHeights } from "./height-guess.js";

@@ -30,7 +30,7 @@ import { type Appearance, type NodeExecutor, type NodeVertices, WorkerPool } fro
 import { recordedAppearance, showSixteenBits } from "./appearance.js";
 import type { AttributeInfo, PointRecord } from "./attribute-info.js";
 import { attributesOf } from "./attributes.js";
-import { checkCloudOptions, type PointCloudOptions } from "./cloud-options.js";
+import { checkCloudOptions, checkSignal, type PointCloudOptions } from "./cloud-options.js";
 import { type Georeference, georeferenceOf } from "./georeference.js";
 import { NodeGeometry } from "./node-geometry.js";
 import { NodeLoader, noNode } from "./node-loader.js";
@@ -224,10 +224,13 @@ export class PointCloud {
    * Loads one node, reading hierarchy pages on the way.
    * @param key the node, or its name `depth-x-y-z`
    * @throws FormatError FORMAT_NODE where the octree has no such node, or one without points
-   * @throws SourceError, DecodeError, PlacementError
+   * @throws SourceError, DecodeError, PlacementError; StyleError STYLE_OPTION
    */
-  async loadNode(key: VoxelKey | string, options: { signal?: AbortSignal } = {}): Promise<NodeVertices> {
-    const signal = options.signal ?? new AbortController().signal;
+  async loadNode(
+    key: VoxelKey | string,
+    options: { signal?: AbortSignal | undefined } = {},
+  ): Promise<NodeVertices> {
+    const signal = checkSignal(options, this.#source.name);
     return this.#withPoints(key, signal, (node) => this.#loader.vertices(node, signal));
   }
 
@@ -236,14 +239,14 @@ export class PointCloud {
    * @param from a node or batch, its key, or its name `depth-x-y-z`
    * @param point how many-th point in drawing order, or the index of its record in the chunk
    * @throws FormatError FORMAT_NODE where there is no such node or no such point in it
-   * @throws SourceError, DecodeError; the signal's reason when aborted
+   * @throws SourceError, DecodeError; StyleError STYLE_OPTION; the signal's reason when aborted
    */
   async readPoint(
     from: { readonly key: VoxelKey } | VoxelKey | string,
     point: number | { readonly record: number },
     options: { signal?: AbortSignal | undefined } = {},
   ): Promise<PointRecord> {
-    const signal = options.signal ?? new AbortController().signal;
+    const signal = checkSignal(options, this.#source.name);
     // A node may have left the octree since it was drawn: its key tells which one takes its place.
     const key = typeof from === "object" && "key" in from ? from.key : from;
     const { name, records } = await this.#withPoints(key, signal, async (node) => {
@@ -258,10 +261,11 @@ export class PointCloud {
 
   /**
    * The recorded points of a part of the data set, complete and by whole nodes, whatever views show of it.
-   * @throws RangeError where the spacing is not a number from 0 on
+   * @throws StyleError STYLE_OPTION
    */
   query(options: QueryOptions = {}): PointQuery {
     const parts: QueryParts = {
+      file: this.#source.name,
       withNode: (key, signal, work) => this.#withNode(key, signal, work),
       records: (node, signal) => this.#loader.records(node, signal),
       box: (key, out) => this.#geometry.pointBox(key, this.scale, out),

@@ -15,6 +15,14 @@ const SPACING = 128;
 /** Seed of an octree whose root has points. */
 const ROOTED = 2;
 
+/** A StyleError STYLE_OPTION that says this, in whatever case it begins. */
+const refusal = (message: string) =>
+  expect.objectContaining({
+    code: "STYLE_OPTION",
+    file: "flat.copc.laz",
+    message: expect.stringMatching(new RegExp(message.replace(/[.?*]/g, "\\$&"), "i")),
+  });
+
 /** Points of a node of the flat octree: spread over its square, at integer metres. */
 function pointsOf({ depth, x, y }: VoxelKey, count: number): Int32Array {
   const edge = EDGE / 2 ** depth;
@@ -38,6 +46,7 @@ function partsOf(octree: PagedOctree, store: NodeStore = storeOf(octree)) {
     },
   };
   const parts: QueryParts = {
+    file: "flat.copc.laz",
     async withNode(key, signal, work) {
       for (;;) {
         const node = store.closest(key);
@@ -231,7 +240,26 @@ describe("PointQuery", () => {
     expect(asked.chunks).toBe(chunks);
   });
 
-  it.each([Number.NaN, -1])("refuses a spacing of %d", (spacing) => {
-    expect(() => new PointQuery(partsOf(pagedOctree(1)).parts, { spacing })).toThrow(RangeError);
+  it.each<[object, string]>([
+    [{ spacing: Number.NaN }, "options.spacing cannot be NaN. Use a number from 0 on"],
+    [{ spacing: -1 }, "options.spacing cannot be -1"],
+    [{ spaceing: 1 }, 'options has no "spaceing". Did you mean "spacing"?'],
+    [{ volume: { contains: () => true } }, "use an object with the methods toBox and contains"],
+    [[0, 1], "options cannot be an array of 2"],
+  ])("refuses %o at once", (options, message) => {
+    const { parts } = partsOf(pagedOctree(1));
+    expect(() => new PointQuery(parts, options)).toThrow(refusal(message));
+  });
+
+  it("refuses what is no signal before anything is read", async () => {
+    const { parts, asked } = partsOf(pagedOctree(1));
+    const query = new PointQuery(parts, {});
+    const wrong = { signal: new AbortController() as never };
+    await expect(query.bracket(wrong)).rejects.toThrow(refusal("options.signal cannot be an object"));
+    expect(() => query.batches(wrong)).toThrow(refusal("options.signal cannot be an object"));
+    expect(() => query.batches({ singal: AbortSignal.abort() } as never)).toThrow(
+      refusal('did you mean "signal"'),
+    );
+    expect(asked).toEqual({ pages: 0, chunks: 0, atOnce: 0, most: 0 });
   });
 });

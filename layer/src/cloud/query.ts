@@ -1,5 +1,7 @@
 import { keyName, type OctreeNode, ROOT_KEY, type VoxelKey } from "../octree/index.js";
+import { number, optionPlace, some, withMethods } from "../options/index.js";
 import type { NodeRecords } from "../workers/index.js";
+import { checkSignal } from "./cloud-options.js";
 import { Pace } from "./pace.js";
 
 /** How a box lies to a volume: within it, apart from it, or partly in it (or it may be). */
@@ -48,6 +50,11 @@ export interface PointBracket {
   readonly nodes: number;
 }
 
+const OPTIONS = some<QueryOptions>({
+  volume: withMethods<QueryVolume>("an object with the methods toBox and contains", "toBox", "contains"),
+  spacing: number(0),
+});
+
 /** A node that is read, known before any of its points is. */
 interface WantedNode {
   readonly key: VoxelKey;
@@ -58,6 +65,8 @@ interface WantedNode {
 
 /** What a query works with. */
 export interface QueryParts {
+  /** Name of the data set, for errors. */
+  readonly file: string;
   /** Does work with the node of a key, whose hierarchy page is read before where need be. */
   withNode<T>(key: VoxelKey, signal: AbortSignal, work: (node: OctreeNode) => T | Promise<T>): Promise<T>;
   /** A node's points as recorded. */
@@ -99,9 +108,9 @@ export class PointQuery {
   #frontier: { readonly key: VoxelKey; readonly within: boolean }[] = [{ key: ROOT_KEY, within: false }];
   #following: Promise<void> | undefined;
 
-  /** @internal @throws RangeError where the spacing is not a number from 0 on */
-  constructor(parts: QueryParts, { volume, spacing = 0 }: QueryOptions) {
-    if (!(spacing >= 0)) throw new RangeError(`spacing needs metres from 0 on, not ${spacing}`);
+  /** @internal @throws StyleError STYLE_OPTION */
+  constructor(parts: QueryParts, options: QueryOptions) {
+    const { volume, spacing = 0 } = OPTIONS.read(options, optionPlace("options", parts.file));
     this.#parts = parts;
     this.#volume = volume;
     this.#deepest = Math.max(0, Math.ceil(Math.log2(parts.spacing / spacing)));
@@ -109,9 +118,10 @@ export class PointQuery {
 
   /**
    * Counts the points to come by the hierarchy alone, of which it reads the pages that the volume meets.
-   * @throws SourceError, FormatError; the signal's reason when aborted
+   * @throws SourceError, FormatError; StyleError STYLE_OPTION; the signal's reason when aborted
    */
-  async bracket({ signal = never() }: { signal?: AbortSignal } = {}): Promise<PointBracket> {
+  async bracket(options: { signal?: AbortSignal | undefined } = {}): Promise<PointBracket> {
+    const signal = checkSignal(options, this.#parts.file);
     while (this.#frontier.length > 0) await this.#follow(signal);
     let [least, most] = [0, 0];
     for (const { pointCount, within } of this.#wanted) {
@@ -124,9 +134,13 @@ export class PointQuery {
   /**
    * Reads the points. Batches come in a fixed order, whatever the network does; batches without points are left out.
    * May be called several times: each goes through all points.
-   * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted
+   * @throws StyleError STYLE_OPTION, at once; SourceError, FormatError, DecodeError, the signal's reason when aborted
    */
-  async *batches({ signal = never() }: { signal?: AbortSignal } = {}): AsyncGenerator<PointBatch, void> {
+  batches(options: { signal?: AbortSignal | undefined } = {}): AsyncGenerator<PointBatch, void> {
+    return this.#batches(checkSignal(options, this.#parts.file));
+  }
+
+  async *#batches(signal: AbortSignal): AsyncGenerator<PointBatch, void> {
     const stop = new AbortController();
     const either = AbortSignal.any([signal, stop.signal]);
     const ahead: Promise<PointBatch>[] = [];
@@ -237,9 +251,4 @@ function everyRecord(count: number): Uint32Array {
 function handled<T>(promise: Promise<T>): Promise<T> {
   promise.catch(() => undefined);
   return promise;
-}
-
-/** A signal that is never aborted. */
-function never(): AbortSignal {
-  return new AbortController().signal;
 }

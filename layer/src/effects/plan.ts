@@ -1,5 +1,13 @@
-import { StyleError } from "../errors/index.js";
-import { entriesOf, flag, frozen, inside, instead, type Place, shown } from "../options/index.js";
+import {
+  entriesOf,
+  flag,
+  frozen,
+  inside,
+  instead,
+  optionPlace,
+  type Place,
+  shown,
+} from "../options/index.js";
 import { type AnyEffect, EFFECTS, type EffectName, type PointCloudStyle } from "./catalogue/index.js";
 import { LEAST_SHARE } from "./declaration/colouring.js";
 import type { Colouring, Scene } from "./declaration/effect.js";
@@ -66,13 +74,7 @@ export function withoutClips(plan: EffectPlan): EffectPlan {
  * @throws StyleError STYLE_FORCED for what is no effect, cannot be forced so, or is neither true nor false
  */
 export function checkForced(forced: Forced, file: string): Forced {
-  const place: Place = {
-    name: "forced",
-    context: undefined,
-    refuse: (cause, fix) => {
-      throw new StyleError({ code: "STYLE_FORCED", file, cause, fix });
-    },
-  };
+  const place: Place = optionPlace("forced", file, "STYLE_FORCED");
   const names = EFFECTS.filter(({ forcible }) => forcible !== "never").map(({ name }) => name);
   const entries = entriesOf(forced, undefined, place, "an object of effects, each true or false");
   for (const [name, on] of entries) {

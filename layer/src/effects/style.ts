@@ -1,5 +1,4 @@
-import { StyleError } from "../errors/index.js";
-import { frozen, instead, type Place, shown } from "../options/index.js";
+import { frozen, instead, optionPlace, type Place, shown } from "../options/index.js";
 import { EFFECTS, type PointCloudStyle } from "./catalogue/index.js";
 import { COLOUR_OPTION } from "./declaration/colouring.js";
 import { type Option, option, type StyleContext, type StyledCloud, wordFor } from "./declaration/option.js";
@@ -53,12 +52,9 @@ export function defaultStyle(cloud: Pick<StyledCloud, "attributes">): PointCloud
  */
 export function completeStyle(given: StyleParts, base: PointCloudStyle, cloud: StyledCloud): PointCloudStyle {
   const context = contextOf(cloud);
-  const at = (name: string, optionCode: string): Place<StyleContext> => ({
-    name,
+  const at = (name: string, code: string): Place<StyleContext> => ({
+    ...optionPlace(name, cloud.name, code),
     context,
-    refuse: (cause, fix, code = optionCode) => {
-      throw new StyleError({ code, file: cloud.name, cause, fix });
-    },
   });
   const whole = at("a style", "STYLE_OPTION");
   if (typeof given !== "object" || given === null || Array.isArray(given)) {

@@ -4,7 +4,7 @@ export { type CacheLimits, type Cost, LruCache } from "./lru-cache.js";
 export type { NodeState } from "./node-state.js";
 export { NodeStore } from "./node-store.js";
 export { type HierarchyPage, type NodeBounds, OctreeNode } from "./octree-node.js";
-export { SharedBudget, type SharedBudgetOptions } from "./shared-budget.js";
+export { BUDGET_OPTION, SharedBudget, type SharedBudgetOptions } from "./shared-budget.js";
 export { type Selection, selectNodes, type TraversalOptions } from "./traversal.js";
 export { distanceTo, outsideFrustum, type View } from "./view.js";
 export { ancestorAt, isWithin, keyName, parseKey, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";

@@ -80,6 +80,36 @@ describe("SharedBudget", () => {
     expect(sum(budget.grant(two, demand(100, 40), Number.POSITIVE_INFINITY).counts)).toBe(1000);
   });
 
+  it("refuses at once what is no budget, and keeps the one it has", () => {
+    const code = (make: () => unknown) => {
+      try {
+        make();
+        return "made";
+      } catch (thrown) {
+        return `${(thrown as { code?: string }).code}: ${(thrown as Error).message}`;
+      }
+    };
+    for (const amount of [Number.NaN, -1, "1000", null, [5]]) {
+      for (const name of ["points", "cpuBytes", "gpuBytes"]) {
+        const told = code(() => new SharedBudget({ [name]: amount }));
+        expect(told).toMatch(
+          new RegExp(`^STYLE_OPTION: .*SharedBudget: options.${name} cannot be .* from 0 on`),
+        );
+      }
+      const budget = new SharedBudget({ points: 7 });
+      expect(code(() => Object.assign(budget, { points: amount }))).toMatch(
+        /^STYLE_OPTION.* points cannot be /,
+      );
+      expect(budget.points).toBe(7);
+    }
+    expect(code(() => new SharedBudget({ pionts: 5 } as never))).toContain('Did you mean "points"');
+    expect(code(() => new SharedBudget(5 as never))).toContain("Use an object with points");
+    const [none, all] = [new SharedBudget({ points: 0 }), new SharedBudget({ points: undefined })];
+    expect([none.points, all.points]).toEqual([0, 1_000_000]);
+    none.points = Number.POSITIVE_INFINITY;
+    expect(none.points).toBe(Number.POSITIVE_INFINITY);
+  });
+
   it("adds up bytes by owner, and asks for some back beyond the limit", () => {
     const { gpu } = new SharedBudget({ gpuBytes: 100 });
     const [one, two] = [{}, {}];

@@ -1,14 +1,15 @@
+import { type Kind, number, optionPlace, SHARED, shared, some } from "../options/index.js";
 import { ByteLedger } from "./byte-ledger.js";
 import { countsAt, type Demand, pointsAt, thresholdFor } from "./share.js";
 
 /** What several clouds of one scene have together. */
 export interface SharedBudgetOptions {
   /** Most points drawn at once. Default: 1,000,000. */
-  readonly points?: number;
+  readonly points?: number | undefined;
   /** Bytes of decoded nodes that are kept. Default: 268,435,456. */
-  readonly cpuBytes?: number;
+  readonly cpuBytes?: number | undefined;
   /** Bytes on the GPU. Default: 536,870,912. */
-  readonly gpuBytes?: number;
+  readonly gpuBytes?: number | undefined;
 }
 
 /** Points that a view may draw of each node of its demand. */
@@ -24,6 +25,12 @@ interface Share {
   readonly threshold: number;
 }
 
+/** Name of the class, and version of what is internal here (see {@link SHARED}). */
+const MARK = "SharedBudget 1";
+
+const amount = number(0);
+const OPTIONS = some<SharedBudgetOptions>({ points: amount, cpuBytes: amount, gpuBytes: amount });
+
 /** A budget of 0 and more. */
 const held = (value: number) => (value > 0 ? value : 0);
 
@@ -34,19 +41,31 @@ const held = (value: number) => (value > 0 ? value : 0);
  * have asked again ({@link balanced}).
  */
 export class SharedBudget {
-  /** Most points drawn at once. */
-  points: number;
+  /** @internal */
+  readonly [SHARED] = MARK;
   /** Bytes of decoded nodes of all clouds. @internal */
   readonly cpu: ByteLedger;
   /** Bytes on the GPU of all layers; whoever uploads tells it. @internal */
   readonly gpu: ByteLedger;
   readonly #shares = new Map<object, Share>();
+  #points: number;
   #threshold = 0;
 
-  constructor({ points, cpuBytes, gpuBytes }: SharedBudgetOptions = {}) {
-    this.points = points ?? 1_000_000;
+  /** @throws StyleError STYLE_OPTION for an option that there is not, or that is no number from 0 on */
+  constructor(options: SharedBudgetOptions = {}) {
+    const { points, cpuBytes, gpuBytes } = OPTIONS.read(options, optionPlace("options", "SharedBudget"));
+    this.#points = points ?? 1_000_000;
     this.cpu = new ByteLedger(cpuBytes ?? 268_435_456);
     this.gpu = new ByteLedger(gpuBytes ?? 536_870_912);
+  }
+
+  /** Most points drawn at once, from 0 to Infinity. @throws StyleError STYLE_OPTION */
+  get points(): number {
+    return this.#points;
+  }
+
+  set points(points: number) {
+    this.#points = amount.read(points, optionPlace("points", "SharedBudget"));
   }
 
   /** Points given out, never above {@link points} as it was when they were given. */
@@ -74,7 +93,7 @@ export class SharedBudget {
     this.#shares.delete(viewer);
     const left = held(this.points - this.granted);
     const demands = [...this.#shares.values()].map((share) => share.demand);
-    this.#threshold = thresholdFor([...demands, demand], held(this.points));
+    this.#threshold = thresholdFor([...demands, demand], this.points);
     // What rounding leaves goes to whoever asks last; a whole number of points is due to each.
     const due = this.#threshold === 0 ? left : Math.ceil(pointsAt(demand, this.#threshold));
     const most = Math.min(left, due, held(limit));
@@ -91,6 +110,9 @@ export class SharedBudget {
   release(viewer: object): void {
     this.#shares.delete(viewer);
     const demands = [...this.#shares.values()].map((share) => share.demand);
-    this.#threshold = thresholdFor(demands, held(this.points));
+    this.#threshold = thresholdFor(demands, this.points);
   }
 }
+
+/** What an option of a budget may be. */
+export const BUDGET_OPTION: Kind<SharedBudget> = shared(MARK);

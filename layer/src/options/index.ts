@@ -14,9 +14,12 @@ export {
   oneOf,
   type Place,
   parts,
+  signal,
   some,
   text,
   whole,
   withMethods,
 } from "./kinds.js";
+export { optionPlace } from "./option-place.js";
+export { SHARED, shared } from "./shared.js";
 export { closest, instead, listed, shown } from "./words.js";

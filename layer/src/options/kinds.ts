@@ -169,6 +169,9 @@ export function withMethods<Value extends object>(
   );
 }
 
+/** What stops a call. */
+export const signal: Kind<AbortSignal> = withMethods("an AbortSignal", "throwIfAborted", "addEventListener");
+
 /** What is an object is of one kind, what is not of the other. */
 export function either<Plain, Value extends object, Context = unknown>(
   plain: Kind<Plain, Context>,

@@ -1,4 +1,3 @@
-import { StyleError } from "../../errors/index.js";
 import {
   entriesOf,
   frozen,
@@ -7,6 +6,7 @@ import {
   type Kind,
   list,
   oneOf,
+  optionPlace,
   type Place,
   some,
   whole,
@@ -68,13 +68,7 @@ export function passesFilter(
  * @throws StyleError STYLE_FILTER
  */
 export function checkFilter(filter: PointFilter, { attributes, name: file }: StyledCloud): PointFilter {
-  const place: Place = {
-    name: "filter",
-    context: undefined,
-    refuse: (cause, fix) => {
-      throw new StyleError({ code: "STYLE_FILTER", file, cause, fix });
-    },
-  };
+  const place: Place = optionPlace("filter", file, "STYLE_FILTER");
   const single = attributes.filter(({ kind, components = 1 }) => kind !== "color" && components === 1);
   const names = single.map(({ name }) => name);
   const kinds = { classes: CLASSES, returns: RETURNS, ranges: rangesOf(names) };
