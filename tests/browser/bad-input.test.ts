@@ -127,6 +127,22 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
     },
   );
 
+  const tinyNodes = data("reports/k27_deep_empty.copc.laz");
+  it.skipIf(tinyNodes.missing)(
+    `a view of 1,553 nodes of one point each is called complete when all are drawn${skipped(tinyNodes)}`,
+    { timeout: 180_000 },
+    async () => {
+      bad = await BadServer.start(readFileSync(tinyNodes.path));
+      await show(bad.url);
+      await page.waitForFunction(
+        () => document.querySelector("#stage")!.textContent === "This view is complete.",
+        undefined,
+        { timeout: 120_000 },
+      );
+      expect(await page.evaluate(() => window.groma.layer.statistics)).toMatchObject({ pointsDrawn: 1553 });
+    },
+  );
+
   it("an address that is none of a cloud is not followed", { timeout: 60_000 }, async () => {
     await show("javascript:alert(1)");
     expect(await told()).toMatch(/^PAGE_/);

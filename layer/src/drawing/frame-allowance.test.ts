@@ -1,4 +1,4 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { FrameAllowance } from "./frame-allowance.js";
 
 describe("FrameAllowance", () => {
@@ -20,5 +20,39 @@ describe("FrameAllowance", () => {
     now = 50;
     expect(allowance.left).toBe(false);
     expect([allowance.grants(), allowance.grants()]).toEqual([true, false]);
+  });
+
+  it("leaves its last part half of the time, or what is left of it", () => {
+    let now = 0;
+    const allowance = new FrameAllowance(() => now, 4);
+    now = 1;
+    const early = allowance.last();
+    now = 3.9;
+    expect(early.left).toBe(true);
+    now = 4;
+    expect(early.left).toBe(false);
+    now = 50;
+    const late = allowance.last();
+    now = 51.9;
+    expect(late.left).toBe(true);
+    now = 52;
+    expect(late.left).toBe(false);
+  });
+
+  it("grows with the length of frames, within bounds", () => {
+    vi.spyOn(performance, "now").mockReturnValue(0);
+    const lasts = (frame: number, milliseconds: number) => {
+      vi.mocked(performance.now).mockReturnValue(0);
+      const allowance = FrameAllowance.after(frame);
+      return [milliseconds - 0.01, milliseconds].map((time) => {
+        vi.mocked(performance.now).mockReturnValue(time);
+        return allowance.left;
+      });
+    };
+    expect(lasts(0, 4)).toEqual([true, false]);
+    expect(lasts(8, 4)).toEqual([true, false]);
+    expect(lasts(60, 15)).toEqual([true, false]);
+    expect(lasts(900, 25)).toEqual([true, false]);
+    vi.restoreAllMocks();
   });
 });

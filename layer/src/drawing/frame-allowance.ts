@@ -1,5 +1,9 @@
 /** Milliseconds of a frame that may go into preparing what is new: half of what a frame of 120 per second has. */
 const MILLISECONDS = 4;
+/** Where frames take long anyway, the share of their time that may go into it. */
+const SHARE = 1 / 4;
+/** Milliseconds that it takes at most, however long frames are. */
+const MOST = 25;
 
 /**
  * The time that a frame may spend on preparing what is new, shared by all that prepares: programs, volumes, uploads.
@@ -7,6 +11,7 @@ const MILLISECONDS = 4;
  */
 export class FrameAllowance {
   readonly #clock: () => number;
+  readonly #milliseconds: number;
   readonly #end: number;
   #granted = false;
 
@@ -16,7 +21,22 @@ export class FrameAllowance {
    */
   constructor(clock: () => number = () => performance.now(), milliseconds = MILLISECONDS) {
     this.#clock = clock;
+    this.#milliseconds = milliseconds;
     this.#end = clock() + milliseconds;
+  }
+
+  /**
+   * Begins a frame that follows one of so many milliseconds: a machine that draws slowly would else prepare as slowly, a
+   * step a frame.
+   */
+  static after(frame: number): FrameAllowance {
+    return new FrameAllowance(undefined, Math.min(MOST, Math.max(MILLISECONDS, SHARE * frame)));
+  }
+
+  /** The allowance of the frame's last part, which has at least half of the time however long the others took. */
+  last(): FrameAllowance {
+    const left = this.#end - this.#clock();
+    return new FrameAllowance(this.#clock, Math.max(left, this.#milliseconds / 2));
   }
 
   /** Whether there is time left. */

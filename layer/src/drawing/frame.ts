@@ -92,6 +92,8 @@ export class LayerFrames<V extends ViewTypes> {
   /** Effects that the last frame called for. */
   #active: ReadonlySet<EffectName> = new Set();
   #frameStart = 0;
+  /** Milliseconds from the frame before the last one to it; 0 where they did not follow each other. */
+  #interval = 0;
 
   /** @param owner the layer, by which stream and budgets know it */
   constructor(cloud: PointCloud, owner: object) {
@@ -148,7 +150,7 @@ export class LayerFrames<V extends ViewTypes> {
   ): FrameReport | "unfinished" | "blocked" {
     const { stream } = this.#cloud;
     const { budget, style, clips: volumes } = settings;
-    const allowance = new FrameAllowance();
+    const allowance = FrameAllowance.after(this.#interval);
     const clips = this.#clips;
     clips.follow(volumes, this.#cloud, allowance);
     if (clips.blocked) return "blocked";
@@ -230,13 +232,14 @@ export class LayerFrames<V extends ViewTypes> {
     const now = performance.now();
     const interval = now - this.#frameStart;
     this.#frameStart = now;
+    this.#interval = interval < LONGEST_FRAME ? interval : 0;
     const { points: drawing, picture = 0 } = gpuMilliseconds;
     const plan = content.material?.plan;
     if (!plan) return;
     const points = content.nodes.reduce((sum, { count }) => sum + count, 0);
     if (drawing !== undefined) {
       this.#costs.note({ plan, points, milliseconds: drawing + picture, by: "timer query" });
-    } else if (!measuresGpu && interval < LONGEST_FRAME) {
+    } else if (!measuresGpu && this.#interval > 0) {
       this.#costs.note({ plan, points, milliseconds: interval, by: "frame difference" });
     }
   }

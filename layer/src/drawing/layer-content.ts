@@ -110,7 +110,7 @@ export class LayerContent<V extends ViewTypes> {
     const unformed = clips.form(here, allowance);
     const drawn = linked ? material : materials.shown;
     const waiting = drawn
-      ? this.#uploads.upload(selection.nodes, vertices, this.#reads(drawn), allowance)
+      ? this.#uploads.upload(selection.nodes, vertices, this.#reads(drawn), allowance.last())
       : 0;
     const ready = materials.next && linked && unformed === 0 && (waiting === 0 || !materials.shown);
     // The first frame of a material makes what it draws into.
