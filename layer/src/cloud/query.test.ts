@@ -144,6 +144,7 @@ describe("PointQuery", () => {
         const batches = await all(query);
         const found = batches.flatMap(({ node, inside }) => [...inside].map((point) => `${node} ${point}`));
         expect(found.sort()).toEqual(expected.sort());
+        expect(batches.filter(({ inside }) => inside.length === 0)).toEqual([]);
         expect(least).toBeLessThanOrEqual(found.length);
         expect(most).toBeGreaterThanOrEqual(found.length);
         expect(asked.chunks).toBe(nodes);
@@ -155,7 +156,7 @@ describe("PointQuery", () => {
   it("counts exactly where no node crosses the volume, and reads no page that the volume misses", async () => {
     const octree = pagedOctree(3);
     const whole = await new PointQuery(partsOf(octree).parts, {}).bracket();
-    expect([whole.least, whole.most]).toEqual([octree.points, octree.points]);
+    expect(whole).toEqual({ least: octree.points, most: octree.points, nodes: listed(octree).length });
     const { parts, asked } = partsOf(octree);
     const missed = await new PointQuery(parts, { volume: disc(-1e6, 0, 1) }).bracket();
     expect(missed).toEqual({ least: 0, most: 0, nodes: 0 });
@@ -179,19 +180,88 @@ describe("PointQuery", () => {
 
   it("reads a few nodes ahead and no more while nobody takes them", async () => {
     const { parts, asked } = partsOf(pagedOctree(5));
-    const batches = new PointQuery(parts, {}).batches();
-    for (let taken = 0; taken < 3; taken++) await batches.next();
-    await new Promise((resolve) => setTimeout(resolve, 50));
-    expect(asked.chunks).toBeLessThanOrEqual(9);
+    const signals: AbortSignal[] = [];
+    let deepest = 0;
+    const watched: QueryParts = {
+      ...parts,
+      withNode: (key, signal, work) => {
+        deepest = Math.max(deepest, key.depth);
+        return parts.withNode(key, signal, work);
+      },
+      records: (node, signal) => {
+        signals.push(signal);
+        return parts.records(node, signal);
+      },
+    };
+    const batches = new PointQuery(watched, {}).batches();
+    for (let taken = 1; ; taken++) {
+      const { value } = await batches.next();
+      if (value!.key.depth < 3) continue;
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      expect(asked.chunks).toBe(taken + 5);
+      break;
+    }
+    // Dozens of nodes of this level are still to be read before the next one is looked at.
+    expect(deepest).toBe(3);
+    expect(asked.most).toBe(6);
     await batches.return();
-    expect(asked.most).toBeGreaterThan(1);
-    expect(asked.most).toBeLessThanOrEqual(6);
+    expect(signals.length).toBe(asked.chunks);
+    for (const { aborted } of signals) expect(aborted).toBe(true);
+  });
+
+  it("asks the volume for each point once, where it is, and lets others have the thread in between", async () => {
+    const count = 3 * 2048 + 500;
+    const xyz = Int32Array.from({ length: 3 * count }, (_, at) => 11 * at - 40_000);
+    const octree: PagedOctree = {
+      pages: new Map([[1, [{ depth: 0, x: 0, y: 0, z: 0, pointCount: count, address: 1 }]]]),
+      points: count,
+      first: 1,
+    };
+    const parts: QueryParts = {
+      ...partsOf(octree).parts,
+      records: async () => ({ xyz, count, attributes: [], order: new Uint16Array(count) }),
+      scale: [0.5, 0.25, 4],
+      offset: [300, -70, 9],
+    };
+    const asked: number[][] = [];
+    let [others, between] = [0, 0];
+    const other = setInterval(() => others++, 1);
+    const batches = await all(
+      new PointQuery(parts, {
+        volume: {
+          toBox: () => "crossing",
+          contains: (x, y, z) => {
+            asked.push([x, y, z]);
+            // As slow as it takes for a slice to be longer than the thread may be had.
+            for (const until = performance.now() + 0.004; performance.now() < until; );
+            if (asked.length === count - 1) between = others;
+            return asked.length % 3 === 0;
+          },
+        },
+      }),
+    );
+    clearInterval(other);
+    expect(asked).toEqual(
+      Array.from({ length: count }, (_, point) => {
+        const [x, y, z] = xyz.subarray(3 * point);
+        return [300 + x / 2, y / 4 - 70, 9 + 4 * z];
+      }),
+    );
+    expect(batches.map(({ inside }) => [...inside])).toEqual([
+      Array.from({ length: Math.floor(count / 3) }, (_, third) => 3 * third + 2),
+    ]);
+    expect(between).toBeGreaterThanOrEqual(2);
   });
 
   it("hands out the same batches again, while another goes on", async () => {
-    const query = new PointQuery(partsOf(pagedOctree(7)).parts, { volume: disc(400, 400, 300) });
-    const [one, other, { most }] = await Promise.all([all(query), all(query), query.bracket()]);
-    expect(one.map(({ node }) => node)).toEqual(other.map(({ node }) => node));
+    const volume = disc(400, 400, 300);
+    const query = new PointQuery(partsOf(pagedOctree(7)).parts, { volume });
+    const [one, other, { most, nodes }] = await Promise.all([all(query), all(query), query.bracket()]);
+    const alone = new PointQuery(partsOf(pagedOctree(7)).parts, { volume });
+    const names = (await all(alone)).map(({ node }) => node);
+    expect(one.map(({ node }) => node)).toEqual(names);
+    expect(other.map(({ node }) => node)).toEqual(names);
+    expect({ most, nodes }).toEqual({ most: expect.any(Number), nodes: (await alone.bracket()).nodes });
     expect(total(one)).toBe(total(other));
     expect(total(one)).toBeGreaterThan(0);
     expect(most).toBeGreaterThanOrEqual(total(one));
