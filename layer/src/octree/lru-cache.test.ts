@@ -55,6 +55,27 @@ describe("LruCache", () => {
     expect(cache.bytes).toBe(180);
   });
 
+  it("goes no lower for an excess than that, however full it is up to its limits", () => {
+    for (const [points, bytes] of [
+      [1000, 100],
+      [10, 1000],
+    ]) {
+      const cache = new LruCache<number, number>({ points, bytes });
+      for (let key = 0; key < 10; key++) cache.set(key, key, { points: 1, bytes: 10 });
+      expect(cache.trim(none, 10).map(([key]) => key)).toEqual([0]);
+      expect([cache.points, cache.bytes]).toEqual([9, 90]);
+      expect(cache.trim(none, 5).map(([key]) => key)).toEqual([1]);
+    }
+  });
+
+  it("gives what it holds, in the order of use, and undefined for the rest", () => {
+    const cache = filled(3);
+    expect([cache.use(0), cache.peek(1), cache.peek(7), cache.use(7)]).toEqual([
+      ...["node 0", "node 1", undefined, undefined],
+    ]);
+    expect([...cache.values()]).toEqual(["node 1", "node 2", "node 0"]);
+  });
+
   it("keeps its sums when a value is replaced or removed", () => {
     const cache = filled(2);
     cache.set(0, "larger", { points: 5, bytes: 30 });

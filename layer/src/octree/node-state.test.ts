@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { isHeld, isLegal, type NodeState } from "./node-state.js";
-import { OctreeNode } from "./octree-node.js";
+import { HierarchyPage, OctreeNode } from "./octree-node.js";
 
 const STATES: NodeState[] = ["page", "opening", "empty", "listed", "queued", "loading", "ready", "failed"];
 
@@ -34,6 +34,24 @@ describe("node states", () => {
 
   it("has no way out of empty but back to its page, so an empty node is never requested", () => {
     expect(STATES.filter((state) => isLegal("empty", state))).toEqual(["page"]);
+  });
+
+  it("keeps the page of a node that is waiting, on its way or here, and of no other", () => {
+    expect(STATES.filter(isHeld)).toEqual(["opening", "queued", "loading", "ready"]);
+    const first = new HierarchyPage(new OctreeNode({ depth: 0, x: 0, y: 0, z: 0 }, "listed"), 1);
+    const node = new OctreeNode({ depth: 1, x: 0, y: 0, z: 0 }, "page");
+    node.page = first;
+    for (const state of ["opening", "listed", "queued", "loading", "ready", "listed", "queued", "listed"]) {
+      node.become(state as NodeState);
+      expect(first.held, state).toBe(isHeld(node.state));
+    }
+    node.become("page");
+    expect(first.held).toBe(false);
+    // As often as was asked for, from the page below too.
+    node.page = new HierarchyPage(node, 2);
+    first.hold();
+    node.page.release();
+    expect(first.held).toBe(false);
   });
 
   it("never forgets a node that is waiting, on its way or here", () => {

@@ -141,6 +141,26 @@ describe("NodeStore", () => {
     expect(() => below.become("queued")).toThrow("2-2-0-0 has left the octree");
   });
 
+  it("does not take a page back in that was given up, however late it is said to be in use", () => {
+    const { store, open } = paged();
+    const { page } = open("1-0-0-0");
+    store.limit = 1;
+    expect([store.trim(unused), store.trim(unused)]).toEqual([true, false]);
+    const { size, points } = store;
+    store.use(page!);
+    expect([store.trim(unused), store.size, store.points]).toEqual([false, size, points]);
+    expect(page!.dropped).toBe(true);
+  });
+
+  it("knows where the points of a node are, and of one without points nothing", () => {
+    const store = storeOf([entry("0-0-0-0", 0, 1), entry("1-0-0-0", 5, 2), entry("1-1-0-0", 0, 3)]);
+    const at = (name: string) => store.closest(entry(name, 0));
+    expect([store.root.state, store.root.address]).toEqual(["empty", undefined]);
+    expect([at("1-0-0-0").state, at("1-0-0-0").address]).toEqual(["listed", { offset: 2, length: 32 }]);
+    expect([at("1-1-0-0").state, at("1-1-0-0").address]).toEqual(["empty", undefined]);
+    expect(() => store.draft(at("1-1-0-0"))).toThrow("node 1-1-0-0 has no page");
+  });
+
   it("refuses a page that two nodes share, given up or not", () => {
     const { store, open } = paged();
     open("1-0-0-0");
