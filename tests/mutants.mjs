@@ -56,7 +56,7 @@ async function stryker({ folder, tests }, files) {
     allowEmpty: false,
   }).runMutationTest();
   return results.map(({ status, fileName, location, mutatorName, replacement }) => ({
-    ...{ status, file: fileName.replace(`${root}/`, ""), line: location.start.line + 1 },
+    ...{ status, file: fileName.replace(`${root}/`, ""), line: location.start.line },
     ...{ change: mutatorName, replacement },
   }));
 }
