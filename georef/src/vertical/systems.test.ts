@@ -34,6 +34,52 @@ describe("likelySystems", () => {
     expect(likely.some(({ depth }) => depth)).toBe(false);
   });
 
+  /** Each in the middle of its area, with a horizontal system that EPSG joins it with: it would come first. */
+  it.each([
+    [9303, "HS2-VRF height"],
+    [9923, "GNTRANS height"],
+    [9927, "GNTRANS2016 height"],
+    [5597, "FCSVR10 height"],
+  ])("leaves out the system of one railway or tunnel: %i, %s", (code, name) => {
+    const own = systems.find((system) => system.code === code)!;
+    expect(own.name).toBe(name);
+    const [west, south, east, north] = own.area;
+    const place = { longitude: (west + east) / 2, latitude: (south + north) / 2 };
+    const clues = { ...place, unit: 1, horizontal: own.partners[0] };
+    const names = likelySystems(systems, clues).map((system) => system.name);
+    expect(names).not.toContain(name);
+    expect(names.length).toBeGreaterThan(0);
+    expect(likelySystems([{ ...own, code: 1 }], clues)).toHaveLength(1);
+  });
+
+  // In the corner of a country's rectangle, where those of its neighbours overlap.
+  it.each([
+    ["Basel", 7.6, 47.56, ["Switzerland"], ["France", "Germany"]],
+    ["Geneva", 6.14, 46.2, ["Switzerland"], ["France"]],
+    ["Salzburg", 13, 47.8, ["Austria"], ["Germany", "Czechia"]],
+  ])("leaves out those of neighbours where the plane system is a country's: %s", (_, x, y, own, others) => {
+    const place = { longitude: x, latitude: y, unit: 1 };
+    const countries = (of?: readonly string[]) =>
+      likelySystems(systems, { ...place, countries: of }).map((system) => system.countries);
+    const foreign = (all: readonly (readonly string[])[]) =>
+      all.filter((of) => !own.some((country) => of.includes(country)));
+    // Without that clue, and with a system of many countries, such as a zone of UTM, they are there.
+    for (const vague of [undefined, [], [...own, "A", "B", "C"]]) {
+      expect(foreign(countries(vague)).flat()).toEqual(expect.arrayContaining(others));
+    }
+    expect(foreign(countries(own))).toEqual([]);
+    expect(countries(own).length).toBeGreaterThan(0);
+    // As many countries as may still share it.
+    expect(foreign(countries([...own, "A", "B"]))).toEqual([]);
+  });
+
+  it("keeps a system of no country in particular", () => {
+    const [system] = systems.filter(({ name }) => name === "LN02 height");
+    const clues = { longitude: 8, latitude: 47, unit: 1, countries: ["Germany"] };
+    expect(likelySystems([system], clues)).toEqual([]);
+    expect(likelySystems([{ ...system, countries: [] }], clues)).toHaveLength(1);
+  });
+
   it("says nothing where EPSG has no system, and finds areas across the antimeridian", () => {
     const at = (longitude: number, latitude: number) =>
       likelySystems(systems, { longitude, latitude, unit: 1 }).map(({ name }) => name);
