@@ -22,6 +22,8 @@ const ROOMS = new Map([
   ["octree", typescript("layer/src/octree")],
   ["query", typescript("layer/src/cloud")],
   ["clips", typescript("layer/src/clips")],
+  ["effects", typescript("layer/src/effects")],
+  ["options", typescript("layer/src/options", "layer/src/effects")],
   ["sampling", rust("src/sampling")],
   ["cells", rust("src/octree")],
 ]);

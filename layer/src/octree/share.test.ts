@@ -42,6 +42,56 @@ describe("shareOf", () => {
   });
 });
 
+describe("countsAt", () => {
+  /** Nodes of 100 points each, the first with nothing above it. */
+  const some = (prefix: boolean, ...pixels: readonly number[]): Demand => ({
+    ...{ pixels: [...pixels], prefix, sizes: pixels.map(() => 100), caps: pixels.map(() => 1) },
+    base: pixels.map((_, index) => index === 0),
+  });
+
+  it("draws nodes whole or not at all where they have no order: those more than half the threshold wide", () => {
+    const pixels = fc.array(fc.double({ min: 0.5, max: 100, noNaN: true }), { minLength: 1, maxLength: 20 });
+    const limits = fc.integer({ min: 0, max: 2500 });
+    fc.assert(
+      fc.property(pixels, fc.double({ min: 0.5, max: 200, noNaN: true }), limits, (all, threshold, limit) => {
+        const falling = all.sort((a, b) => b - a);
+        const wide = falling.filter((p) => 2 * p > threshold).length;
+        const demand = some(false, ...falling);
+        expect(pointsAt(demand, threshold)).toBe(100 * wide);
+        const counts = countsAt(demand, threshold * (1 + 1e-5), limit);
+        const fit = Math.min(falling.filter((p) => 2 * p > threshold * (1 + 1e-5)).length, limit / 100);
+        expect(counts).toEqual(falling.map((_, index) => (index < Math.floor(fit) ? 100 : 0)));
+      }),
+    );
+  });
+
+  it("gives what is left to nodes drawn in part, as long as they have points, and to no other", () => {
+    // 6.25 of the first, 8.3 of the second, none of the third; then what is left in turns.
+    const demand = some(true, 1, 2.236, 1.9);
+    expect(countsAt(demand, 4, 14)).toEqual([6, 8, 0]);
+    expect(countsAt(demand, 4, 15)).toEqual([7, 8, 0]);
+    expect(countsAt(demand, 4, 16)).toEqual([7, 9, 0]);
+    expect(countsAt(demand, 4, 54)).toEqual([26, 28, 0]);
+    expect(countsAt(demand, 4, 1000)).toEqual([100, 100, 0]);
+  });
+
+  it("shows a part that nothing is above by one point, and rounds the others", () => {
+    const demand: Demand = { ...some(true, 9, 8, 7, 6, 5), caps: [0.001, 0.001, 0.006, 0.996, 0.994] };
+    expect(countsAt(demand, 0, 1e9)).toEqual([1, 0, 1, 100, 99]);
+    expect(countsAt({ ...demand, sizes: [0, 0, 0, 0, 0] }, 0, 1e9)).toEqual([0, 0, 0, 0, 0]);
+    // Where a budget limits, it is at the threshold alone.
+    expect(countsAt(some(true, 0.1, 0.05), 4, 0)).toEqual([0, 0]);
+    const partly = { ...some(true, 0.1, 0.05), base: [true, true] };
+    expect(countsAt(partly, 4, 1)).toEqual([1, 0]);
+  });
+
+  it("has no points beyond the limit", () => {
+    expect(countsAt(some(true, 9, 8, 7), 0, 150.7)).toEqual([100, 50, 0]);
+    expect(countsAt(some(false, 9, 8, 7), 0, 200)).toEqual([100, 100, 0]);
+    expect(countsAt(some(true, 9), 0, -5)).toEqual([0]);
+  });
+});
+
 describe("thresholdFor", () => {
   it("spends a limit to the last point and never more, where it is what limits", () => {
     fc.assert(

@@ -1,6 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { type Demand, pointsAt } from "./share.js";
+import { type Demand, pointsAt, thresholdFor } from "./share.js";
 import { SharedBudget } from "./shared-budget.js";
 
 /** A chain of levels, each half as wide apart as the one before. */
@@ -108,6 +108,39 @@ describe("SharedBudget", () => {
     expect([none.points, all.points]).toEqual([0, 1_000_000]);
     none.points = Number.POSITIVE_INFINITY;
     expect(none.points).toBe(Number.POSITIVE_INFINITY);
+  });
+
+  it("has the limits that it is given, else those of its docs", () => {
+    const { points, cpu, gpu } = new SharedBudget();
+    expect([points, cpu.limit, gpu.limit]).toEqual([1_000_000, 268_435_456, 536_870_912]);
+    const given = new SharedBudget({ points: 1, cpuBytes: 2, gpuBytes: 0 });
+    expect([given.points, given.cpu.limit, given.gpu.limit]).toEqual([1, 2, 0]);
+  });
+
+  it("has a view with a limit of its own at the spacing that this limit allows", () => {
+    const budget = new SharedBudget({ points: 1000 });
+    const wanted = demand(100, 40);
+    const { threshold, counts } = budget.grant({}, wanted, 300);
+    expect(threshold).toBeCloseTo(thresholdFor([wanted], 300), 9);
+    expect(pointsAt(wanted, threshold)).toBeGreaterThan(299);
+    expect(sum(counts)).toBe(300);
+  });
+
+  it("stays in balance when a view leaves that had next to nothing", () => {
+    const budget = new SharedBudget({ points: 2000 });
+    const [one, two, little] = [{}, {}, {}];
+    for (let frame = 0; frame < 3; frame++) {
+      budget.grant(one, demand(100, 40), Number.POSITIVE_INFINITY);
+      budget.grant(two, demand(100, 30), Number.POSITIVE_INFINITY);
+      budget.grant(little, { ...demand(1, 1e-3), sizes: [1, 0, 0] }, Number.POSITIVE_INFINITY);
+    }
+    expect(budget.balanced).toBe(true);
+    budget.release(little);
+    expect(budget.balanced).toBe(true);
+    budget.release(two);
+    expect(budget.balanced).toBe(false);
+    budget.grant(one, demand(100, 40), Number.POSITIVE_INFINITY);
+    expect([budget.balanced, budget.granted]).toEqual([true, 2000]);
   });
 
   it("adds up bytes by owner, and asks for some back beyond the limit", () => {
