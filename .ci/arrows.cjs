@@ -100,6 +100,7 @@ module.exports = {
     layer("effects/declaration", ["clips", "octree", "options", "errors"]),
     layer("effects/catalogue", ["effects/declaration", "clips", "octree", "options", "errors"]),
     layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "errors"]),
+    layer("tools/measure", ["options", "errors"]),
     // A view hands out all that every application needs, beside its own.
     layer("cesium", [
       "drawing",

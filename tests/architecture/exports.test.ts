@@ -4,7 +4,7 @@ import { describe, expect, it } from "vitest";
 import { projectRoot } from "../project.js";
 
 /** What applications import. */
-const ENTRIES = ["layer/src/index.ts", "layer/src/cesium/index.ts"];
+const ENTRIES = ["layer/src/index.ts", "layer/src/cesium/index.ts", "layer/src/tools/index.ts"];
 const OURS = /\/(georef|layer)\/(src|dist)\//;
 
 /**

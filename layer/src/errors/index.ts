@@ -42,6 +42,11 @@ export class DrawError extends GromaError {
   static override readonly kind = "DrawError";
 }
 
+/** What was asked to be measured has no such value, or a file of measurements cannot be read. Codes start with `MEASURE_`. */
+export class MeasureError extends GromaError {
+  static override readonly kind = "MeasureError";
+}
+
 const kinds = [SourceError, FormatError, DecodeError, StyleError, CrsError, PlacementError, RecordError];
 
 /**

@@ -1,0 +1,43 @@
+import { type AccuracyPart, pointTransform, resolveCrs, statedAccuracy, truthOf } from "@groma/georef";
+import { type MeasuredCloud, recordVertex, type Vertex } from "./vertex/vertex.js";
+
+export const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
+
+const PARTS: readonly AccuracyPart[] = [
+  { name: "quantisation", metres: 0.0009 },
+  { name: "fit", metres: 0.001 },
+  { name: "datum operation", metres: 1, note: "some operation" },
+  { name: "height", metres: null, note: "reference unknown, drawn as ellipsoidal" },
+];
+
+export interface FixtureCloud extends MeasuredCloud {
+  /** A record whose integers are nearest to source coordinates. */
+  vertex(x: number, y: number, z: number): Vertex;
+}
+
+/** A data set of any records, as far as measuring sees one. */
+export function cloudOf(
+  given: string,
+  { name = "scan", parts = PARTS, scale = 0.001, vertical = undefined as string | undefined } = {},
+): FixtureCloud {
+  const crs = resolveCrs({ file: name, given, ...(vertical && { givenVertical: vertical }) });
+  const transform = pointTransform(truthOf({ crs }, 0, name));
+  const cloud = {
+    name,
+    crs,
+    scale: [scale, scale, scale] as const,
+    accuracy: statedAccuracy(parts),
+    bounds: { radius: 1000 },
+    place(x: number, y: number, z: number) {
+      const out = new Float64Array(3);
+      transform(x, y, z, out, 0);
+      return out;
+    },
+  };
+  const vertex = (x: number, y: number, z: number) => {
+    const integers = [Math.round(x / scale), Math.round(y / scale), Math.round(z / scale)] as const;
+    const source = [integers[0] * scale, integers[1] * scale, integers[2] * scale] as const;
+    return recordVertex(cloud, { node: "0-0-0-0", index: 0, integers, source });
+  };
+  return { ...cloud, vertex };
+}

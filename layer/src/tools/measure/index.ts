@@ -1,0 +1,22 @@
+export { type Angle, measureAngle } from "./figures/angle.js";
+export { type Area, measureArea } from "./figures/area.js";
+export { type Circle, measureCircle } from "./figures/circle.js";
+export { type Direction, type GridBearing, measureDirection } from "./figures/direction.js";
+export { type Distance, type GridDistance, measureDistance, measureHeight } from "./figures/distance.js";
+export { type BestPlane, measurePlane } from "./figures/plane.js";
+export { measurePolyline, type Polyline } from "./figures/polyline.js";
+export { type ReadOut, readOut } from "./figures/read-out.js";
+export { MeasureUnits, type MeasureUnitsOptions, type Words } from "./units/measure-units.js";
+export type { AngleUnit, AreaUnit, LengthUnit, SlopeUnit, VolumeUnit } from "./units/tables.js";
+export {
+  ecefVertex,
+  type MeasuredCloud,
+  placeVertex,
+  type RecordedPoint,
+  recordVertex,
+  sourceVertex,
+  type Vertex,
+  type VertexRecord,
+} from "./vertex/vertex.js";
+export type { Precision, WorthOptions } from "./worth/point-errors.js";
+export type { Quantity, SiUnit, UncertaintyPart } from "./worth/quantity.js";

@@ -1,0 +1,91 @@
+import { type Crs, ecefToGeodetic, geodeticToEcef, type StatedAccuracy, type Vector } from "@groma/georef";
+
+/** What measuring must know of a data set; a `PointCloud` is one. */
+export interface MeasuredCloud {
+  readonly name: string;
+  readonly crs: Crs;
+  /** Source units per step of the recorded integers, per axis. */
+  readonly scale: readonly [number, number, number];
+  /** What a place is worth: named parts, metres. */
+  readonly accuracy: StatedAccuracy;
+  /** Sphere around all points; radius in metres. */
+  readonly bounds: { readonly radius: number };
+  /** Source coordinates → ECEF, exact, metres. @throws PlacementError PLACE_DOMAIN */
+  place(x: number, y: number, z: number): ArrayLike<number>;
+}
+
+/** The record of a scan that a vertex stands on. */
+export interface VertexRecord {
+  /** Name of the data set. */
+  readonly dataset: string;
+  /** Node, `depth-x-y-z`. */
+  readonly node: string;
+  /** Index of the record in the node's chunk. */
+  readonly index: number;
+  /** x, y, z as LAS integers. */
+  readonly integers: readonly [number, number, number];
+}
+
+/** A point that is measured: the record it stands on, if any, and the places derived from it. */
+export interface Vertex {
+  /** Undefined for a place that is no record. */
+  readonly record?: VertexRecord | undefined;
+  /** The data set that `record` or `source` belong to; undefined where it is not at hand. */
+  readonly cloud?: MeasuredCloud | undefined;
+  /** x, y, z in the units of the data set's coordinate system. */
+  readonly source?: Vector | undefined;
+  /** EPSG:4978, metres. */
+  readonly ecef: Vector;
+  /** Of WGS 84, radians. */
+  readonly longitude: number;
+  readonly latitude: number;
+  /** Above the ellipsoid, metres. */
+  readonly height: number;
+}
+
+/** A record as `PointCloud.readPoint` and `layer.pick` give it. */
+export interface RecordedPoint {
+  readonly node: string;
+  readonly index: number;
+  readonly integers: readonly [number, number, number];
+  readonly source: Vector;
+}
+
+/** A vertex on a recorded point. It stays that point whatever view, level of detail or fit. */
+export function recordVertex(cloud: MeasuredCloud, point: RecordedPoint): Vertex {
+  const { node, index, integers, source } = point;
+  const record = { dataset: cloud.name, node, index, integers };
+  return { ...placed(cloud.place(...source)), record, cloud, source };
+}
+
+/**
+ * A vertex at a place of a data set where no point need be.
+ * @param source x, y, z in the units of its coordinate system
+ * @throws PlacementError PLACE_DOMAIN
+ */
+export function sourceVertex(cloud: MeasuredCloud, source: Vector): Vertex {
+  return { ...placed(cloud.place(...source)), cloud, source };
+}
+
+/**
+ * A vertex that belongs to no data set.
+ * @param longitude of WGS 84, radians, as `latitude`
+ * @param height above the ellipsoid, metres
+ */
+export function placeVertex(longitude: number, latitude: number, height: number): Vertex {
+  const ecef = new Float64Array(3);
+  geodeticToEcef(longitude, latitude, height, ecef);
+  return { longitude, latitude, height, ecef: [ecef[0], ecef[1], ecef[2]] };
+}
+
+/** The same from ECEF, metres. */
+export function ecefVertex(ecef: ArrayLike<number>): Vertex {
+  return placed(ecef);
+}
+
+function placed(ecef: ArrayLike<number>): Vertex {
+  const geodetic = new Float64Array(3);
+  ecefToGeodetic(ecef[0], ecef[1], ecef[2], geodetic);
+  const [longitude, latitude, height] = geodetic;
+  return { longitude, latitude, height, ecef: [ecef[0], ecef[1], ecef[2]] };
+}
