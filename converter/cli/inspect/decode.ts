@@ -16,9 +16,12 @@ interface LazPerf {
 /** Point formats that laz-perf decodes. */
 const DECODABLE = new Set([0, 1, 2, 3, 6, 7, 8]);
 
+/** The module in use. Each takes megabytes that come free only with the process, so that one decodes all chunks. */
+let shared: Promise<LazPerf> | undefined;
+
 /**
  * The first records of a LAZ chunk, uncompressed, `count · recordLength` bytes. The decoder has a memory of its own, in
- * which damaged data can do no harm.
+ * which damaged data can do no harm; one that failed is not used again.
  *
  * @throws Error where laz-perf gives up, or does not know the point format
  */
@@ -28,16 +31,25 @@ export async function decodeChunk(
   count: number,
 ): Promise<Uint8Array> {
   if (!DECODABLE.has(pointFormat)) throw new Error(`point format ${pointFormat} cannot be decoded`);
-  const module = (await create()) as unknown as LazPerf;
-  const input = module._malloc(chunk.length);
-  const output = module._malloc(recordLength);
-  module.HEAPU8.set(chunk, input);
-  const decoder = new module.ChunkDecoder();
-  decoder.open(pointFormat, recordLength, input);
-  const records = new Uint8Array(count * recordLength);
-  for (let index = 0; index < count; index++) {
-    decoder.getPoint(output);
-    records.set(module.HEAPU8.subarray(output, output + recordLength), index * recordLength);
+  shared ??= create() as unknown as Promise<LazPerf>;
+  const module = await shared;
+  try {
+    const input = module._malloc(chunk.length);
+    const output = module._malloc(recordLength);
+    module.HEAPU8.set(chunk, input);
+    const decoder = new module.ChunkDecoder();
+    decoder.open(pointFormat, recordLength, input);
+    const records = new Uint8Array(count * recordLength);
+    for (let index = 0; index < count; index++) {
+      decoder.getPoint(output);
+      records.set(module.HEAPU8.subarray(output, output + recordLength), index * recordLength);
+    }
+    decoder.delete();
+    module._free(output);
+    module._free(input);
+    return records;
+  } catch (error) {
+    shared = undefined;
+    throw error;
   }
-  return records;
 }
