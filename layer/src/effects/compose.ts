@@ -93,6 +93,7 @@ function base({ target, pass, offscreen }: Omit<PartContext<unknown>, "variant">
     vertex: {
       locate: "vec4 eye = $modelView * vec4(a_position, 1.0);",
       project: "gl_Position = $projection * eye;",
+      ...(target.vertexDepth && { deepen: target.vertexDepth }),
       ...(shown && { hand: "v_color = color;" }),
       ...(pass === "id" && { hand: "v_id = uint(u_firstId + gl_VertexID) + 1u;" }),
     },

@@ -18,6 +18,7 @@ export const WEBGL2: ShaderTarget = {
   ],
   declarations: [],
   colour: (rgba) => rgba,
+  vertexDepth: "",
   writeDepth: `
 void writeDepth(float z) {
   gl_FragDepth = 0.5 + 0.5 * ($projection[2][2] * z + $projection[3][2]) / ($projection[2][3] * z + $projection[3][3]);

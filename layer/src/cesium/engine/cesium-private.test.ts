@@ -24,7 +24,7 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
     expect(own.Pass.OPAQUE).toBeTypeOf("number");
     expect(own.Pass.TRANSLUCENT).toBeTypeOf("number");
     expect(own.Sampler.NEAREST).toBeTypeOf("object");
-    expect(own.ShaderSource.replaceMain).toBeTypeOf("function");
+    expect(own.ShaderSource).toBeTypeOf("function");
     expect(own.Sync.create).toBeTypeOf("function");
     expect(own.RenderState.fromCache).toBeTypeOf("function");
     expect(own.RenderState.removeFromCache).toBeTypeOf("function");
@@ -97,8 +97,10 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
     );
   });
 
-  it("leaves a fragment shader alone that writes logarithmic depth itself", () => {
+  it("leaves shaders alone that write logarithmic depth themselves, or name the call", () => {
     expect(source("Scene/DerivedCommand.js")).toContain("writeLogDepthRegex = /\\s+czm_writeLogDepth\\(/");
+    expect(source("Scene/DerivedCommand.js")).toContain("vertexlogDepthRegex = /\\s+czm_vertexLogDepth\\(/");
+    expect(source("Renderer/ShaderSource.js")).toMatch(/combinedSources = removeComments\(combinedSources\)/);
   });
 
   it("asks for another frame where a function of afterRender returns true", () => {
@@ -113,6 +115,7 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
       "czm_pixelRatio",
       "czm_viewport",
       "czm_currentFrustum",
+      "czm_oneOverLog2FarDepthFromNearPlusOne",
     ])
       expect(uniforms).toContain(name);
     for (const name of ["czm_gammaCorrect", "czm_vertexLogDepth", "czm_writeLogDepth"])

@@ -182,8 +182,6 @@ export interface Engine {
   readonly ShaderProgram: { fromCache(options: ShaderProgramOptions): ShaderProgram };
   readonly ShaderSource: {
     new (options: { sources: readonly string[]; defines?: readonly string[] }): ShaderSource;
-    /** Renames `main` in a shader. */
-    replaceMain(source: string, name: string): string;
   };
   readonly Sync: { create(options: { context: Context }): Sync };
   readonly Texture: new (options: TextureOptions) => Texture;

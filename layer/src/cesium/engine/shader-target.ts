@@ -13,6 +13,24 @@ float eyeZ(float depth) {
 `;
 
 /**
+ * Cesium's logarithmic depth d = log2(w − n + 1) / log2(f − n + 1), as `czm_writeLogDepth` writes it for each fragment, of
+ * the vertex. It is handed on divided by w already, which costs no step of the depth buffer; a point needs no perspective
+ * within itself. What lies before the near plane has d < 0, what lies beyond the far plane d > 1: both are clipped. Cesium
+ * adds nothing to a vertex shader that calls czm_vertexLogDepth; the call also hands on what the depth-only programs read
+ * that Cesium derives.
+ */
+const VERTEX_DEPTH = `#ifdef LOG_DEPTH
+czm_vertexLogDepth();
+float depth = log2(max(v_depthFromNearPlusOne, 0.5)) * czm_oneOverLog2FarDepthFromNearPlusOne;
+gl_Position = gl_Position.w > 0.0
+  ? vec4(gl_Position.xy / gl_Position.w, 2.0 * depth - 1.0, 1.0)
+  : vec4(2.0, 2.0, 2.0, 1.0);
+#endif`;
+
+/** Cesium adds depths to the fragments of a shader that does not name that call, be it in a comment. */
+const DEPTH_OF_VERTICES = "// Flat points have the depth of their vertices, without czm_writeLogDepth().";
+
+/**
  * Cesium wraps fragment shaders that do not call czm_writeLogDepth with one that overwrites gl_FragDepth; a shader that
  * calls it is left alone (DerivedCommand.js, getLogDepthShaderProgram). Without logarithmic depth the depth is that of
  * the projection, perspective or orthographic.
@@ -42,8 +60,9 @@ export const CESIUM: ShaderTarget = {
     { name: "u_depthRange", type: "vec3", scope: "view" },
   ],
   // Cesium's pick pass puts this colour in place of the point's.
-  declarations: ["uniform vec4 u_pickColor;"],
+  declarations: [DEPTH_OF_VERTICES, "uniform vec4 u_pickColor;"],
   colour: (rgba) => `czm_gammaCorrect(${rgba})`,
+  vertexDepth: VERTEX_DEPTH,
   writeDepth: WRITE_DEPTH,
   eyeZ: EYE_Z,
   quad: {

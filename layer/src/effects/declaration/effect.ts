@@ -129,6 +129,7 @@ export const VERTEX_STAGES = [
   "measure",
   "size",
   "place",
+  "deepen",
   "hand",
 ] as const;
 /** Stages whose lines several effects may need and that come in once. */

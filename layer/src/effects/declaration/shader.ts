@@ -31,7 +31,13 @@ export interface ShaderTarget {
   readonly declarations: readonly string[];
   /** Expression for a colour, RGBA, as the view's picture takes it. */
   colour(rgba: string): string;
-  /** Function `void writeDepth(float z)`: the depth of the eye coordinate z. */
+  /**
+   * Statements of a vertex shader that give `gl_Position` the depth of the view's depth buffer where that is not the
+   * projection's; empty where it always is. All fragments of a flat point have the depth of its vertex, so that none has
+   * to be written, and the GPU can tell what is hidden before a fragment is shaded.
+   */
+  readonly vertexDepth: string;
+  /** Function `void writeDepth(float z)` of a fragment shader: the depth of the eye coordinate z. */
   readonly writeDepth: string;
   /** Function `float eyeZ(float depth)`: the eye coordinate z of a depth that was drawn offscreen. */
   readonly eyeZ: string;

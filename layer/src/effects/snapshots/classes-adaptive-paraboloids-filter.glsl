@@ -65,6 +65,13 @@ void main() {
   float width = u_nodeSize * exp2(visible.y - visible.x) * scale;
   width = clamp(width, u_sizeLimits.x * czm_pixelRatio, u_sizeLimits.y * czm_pixelRatio);
   gl_PointSize = width;
+  #ifdef LOG_DEPTH
+  czm_vertexLogDepth();
+  float depth = log2(max(v_depthFromNearPlusOne, 0.5)) * czm_oneOverLog2FarDepthFromNearPlusOne;
+  gl_Position = gl_Position.w > 0.0
+    ? vec4(gl_Position.xy / gl_Position.w, 2.0 * depth - 1.0, 1.0)
+    : vec4(2.0, 2.0, 2.0, 1.0);
+  #endif
   v_color = color;
   v_paraboloid = vec2(eye.z, 0.5 * width / scale);
 }
@@ -72,6 +79,7 @@ void main() {
 // color: fragment
 in vec3 v_color;
 in vec2 v_paraboloid;
+// Flat points have the depth of their vertices, without czm_writeLogDepth().
 uniform vec4 u_pickColor;
 
 void writeDepth(float z) {
@@ -149,6 +157,13 @@ void main() {
   float width = u_nodeSize * exp2(visible.y - visible.x) * scale;
   width = clamp(width, u_sizeLimits.x * czm_pixelRatio, u_sizeLimits.y * czm_pixelRatio);
   gl_PointSize = width;
+  #ifdef LOG_DEPTH
+  czm_vertexLogDepth();
+  float depth = log2(max(v_depthFromNearPlusOne, 0.5)) * czm_oneOverLog2FarDepthFromNearPlusOne;
+  gl_Position = gl_Position.w > 0.0
+    ? vec4(gl_Position.xy / gl_Position.w, 2.0 * depth - 1.0, 1.0)
+    : vec4(2.0, 2.0, 2.0, 1.0);
+  #endif
   v_id = uint(u_firstId + gl_VertexID) + 1u;
   v_paraboloid = vec2(eye.z, 0.5 * width / scale);
 }

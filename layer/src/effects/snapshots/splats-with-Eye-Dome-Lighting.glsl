@@ -12,11 +12,19 @@ void main() {
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
   gl_PointSize = width;
+  #ifdef LOG_DEPTH
+  czm_vertexLogDepth();
+  float depth = log2(max(v_depthFromNearPlusOne, 0.5)) * czm_oneOverLog2FarDepthFromNearPlusOne;
+  gl_Position = gl_Position.w > 0.0
+    ? vec4(gl_Position.xy / gl_Position.w, 2.0 * depth - 1.0, 1.0)
+    : vec4(2.0, 2.0, 2.0, 1.0);
+  #endif
   v_color = color;
 }
 
 // color: fragment
 in vec3 v_color;
+// Flat points have the depth of their vertices, without czm_writeLogDepth().
 uniform vec4 u_pickColor;
 
 void main() {
@@ -35,6 +43,13 @@ void main() {
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
   gl_PointSize = width;
+  #ifdef LOG_DEPTH
+  czm_vertexLogDepth();
+  float depth = log2(max(v_depthFromNearPlusOne, 0.5)) * czm_oneOverLog2FarDepthFromNearPlusOne;
+  gl_Position = gl_Position.w > 0.0
+    ? vec4(gl_Position.xy / gl_Position.w, 2.0 * depth - 1.0, 1.0)
+    : vec4(2.0, 2.0, 2.0, 1.0);
+  #endif
 }
 
 // depth: fragment
@@ -67,6 +82,13 @@ void main() {
   float width = u_pointSize * czm_pixelRatio;
   gl_PointSize = width;
   gl_Position = czm_projection * nearer(eye, 0.5 * width / scale);
+  #ifdef LOG_DEPTH
+  czm_vertexLogDepth();
+  float depth = log2(max(v_depthFromNearPlusOne, 0.5)) * czm_oneOverLog2FarDepthFromNearPlusOne;
+  gl_Position = gl_Position.w > 0.0
+    ? vec4(gl_Position.xy / gl_Position.w, 2.0 * depth - 1.0, 1.0)
+    : vec4(2.0, 2.0, 2.0, 1.0);
+  #endif
   v_color = color;
 }
 
@@ -93,6 +115,13 @@ void main() {
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
   gl_PointSize = width;
+  #ifdef LOG_DEPTH
+  czm_vertexLogDepth();
+  float depth = log2(max(v_depthFromNearPlusOne, 0.5)) * czm_oneOverLog2FarDepthFromNearPlusOne;
+  gl_Position = gl_Position.w > 0.0
+    ? vec4(gl_Position.xy / gl_Position.w, 2.0 * depth - 1.0, 1.0)
+    : vec4(2.0, 2.0, 2.0, 1.0);
+  #endif
   v_id = uint(u_firstId + gl_VertexID) + 1u;
 }
 
