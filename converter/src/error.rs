@@ -163,7 +163,9 @@ impl Error {
         match self {
             Self::NotFound(_) => "Check the path and the permissions",
             Self::Magic(_) => "Give a LAS or LAZ file",
-            Self::Truncated(_) => "Get the whole file again: the copy or the download was cut off",
+            Self::Truncated(_) => {
+                "Get the whole file again: its writer, the copy or the download stopped early"
+            }
             Self::Corrupt(_) => {
                 "Get the file again from its source, or repair it with the software that wrote it"
             }

@@ -23,10 +23,10 @@ pub struct Verified {
 /// Reads every part of a file, on all processors.
 ///
 /// Errors: `INPUT_CHECKSUM` or, of a file without checksums, `INPUT_CORRUPT`, with the first damaged parts; others where
-/// the file cannot be read at all.
+/// the file cannot be read at all; `INPUT_TRUNCATED` where points are announced that are not in the file.
 pub fn verify(source: Source) -> Result<Verified> {
-    if let Some(text) = &source.rescued {
-        return Err(Error::corrupt(&source.scan.path, text));
+    if let Some(rescued) = &source.rescued {
+        return Err(rescued.refusal(&source.scan.path));
     }
     let parts = source.parts();
     let next = AtomicUsize::new(0);

@@ -42,8 +42,24 @@ pub fn parameters(scan: &Scan) -> Result<LazVlr> {
 /// The chunks of a file, one after the other.
 pub struct Chunks {
     pub blocks: Vec<Block>,
-    /// What is wrong with the chunk table, how the chunks were found all the same, and what is lost.
-    pub rescued: Option<String>,
+    pub rescued: Option<Rescued>,
+}
+
+/// What was found wrong with the chunks of a file that are read all the same.
+#[derive(Debug)]
+pub struct Rescued {
+    /// What is wrong with the chunk table, how the chunks were found, and what is lost.
+    pub text: String,
+    /// Points that are announced and are not in the file.
+    pub lost: u64,
+}
+
+impl Rescued {
+    /// The fault as an error, for those who want none: `INPUT_TRUNCATED` where points are missing, as of a file
+    /// without compression, `INPUT_CORRUPT` where all are there.
+    pub fn refusal(&self, path: &Path) -> Error {
+        if self.lost > 0 { Error::truncated(path, &self.text) } else { Error::corrupt(path, &self.text) }
+    }
 }
 
 /// The chunks by the chunk table or by what each says of itself, or `None` if neither is there and the file must be
@@ -123,24 +139,29 @@ fn rescue(
         if end_of(&blocks) < end_of(&listed) || blocks.is_empty() {
             return Err(Error::corrupt(&scan.path, short));
         }
-        let rest = match scan.points - found {
+        let lost = scan.points - found;
+        let rest = match lost {
             0 => "the chunks themselves tell where all of them are".to_string(),
-            lost => format!("the chunks themselves tell where {found} are, and {lost} are not in the file"),
+            _ => format!("the chunks themselves tell where {found} are, and {lost} are not in the file"),
         };
-        return Ok(Chunks { blocks, rescued: Some(format!("{short}; {rest}")) });
+        return Ok(Chunks { blocks, rescued: Some(Rescued { text: format!("{short}; {rest}"), lost }) });
     }
     let at = end_of(&listed).max(area.start);
     let missing = scan.points - known;
     let most = if vlr.uses_variable_size_chunks() { u64::MAX } else { u64::from(vlr.chunk_size()) };
-    if at == area.end || missing > most {
+    if at == area.end {
+        return Err(Error::truncated(&scan.path, short));
+    }
+    if missing > most {
         return Err(Error::corrupt(&scan.path, short));
     }
     listed.push(Block { at, bytes: area.end - at, points: missing, expected: None });
     Ok(Chunks {
         blocks: listed,
-        rescued: Some(format!(
-            "{short}; the others are taken to be the chunk behind the last one that it lists"
-        )),
+        rescued: Some(Rescued {
+            text: format!("{short}; the others are taken to be the chunk behind the last one that it lists"),
+            lost: 0,
+        }),
     })
 }
 

@@ -58,7 +58,7 @@ pub struct Source {
     /// Set where the output's scale and offset are not this file's.
     pub change: Option<ExactChange>,
     /// How points were found that the file's own table does not lead to, and what is lost.
-    pub rescued: Option<String>,
+    pub rescued: Option<laz::Rescued>,
     storage: Storage,
     blocks: Vec<Block>,
 }

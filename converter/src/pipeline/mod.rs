@@ -100,8 +100,8 @@ impl<'a> Pipeline<'a, Scanned> {
         let Self { options, progress, stage: Scanned(scans) } = self;
         let mut sources = scans.into_iter().map(Source::plan).collect::<Result<Vec<_>>>()?;
         for source in &sources {
-            if let Some(text) = source.rescued.as_ref().filter(|_| options.strict) {
-                return Err(Error::corrupt(&source.scan.path, text));
+            if let Some(rescued) = source.rescued.as_ref().filter(|_| options.strict) {
+                return Err(rescued.refusal(&source.scan.path));
             }
             warn(source, progress);
         }
@@ -254,7 +254,10 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
 fn warn(source: &Source, progress: &dyn Progress) {
     let scan = &source.scan;
     let tell = |text: &str| progress.warn(&format!("{}: {text}", scan.path.display()));
-    scan.warnings.iter().chain(&source.rescued).for_each(|text| tell(text));
+    scan.warnings
+        .iter()
+        .chain(source.rescued.as_ref().map(|rescued| &rescued.text))
+        .for_each(|text| tell(text));
     if checksums::stored(scan) == Stored::Foreign {
         tell(
             "the checksums of its nodes are those of another file, or of a newer program: they are not checked",
