@@ -1,9 +1,12 @@
-// `npm run mutants ROOM [FILE …]`: changes the sources of a room in small ways, one at a time, and says how many of the
-// changes its tests notice. Not part of `npm test`: a room takes an hour and more, a file minutes.
+// `npm run mutants ROOM [--lines N] [FILE …]`: changes the sources of a room in small ways, one at a time, and says how
+// many of the changes its tests notice. Not part of `npm test`: a room takes an hour and more, a file minutes. `--lines`
+// takes a sample of a room of TypeScript: what can be changed within N lines, drawn by GROMA_SEED among those with code.
 import { spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
 
 const root = join(fileURLToPath(new URL(".", import.meta.url)), "..");
 const artifacts = join(root, "tests/artifacts/mutants");
@@ -31,18 +34,41 @@ const ROOMS = new Map([
 /** Changes that no test can notice: texts for people. */
 const SILENT = ["StringLiteral"];
 
+/** Files of a room's sources, or single lines of them (`file:7-7`). */
+function sourcesOf(folder, files, lines) {
+  const sources = readdirSync(join(root, folder), { recursive: true, encoding: "utf8" })
+    .filter(
+      (name) => /(?<!\.(test|fixture|d))\.ts$/.test(name) && (files.length === 0 || files.includes(name)),
+    )
+    .map((name) => `${folder}/${name}`);
+  if (lines === undefined) return sources;
+  const all = sources.sort().flatMap((path) =>
+    readFileSync(join(root, path), "utf8")
+      .split("\n")
+      .flatMap((text, at) =>
+        /^\s*(\/\/|\/?\*|import |export \{|\}?$)/.test(text) ? [] : `${path}:${at + 1}-${at + 1}`,
+      ),
+  );
+  const drawn = (line) => createHash("sha256").update(`${process.env.GROMA_SEED} ${line}`).digest("hex");
+  return all
+    .map((line) => [drawn(line), line])
+    .sort(([a], [b]) => (a < b ? -1 : 1))
+    .slice(0, lines)
+    .map(([, line]) => line);
+}
+
 /**
  * @param files names within the room's folder, such as `certificate.ts`; none stands for all
+ * @param lines number of lines to be drawn among those of the files; undefined: all of the files
  * @returns mutants by what became of them
  */
-async function stryker({ folder, tests }, files) {
+async function stryker({ folder, tests }, files, lines) {
   const { Stryker } = await import("@stryker-mutator/core");
   process.env.GROMA_MUTANTS_TESTS = tests.join(",");
   process.env.GROMA_SEED ??= "20150217";
   process.env.GROMA_FUZZ_RUNS ??= "200";
-  const named = files.length > 0 ? files.map((file) => `${folder}/${file}`) : [`${folder}/**/*.ts`];
   const results = await new Stryker({
-    mutate: [...named, "!**/*.test.ts", "!**/*.fixture.ts", "!**/*.d.ts"],
+    mutate: sourcesOf(folder, files, lines),
     mutator: { excludedMutations: SILENT },
     testRunner: "vitest",
     plugins: ["@stryker-mutator/vitest-runner"],
@@ -101,15 +127,16 @@ function cargoMutants({ folder }, files) {
   });
 }
 
-const [name, ...files] = process.argv.slice(2);
+const { values, positionals } = parseArgs({ allowPositionals: true, options: { lines: { type: "string" } } });
+const [name, ...files] = positionals;
 const room = ROOMS.get(name);
 if (!room) {
   console.error(
-    `npm run mutants ROOM [FILE …]: no room "${name ?? ""}"; there are ${[...ROOMS.keys()].join(", ")}`,
+    `npm run mutants ROOM [--lines N] [FILE …]: no room "${name ?? ""}"; there are ${[...ROOMS.keys()].join(", ")}`,
   );
   process.exit(1);
 }
-const mutants = await room.tool(room, files);
+const mutants = await room.tool(room, files, values.lines && Number(values.lines));
 const count = (...statuses) => mutants.filter(({ status }) => statuses.includes(status)).length;
 const killed = count("Killed", "Timeout");
 const lived = mutants.filter(({ status }) => status === "Survived" || status === "NoCoverage");

@@ -76,6 +76,31 @@ describe("several inputs, some of which are empty or cannot be read", () => {
   });
 });
 
+it("a LAZ that lacks points is truncated, as a LAS is; what is there can be had", async () => {
+  await groma("convert", "good.las", "all.copc.laz");
+  const bytes = readFileSync(join(folder, "all.copc.laz"));
+  // The number of points by LAS 1.4; the older field is 0 or the same.
+  expect(bytes.readBigUInt64LE(247)).toBe(4970n);
+  bytes.writeBigUInt64LE(4980n, 247);
+  if (bytes.readUInt32LE(107) > 0) bytes.writeUInt32LE(4980, 107);
+  put("short.copc.laz", bytes);
+  const lost = /4980 points are announced, the chunk table leads to 4970; .* 10 are not in the file/;
+  const made = await groma("convert", "short.copc.laz", "rest.copc.laz", "--progress", "json");
+  expect(last(made)).toMatchObject({ event: "done", points: 4970 });
+  expect(made.stdout).toMatch(lost);
+  for (const args of [
+    ["convert", "short.copc.laz", "none.copc.laz", "--strict"],
+    ["info", "short.copc.laz", "--verify"],
+  ]) {
+    const { code, stderr } = await groma(...args);
+    expect(stderr).toMatch(/^INPUT_TRUNCATED: short\.copc\.laz: /m);
+    expect(stderr).toMatch(lost);
+    expect(stderr).toMatch(/its writer, the copy or the download stopped early/);
+    expect(code).toBe(1);
+  }
+  expect(existsSync(join(folder, "none.copc.laz"))).toBe(false);
+});
+
 it("an output that is not named as LAZ is refused", async () => {
   const { code, stderr } = await groma("convert", "good.las", "out.las");
   expect(stderr).toMatch(/OUTPUT_NAME: out\.las: .*\.copc\.laz/);

@@ -1,6 +1,6 @@
 import { type Crs, egm96Grid, encodeEgm96 } from "@groma/georef";
 import { afterEach, describe, expect, it, vi } from "vitest";
-import { guessHeights } from "./height-guess.js";
+import { guessHeights } from "./height-data.js";
 
 const SYSTEM = {
   ...{ code: 5728, name: "LN02 height", unit: { name: "metre", size: 1 }, depth: false },

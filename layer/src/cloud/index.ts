@@ -1,8 +1,7 @@
 export type { AttributeInfo, PointRecord, RecordValue } from "./attribute-info.js";
 export { CLOUD_OPTIONS, type PointCloudOptions } from "./cloud-options.js";
 export type { GeoreferenceOptions } from "./georeference.js";
-export type { HeightData } from "./height-data.js";
-export { guessHeights } from "./height-guess.js";
+export { guessHeights, type HeightData } from "./height-data.js";
 export { NodeStream, type StreamLimits, type StreamListener, type StreamProgress } from "./node-stream.js";
 export { PointCloud } from "./point-cloud.js";
 export type {
