@@ -75,6 +75,22 @@ describe("horizonOf", () => {
     expect([hidden(990_000), hidden(1_001_000)]).toEqual([true, false]);
   });
 
+  it("hides as much from above a pole: the earth there is as wide as at the equator, and lower", () => {
+    const [a, b] = [occluder, 6_356_752.314 - 12_000];
+    const above = 2 * b;
+    const behind = horizonOf(viewFrom([0, 0, above]));
+    const [angle, distance] = [3, 6_400_000];
+    // Across the axis in the units of the shorter one, in which the earth is a ball.
+    const [z, across] = [distance * Math.cos(angle), distance * Math.sin(angle)];
+    const slant = Math.hypot(above - z, across);
+    const toCone = slant * Math.sin(Math.asin(b / above) - Math.asin(across / slant));
+    for (const turn of [0, 1, 2, 3, 4, 5]) {
+      const [x, y] = [Math.cos(turn), Math.sin(turn)].map((part) => (part * across * a) / b);
+      const hidden = (radius: number) => behind({ x, y, z, radius, spacing: 1 });
+      expect([hidden(0.999 * toCone), hidden(1.001 * toCone)]).toEqual([true, false]);
+    }
+  });
+
   it("hides no point in sight: the line to it stays above the ground", () => {
     const place = fc.record({
       longitude: fc.double({ min: -180, max: 180, noNaN: true }),
@@ -112,6 +128,34 @@ describe("outsideFrustum", () => {
   });
 });
 
+it("a sphere is outside of a frustum where it is outside of any of its planes, whichever way they look", () => {
+  const direction = fc
+    .tuple(...[0, 1, 2].map(() => fc.integer({ min: -9, max: 9 })))
+    .filter((parts) => Math.hypot(...parts) > 0)
+    .map((parts) => parts.map((part) => part / Math.hypot(...parts)));
+  const plane = fc.record({ normal: direction, offset: fc.integer({ min: -50, max: 50 }) });
+  const centres = fc.tuple(...[0, 1, 2].map(() => fc.integer({ min: -50, max: 50 })));
+  fc.assert(
+    fc.property(
+      fc.array(plane, { maxLength: 6 }),
+      centres,
+      fc.integer({ min: 1, max: 30 }),
+      (all, at, radius) => {
+        const planes = all.flatMap(({ normal, offset }) => [...normal, offset]);
+        const inner = all.map(({ normal, offset }) =>
+          at.reduce((sum, part, i) => sum + part * normal[i], offset),
+        );
+        // Not what only touches a plane.
+        fc.pre(inner.every((distance) => Math.abs(distance + radius) > 1e-9));
+        const [x, y, z] = at;
+        expect(outsideFrustum(viewFrom([0, 0, 0], planes), { x, y, z, radius, spacing: 1 })).toBe(
+          inner.some((distance) => distance < -radius),
+        );
+      },
+    ),
+  );
+});
+
 describe("lengths on the screen", () => {
   const at = (x: number): NodeBounds => ({ x, y: 0, z: 0, radius: 10, spacing: 1 });
 
@@ -123,6 +167,8 @@ describe("lengths on the screen", () => {
   it("fill the picture at a metre's distance where the field of view is 90° and they are 2 m long", () => {
     const view = viewFrom([0, 0, 0]);
     expect(2 * pixelsPerMetre(view)).toBeCloseTo(view.height, 9);
+    const narrow: View = { ...view, projection: { kind: "perspective", fieldOfView: Math.PI / 3 } };
+    expect((2 / Math.sqrt(3)) * pixelsPerMetre(narrow)).toBeCloseTo(view.height, 9);
   });
 
   it("fill an orthographic picture at any distance where they are as long as its extent", () => {
