@@ -26,10 +26,10 @@ export {
 export * from "../index.js";
 export type {
   LayerSource,
-  LayerStatistics,
   PickOptions,
   PickResult,
   PointCloudLayerOptions,
   WindowPosition,
 } from "./layer-options.js";
+export type { LayerStatistics } from "./layer-statistics.js";
 export { PointCloudLayer } from "./point-cloud-layer.js";

@@ -1,8 +1,6 @@
 import { type Cartesian3, RequestErrorEvent, Resource, TrustedServers } from "cesium";
 import { CLIPS_OPTION, type ClipSet } from "../clips/index.js";
 import { CLOUD_OPTIONS, type PointCloud, type PointCloudOptions, type PointRecord } from "../cloud/index.js";
-import type { GpuMilliseconds } from "../drawing/frame.js";
-import type { GpuCounts } from "../drawing/gpu.js";
 import type { Forced, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
 import { flag, type Kind, type Kinds, kindOf, number, optionPlace, some } from "../options/index.js";
@@ -106,27 +104,6 @@ const pickOptions = some<PickOptions>({ window: number(0, 1000), signal: CLOUD_O
 export function checkPick(position: WindowPosition, options: PickOptions, file: string): PickOptions {
   windowPosition.read(position, optionPlace("windowPosition", file));
   return pickOptions.read(options, optionPlace("options", file));
-}
-
-/** Numbers about the frame drawn last. */
-export interface LayerStatistics {
-  /** Nodes with points that the view wants. */
-  readonly nodesVisible: number;
-  /** Of these, drawn. */
-  readonly nodesLoaded: number;
-  /** Of these, failed; hierarchy pages that cannot be read count as well. Never counted as loaded. */
-  readonly nodesFailed: number;
-  readonly pointsDrawn: number;
-  /** True where the point budget, not the screen-space error, ended the refinement. */
-  readonly budgetReached: boolean;
-  /** Nodes and pages being loaded. */
-  readonly requestsPending: number;
-  /** Bytes of buffers and textures on the GPU. */
-  readonly gpuBytes: number;
-  /** GPU objects alive, by kind; all 0 after `destroy()`. */
-  readonly gpuObjects: GpuCounts;
-  /** GPU milliseconds of the points and of the pass over the picture; undefined where the browser does not say. */
-  readonly gpuMilliseconds: GpuMilliseconds;
 }
 
 /** A point that was picked, as it is recorded. */

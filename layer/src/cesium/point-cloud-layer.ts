@@ -2,8 +2,6 @@ import { BoundingSphere, Cartesian3, DeveloperError, Event, SceneMode } from "ce
 import { ClipSet } from "../clips/index.js";
 import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
 import { LayerFrames } from "../drawing/frame.js";
-import { FrameFailures } from "../drawing/frame-failures.js";
-import { NO_OBJECTS } from "../drawing/gpu.js";
 import { checkHeightOffset, liftOf } from "../drawing/height-offset.js";
 import {
   checkFilter,
@@ -20,13 +18,13 @@ import type { SharedBudget } from "../octree/index.js";
 import type { FrameState } from "./engine/cesium-private.js";
 import { ContextWatch } from "./engine/context-watch.js";
 import { cameraOfFrame } from "./frame-camera.js";
+import { FrameEvents } from "./frame-events.js";
 import {
   checkLayerOption,
   checkLayerOptions,
   checkOpeningOptions,
   checkPick,
   type LayerSource,
-  type LayerStatistics,
   type PickOptions,
   type PickResult,
   type PointCloudLayerOptions,
@@ -34,6 +32,7 @@ import {
   type WindowPosition,
 } from "./layer-options.js";
 import { LayerRenderer } from "./layer-renderer.js";
+import { type LayerStatistics, statisticsOf } from "./layer-statistics.js";
 import type { CesiumView } from "./node-drawable.js";
 
 /**
@@ -67,7 +66,7 @@ export class PointCloudLayer {
   readonly #frames: LayerFrames<CesiumView>;
   readonly #unsubscribe: () => void;
   readonly #watch = new ContextWatch(() => this.#release());
-  readonly #failures = new FrameFailures();
+  readonly #events = new FrameEvents(this);
   #show = true;
   #maximumScreenSpaceError = 2;
   #pointBudget = 1_000_000;
@@ -244,20 +243,8 @@ export class PointCloudLayer {
   }
 
   get statistics(): LayerStatistics {
-    const renderer = this.#renderer;
-    const nodes = renderer?.content.nodes ?? [];
-    const { progress, limited } = this.#frames;
-    return {
-      nodesVisible: progress.wanted,
-      nodesLoaded: nodes.length,
-      nodesFailed: progress.failed,
-      pointsDrawn: nodes.reduce((sum, { count }) => sum + count, 0),
-      budgetReached: limited,
-      requestsPending: this.#destroyed ? 0 : this.cloud.stream.active,
-      gpuBytes: renderer?.objects.bytes ?? 0,
-      gpuObjects: renderer?.objects.counts ?? NO_OBJECTS,
-      gpuMilliseconds: renderer?.gpuMilliseconds ?? { points: undefined, picture: undefined },
-    };
+    const pending = this.#destroyed ? 0 : this.cloud.stream.active;
+    return statisticsOf(this.#frames, this.#renderer, pending);
   }
 
   /**
@@ -304,7 +291,7 @@ export class PointCloudLayer {
     try {
       this.#draw(frameState);
     } catch (thrown) {
-      this.#tell(thrown, frameState);
+      this.#events.failed(thrown, frameState);
       this.#rest();
     }
   }
@@ -367,36 +354,18 @@ export class PointCloudLayer {
   }
 
   #render(frameState: FrameState): void {
-    const { afterRender } = frameState;
     const camera = cameraOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
     const report = this.#frames.draw(this, camera, () => this.#rendererFor(frameState));
-    this.#tell(this.#frames.takeFailure(), frameState);
+    this.#events.failed(this.#frames.takeFailure(), frameState);
     if (report === "blocked") {
       this.#rest();
       return;
     }
     if (report === "unfinished") {
-      afterRender.push(() => true);
+      frameState.afterRender.push(() => true);
       return;
     }
-    const { progress, changed, finished, done } = report;
-    if (done) this.#failures.clear();
-    // Events go out after the frame, where a listener may change the scene.
-    afterRender.push(() => {
-      if (changed) raise(this.loadProgress, progress);
-      if (finished) raise(this.allNodesLoaded);
-      return !done;
-    });
-  }
-
-  /** Raises what failed as an event after the frame, unless it is known. */
-  #tell(thrown: unknown, { afterRender }: FrameState): void {
-    const error = this.#failures.note(thrown, this.cloud.name);
-    if (!error) return;
-    afterRender.push(() => {
-      raise(this.error, error);
-      return false;
-    });
+    this.#events.drawn(report, frameState);
   }
 
   #rendererFor(frameState: FrameState): LayerRenderer {
@@ -418,17 +387,5 @@ export class PointCloudLayer {
     if (this.#warned) return;
     this.#warned = true;
     console.warn(`${this.cloud.name}: point clouds are drawn in 3D only, not in 2D and Columbus view`);
-  }
-}
-
-/** Raises an event within Cesium's render loop, which an error of a listener must not end. */
-function raise<Arguments extends unknown[]>(
-  event: Event<(...values: Arguments) => void>,
-  ...values: Arguments
-): void {
-  try {
-    event.raiseEvent(...values);
-  } catch (thrown) {
-    reportError(thrown);
   }
 }

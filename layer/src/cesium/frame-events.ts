@@ -1,0 +1,57 @@
+import type { Event } from "cesium";
+import type { StreamProgress } from "../cloud/index.js";
+import type { FrameReport } from "../drawing/frame.js";
+import { FrameFailures } from "../drawing/frame-failures.js";
+import type { FrameState } from "./engine/cesium-private.js";
+
+/** The events of a layer that tell of its frames. */
+interface EventSource {
+  readonly cloud: { readonly name: string };
+  readonly error: Event<(error: Error) => void>;
+  readonly loadProgress: Event<(progress: StreamProgress) => void>;
+  readonly allNodesLoaded: Event<() => void>;
+}
+
+/** Tells of frames, each time after the frame, where a listener may change the scene. */
+export class FrameEvents {
+  readonly #layer: EventSource;
+  readonly #failures = new FrameFailures();
+
+  constructor(layer: EventSource) {
+    this.#layer = layer;
+  }
+
+  /** Raises what failed, unless it is known; undefined: nothing did. */
+  failed(thrown: unknown, { afterRender }: FrameState): void {
+    const { cloud, error: event } = this.#layer;
+    const error = this.#failures.note(thrown, cloud.name);
+    if (!error) return;
+    afterRender.push(() => {
+      raise(event, error);
+      return false;
+    });
+  }
+
+  /** Raises what a frame that was drawn came to, and asks for a further one where that would show more. */
+  drawn({ progress, changed, finished, done }: FrameReport, { afterRender }: FrameState): void {
+    if (done) this.#failures.clear();
+    const { loadProgress, allNodesLoaded } = this.#layer;
+    afterRender.push(() => {
+      if (changed) raise(loadProgress, progress);
+      if (finished) raise(allNodesLoaded);
+      return !done;
+    });
+  }
+}
+
+/** Raises an event within Cesium's render loop, which an error of a listener must not end. */
+function raise<Arguments extends unknown[]>(
+  event: Event<(...values: Arguments) => void>,
+  ...values: Arguments
+): void {
+  try {
+    event.raiseEvent(...values);
+  } catch (thrown) {
+    reportError(thrown);
+  }
+}
