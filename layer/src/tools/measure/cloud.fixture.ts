@@ -10,6 +10,9 @@ const PARTS: readonly AccuracyPart[] = [
   { name: "height", metres: null, note: "reference unknown, drawn as ellipsoidal" },
 ];
 
+/** Of y, source units, so that millimetres of northings fit into the integers of LAS. */
+const OFFSET = 4_000_000;
+
 export interface FixtureCloud extends MeasuredCloud {
   /** A record whose integers are nearest to source coordinates. */
   vertex(x: number, y: number, z: number): Vertex;
@@ -22,10 +25,10 @@ export function cloudOf(
 ): FixtureCloud {
   const crs = resolveCrs({ file: name, given, ...(vertical && { givenVertical: vertical }) });
   const transform = pointTransform(truthOf({ crs }, 0, name));
-  const cloud = {
+  return {
     name,
     crs,
-    scale: [scale, scale, scale] as const,
+    scale: [scale, scale, scale],
     accuracy: statedAccuracy(parts),
     bounds: { radius: 1000 },
     place(x: number, y: number, z: number) {
@@ -33,11 +36,14 @@ export function cloudOf(
       transform(x, y, z, out, 0);
       return out;
     },
+    vertex(x: number, y: number, z: number) {
+      const integers = [
+        Math.round(x / scale),
+        Math.round((y - OFFSET) / scale),
+        Math.round(z / scale),
+      ] as const;
+      const source = [integers[0] * scale, integers[1] * scale + OFFSET, integers[2] * scale] as const;
+      return recordVertex(this, { node: "0-0-0-0", index: 0, integers, source });
+    },
   };
-  const vertex = (x: number, y: number, z: number) => {
-    const integers = [Math.round(x / scale), Math.round(y / scale), Math.round(z / scale)] as const;
-    const source = [integers[0] * scale, integers[1] * scale, integers[2] * scale] as const;
-    return recordVertex(cloud, { node: "0-0-0-0", index: 0, integers, source });
-  };
-  return { ...cloud, vertex };
 }

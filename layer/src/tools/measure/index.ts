@@ -6,6 +6,27 @@ export { type Distance, type GridDistance, measureDistance, measureHeight } from
 export { type BestPlane, measurePlane } from "./figures/plane.js";
 export { measurePolyline, type Polyline } from "./figures/polyline.js";
 export { type ReadOut, readOut } from "./figures/read-out.js";
+export {
+  type KindOfMeasurement,
+  MEASUREMENT_KINDS,
+  type Measurement,
+  type MeasurementKind,
+  type NamedValue,
+  valuesOf,
+  wordsOf,
+} from "./measurement/measurement.js";
+export { valuesToCsv, verticesToCsv } from "./save/csv.js";
+export type {
+  MeasurementCollection,
+  MeasurementFeature,
+  SavedDataset,
+  SavedValue,
+  SavedVertex,
+} from "./save/document.js";
+export type { Geometry, Position } from "./save/geometry.js";
+export { type ReadMeasurements, readMeasurements } from "./save/read.js";
+export { type ReadableCloud, verifyRecords } from "./save/verify.js";
+export { measurementsToGeoJson } from "./save/write.js";
 export { MeasureUnits, type MeasureUnitsOptions, type Words } from "./units/measure-units.js";
 export type { AngleUnit, AreaUnit, LengthUnit, SlopeUnit, VolumeUnit } from "./units/tables.js";
 export {

@@ -54,11 +54,8 @@ export interface CloudErrors {
   readonly shared: readonly PointError[];
 }
 
-const NO_CLOUD: CloudErrors = {
-  ofRecords: [],
-  ofPlaces: [unknownPlace("the place is not one of a data set at hand")],
-  shared: [],
-};
+const NOT_AT_HAND = unknownPlace("the place is not one of a data set at hand");
+const NO_CLOUD: CloudErrors = { ofRecords: [NOT_AT_HAND], ofPlaces: [NOT_AT_HAND], shared: [] };
 
 const known = new WeakMap<MeasuredCloud, { precision: Precision | undefined; errors: CloudErrors }>();
 

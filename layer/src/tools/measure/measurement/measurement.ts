@@ -1,0 +1,190 @@
+import { measureAngle } from "../figures/angle.js";
+import { measureArea } from "../figures/area.js";
+import { measureCircle } from "../figures/circle.js";
+import { measureDirection } from "../figures/direction.js";
+import { measureDistance } from "../figures/distance.js";
+import { measurePlane } from "../figures/plane.js";
+import { measurePolyline } from "../figures/polyline.js";
+import { readOut } from "../figures/read-out.js";
+import type { MeasureUnits, Words } from "../units/measure-units.js";
+import type { Vertex } from "../vertex/vertex.js";
+import type { WorthOptions } from "../worth/point-errors.js";
+import { type Quantity, quantity } from "../worth/quantity.js";
+
+/** What can be measured by placing vertices. */
+export type MeasurementKind =
+  | "point"
+  | "distance"
+  | "height"
+  | "polyline"
+  | "area"
+  | "angle"
+  | "circle"
+  | "plane";
+
+/** Vertices, and what is measured of them. Values are derived anew whenever they are asked for. */
+export interface Measurement {
+  /** Its own among all that are kept together. */
+  readonly id: string;
+  readonly kind: MeasurementKind;
+  /** For people. */
+  readonly name: string;
+  readonly vertices: readonly Vertex[];
+}
+
+/** One value of a measurement. */
+export interface NamedValue {
+  /** Stable, camel case, as `gridDistance`. */
+  readonly name: string;
+  /** In English, as `grid distance`. */
+  readonly title: string;
+  readonly quantity: Quantity;
+  /** Which of `MeasureUnits` writes it. */
+  readonly writtenAs: "value" | "slope" | "longitude" | "latitude";
+}
+
+/** What a kind of measurement is made of. */
+export interface KindOfMeasurement {
+  readonly title: string;
+  readonly least: number;
+  /** Infinity where any number of vertices will do. */
+  readonly most: number;
+  readonly shape: "points" | "line" | "ring";
+  /** The first is the one that the measurement is for. */
+  values(vertices: readonly Vertex[], options: WorthOptions): (NamedValue | undefined)[];
+}
+
+const value = (name: string, title: string, of: Quantity): NamedValue => ({
+  ...{ name, title, quantity: of, writtenAs: "value" },
+});
+
+/** A value that need not be. */
+const maybe = (name: string, title: string, of: Quantity | undefined) => of && value(name, title, of);
+
+const slopeOf = (of: Quantity<"rad"> | undefined): NamedValue | undefined =>
+  of && { name: "slope", title: "slope", quantity: of, writtenAs: "slope" };
+
+/** A number whose uncertainty is not worked out. */
+const derived = <Unit extends Quantity["unit"]>(of: number, unit: Unit) =>
+  quantity(of, unit, [], { own: [{ name: "not worked out", standard: null }] });
+
+/** Every kind, in the order in which people look for them. */
+export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasurement>> = {
+  point: {
+    ...{ title: "Point", least: 1, most: 1, shape: "points" },
+    values([vertex], options) {
+      const { height, longitude, latitude } = readOut(vertex, options);
+      return [
+        value("height", "height above the ellipsoid", height),
+        { name: "longitude", title: "longitude", quantity: longitude, writtenAs: "longitude" },
+        { name: "latitude", title: "latitude", quantity: latitude, writtenAs: "latitude" },
+      ];
+    },
+  },
+  distance: {
+    ...{ title: "Distance", least: 2, most: 2, shape: "line" },
+    values: ([a, b], options) => {
+      const { space, horizontal, vertical, geodesic, grid } = measureDistance(a, b, options);
+      const { forward, slope } = measureDirection(a, b, options);
+      return [
+        value("space", "straight", space),
+        value("horizontal", "horizontal", horizontal),
+        value("vertical", "vertical", vertical),
+        value("geodesic", "geodesic", geodesic),
+        maybe("grid", "grid", grid?.distance),
+        grid && value("scaleFactor", "scale factor", derived(grid.scaleFactor, "1")),
+        maybe("azimuth", "azimuth", forward),
+        slopeOf(slope),
+      ];
+    },
+  },
+  height: {
+    ...{ title: "Height", least: 2, most: 2, shape: "line" },
+    values: ([a, b], options) => {
+      const { vertical, horizontal } = measureDistance(a, b, options);
+      return [value("vertical", "vertical", vertical), value("horizontal", "horizontal", horizontal)];
+    },
+  },
+  polyline: {
+    ...{ title: "Line", least: 2, most: Number.POSITIVE_INFINITY, shape: "line" },
+    values: (vertices, options) => {
+      const { space, horizontal, geodesic, grid, ascent, descent } = measurePolyline(vertices, options);
+      return [
+        value("space", "straight", space),
+        value("horizontal", "horizontal", horizontal),
+        value("geodesic", "geodesic", geodesic),
+        maybe("grid", "grid", grid?.distance),
+        value("ascent", "ascent", derived(ascent, "m")),
+        value("descent", "descent", derived(descent, "m")),
+      ];
+    },
+  },
+  area: {
+    ...{ title: "Area", least: 3, most: Number.POSITIVE_INFINITY, shape: "ring" },
+    values: (vertices, options) => {
+      const { geodesic, planar, grid, perimeter, plane } = measureArea(vertices, options);
+      return [
+        value("geodesic", "on the ellipsoid", geodesic),
+        value("planar", "in its plane", planar),
+        maybe("grid", "grid", grid?.area),
+        value("perimeter", "perimeter", perimeter.space),
+        slopeOf(derived(plane.slope, "rad")),
+      ];
+    },
+  },
+  angle: {
+    ...{ title: "Angle", least: 3, most: 3, shape: "line" },
+    values: ([a, apex, b], options) => {
+      const { space, horizontal } = measureAngle(a, apex, b, options);
+      return [
+        value("space", "in space", space),
+        horizontal === undefined
+          ? undefined
+          : value("horizontal", "between azimuths", derived(horizontal, "rad")),
+      ];
+    },
+  },
+  circle: {
+    ...{ title: "Circle", least: 3, most: 3, shape: "line" },
+    values: ([a, b, c], options) => {
+      const { radius, circumference, area, arc } = measureCircle(a, b, c, options);
+      return [
+        value("radius", "radius", radius),
+        value("arc", "arc", arc.length),
+        value("sagitta", "sagitta", arc.sagitta),
+        value("circumference", "circumference", circumference),
+        value("area", "area", area),
+      ];
+    },
+  },
+  plane: {
+    ...{ title: "Plane", least: 3, most: Number.POSITIVE_INFINITY, shape: "ring" },
+    values: (vertices, options) => {
+      const { slope, aspect, deviation } = measurePlane(vertices, options);
+      return [
+        slopeOf(slope),
+        aspect === undefined ? undefined : value("aspect", "falls towards", derived(aspect, "rad")),
+        value("deviation", "deviation", derived(deviation, "m")),
+      ];
+    },
+  },
+};
+
+/**
+ * What a measurement comes to; the first value is what it is for.
+ * @throws MeasureError where its vertices have no such value
+ */
+export function valuesOf(
+  { kind, vertices }: Pick<Measurement, "kind" | "vertices">,
+  options: WorthOptions = {},
+) {
+  return MEASUREMENT_KINDS[kind].values(vertices, options).filter((one) => one !== undefined);
+}
+
+/** A value as text. */
+export function wordsOf({ quantity: of, writtenAs }: NamedValue, units: MeasureUnits): Words {
+  if (of.unit !== "rad" || writtenAs === "value") return units.words(of);
+  const angle = of as Quantity<"rad">;
+  if (writtenAs === "slope") return units.slopeWords(angle);
+  return units.coordinateWords(angle, writtenAs === "longitude" ? "EW" : "NS");
+}

@@ -1,0 +1,259 @@
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { Ajv2020 } from "ajv/dist/2020.js";
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { cloudOf, UTM } from "../cloud.fixture.js";
+import {
+  MEASUREMENT_KINDS,
+  type Measurement,
+  type MeasurementKind,
+  measurementsToGeoJson,
+  placeVertex,
+  readMeasurements,
+  valuesOf,
+  valuesToCsv,
+  verifyRecords,
+  verticesToCsv,
+} from "../index.js";
+
+const schema = JSON.parse(
+  readFileSync(join(import.meta.dirname, "../../../../../docs/measurements.schema.json"), "utf8"),
+);
+const valid = new Ajv2020({ strict: false }).compile(schema);
+const DEGREE = Math.PI / 180;
+const cloud = cloudOf(UTM, { name: "__proto__" });
+
+/** Written, checked by the schema, as text. */
+function saved(measurements: readonly Measurement[]): string {
+  const document = measurementsToGeoJson(measurements, { precision: 0.01 });
+  const text = JSON.stringify(document);
+  expect(valid(JSON.parse(text)), JSON.stringify(valid.errors)).toBe(true);
+  return text;
+}
+
+const one = (kind: MeasurementKind, vertices: Measurement["vertices"], name: string = kind): Measurement => ({
+  ...{ id: name, kind, name, vertices },
+});
+
+const source = fc.tuple(
+  fc.integer({ min: 300_000_000, max: 700_000_000 }),
+  fc.integer({ min: 3_000_000_000, max: 6_000_000_000 }),
+  fc.integer({ min: -100_000, max: 9_000_000 }),
+);
+
+describe("measurements saved and read again", () => {
+  it("stand on the same records, to the integer, and have the same values", () => {
+    const kinds = Object.keys(MEASUREMENT_KINDS) as MeasurementKind[];
+    fc.assert(
+      fc.property(fc.constantFrom(...kinds), fc.array(source, { minLength: 5, maxLength: 5 }), (kind, at) => {
+        const { least, most } = MEASUREMENT_KINDS[kind];
+        const count = Math.min(most, Math.max(least, 5));
+        const vertices = at.slice(0, count).map(([x, y, z]) => cloud.vertex(x / 1000, y / 1000, z / 1000));
+        const before = one(kind, vertices, 'mine; "yours"\n');
+        const { measurements, notes } = readMeasurements(saved([before]), [cloud]);
+        expect(notes).toEqual([]);
+        expect(measurements).toEqual([before]);
+        expect(JSON.parse(saved(measurements))).toEqual(JSON.parse(saved([before])));
+      }),
+      { numRuns: 300 },
+    );
+  });
+
+  it("stand at their places where the scan is not open, and keep their records", () => {
+    const vertices = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 1)];
+    const { measurements, notes } = readMeasurements(saved([one("distance", vertices)]));
+    expect(notes).toEqual(["__proto__ is not open: its vertices stand at their saved places"]);
+    expect(measurements[0].vertices.map(({ record }) => record)).toEqual(
+      vertices.map(({ record }) => record),
+    );
+    const [space] = valuesOf(measurements[0]);
+    expect(space.quantity.value).toBeCloseTo(10 / 0.9996, 4);
+    expect(space.quantity.uncertainty).toBeNull();
+    // Opened and saved again, nothing of them is lost.
+    expect(readMeasurements(saved(measurements), [cloud]).measurements[0].vertices).toEqual(vertices);
+  });
+
+  it("are saved without values where they have none, and not lost", () => {
+    const [a, b] = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300010, 1)];
+    const [c, d] = [cloud.vertex(500010, 5300000, 1), cloud.vertex(500000, 5300010, 1)];
+    const bow = one("area", [a, b, c, d]);
+    expect(() => valuesOf(bow)).toThrow("MEASURE_CROSSING");
+    const { measurements } = readMeasurements(saved([bow]), [cloud]);
+    expect(measurements).toEqual([bow]);
+  });
+});
+
+describe("geometries", () => {
+  const at = (lon: number, lat: number) => placeVertex(lon * DEGREE, lat * DEGREE, 0);
+  const geometry = (measurement: Measurement) => JSON.parse(saved([measurement])).features[0].geometry;
+  const near = (value: number) => expect.closeTo(value, 9);
+
+  it("run counter-clockwise around areas, and end where they begin", () => {
+    const clockwise = [at(0, 0), at(0, 1), at(1, 1)];
+    const { type, coordinates } = geometry(one("area", clockwise));
+    expect(type).toBe("Polygon");
+    expect(coordinates[0].map(([lon, lat]: number[]) => [Math.round(lon), Math.round(lat)])).toEqual([
+      ...[
+        [1, 1],
+        [0, 1],
+        [0, 0],
+        [1, 1],
+      ],
+    ]);
+  });
+
+  it("are cut at the antimeridian", () => {
+    const line = geometry(one("polyline", [at(179, 0), at(-179, 2), at(-178, 2)]));
+    expect(line).toEqual({
+      type: "MultiLineString",
+      coordinates: [
+        [
+          [near(179), near(0), near(0)],
+          [near(180), near(1), near(0)],
+        ],
+        [
+          [near(-180), near(1), near(0)],
+          [near(-179), near(2), near(0)],
+          [near(-178), near(2), near(0)],
+        ],
+      ],
+    });
+    const ring = geometry(one("area", [at(179, 0), at(-179, 0), at(-179, 2), at(179, 2)]));
+    expect(ring.type).toBe("MultiPolygon");
+    const longitudes = ring.coordinates.map(([part]: number[][][]) => part.map(([lon]) => Math.round(lon)));
+    expect(longitudes.map((part: number[]) => [Math.min(...part), Math.max(...part)])).toEqual([
+      ...[
+        [179, 180],
+        [-180, -179],
+      ],
+    ]);
+  });
+
+  it("around a pole stay whole", () => {
+    const cap = [0, 90, 180, -90].map((lon) => at(lon, 85));
+    expect(geometry(one("area", cap)).type).toBe("Polygon");
+  });
+});
+
+describe("values without an uncertainty of their own", () => {
+  it("are not said to be exact", () => {
+    const [a, b] = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 9)];
+    const named = valuesOf(one("polyline", [a, b]), { precision: 0.01 });
+    expect(named.find(({ name }) => name === "ascent")?.quantity).toMatchObject({
+      value: 8,
+      uncertainty: null,
+    });
+  });
+});
+
+describe("GeoJSON of other programs", () => {
+  it("is measured, and said to have no records", () => {
+    const features = [
+      { type: "Feature", geometry: { type: "Point", coordinates: [7, 47] }, properties: { name: "pole" } },
+      {
+        type: "Feature",
+        geometry: {
+          type: "LineString",
+          coordinates: [
+            [7, 47],
+            [7, 48, 3],
+          ],
+        },
+        properties: null,
+      },
+      {
+        type: "Feature",
+        geometry: {
+          type: "Polygon",
+          coordinates: [
+            [
+              [7, 47],
+              [8, 47],
+              [8, 48],
+              [7, 47],
+            ],
+          ],
+        },
+        properties: {},
+      },
+      { type: "Feature", geometry: { type: "Point", coordinates: [7, 97] }, properties: {} },
+      { type: "Feature", geometry: null, properties: {} },
+      7,
+    ];
+    const { measurements, notes } = readMeasurements(JSON.stringify({ type: "FeatureCollection", features }));
+    expect(measurements.map(({ kind, name, vertices }) => [kind, name, vertices.length])).toEqual([
+      ["point", "pole", 1],
+      ["distance", "Distance 2", 2],
+      ["area", "Area 3", 3],
+    ]);
+    expect(notes).toHaveLength(4);
+    expect(notes[0]).toMatch("no records of a scan");
+    expect(notes[1]).toMatch("feature 4 is left out");
+  });
+
+  it.each([
+    ["no JSON", "{", "MEASURE_FILE"],
+    ["no object", "[]", "MEASURE_FILE"],
+    ["no features", '{"type": "Point", "coordinates": [1, 2]}', "MEASURE_FILE"],
+    ["another member groma", '{"type": "FeatureCollection", "features": [], "groma": 1}', "MEASURE_FILE"],
+    [
+      "a later version",
+      '{"type": "FeatureCollection", "features": [], "groma": {"format": "measurements", "version": 2}}',
+      "MEASURE_VERSION",
+    ],
+  ])("is refused by name: %s", (_, text, code) => {
+    expect(() => readMeasurements(text, [], "a.geojson")).toThrow(new RegExp(`^${code}: a.geojson: `));
+  });
+
+  it("whatever it holds, gives measurements or one clear error", () => {
+    const feature = fc.record({
+      type: fc.constant("Feature"),
+      geometry: fc.jsonValue(),
+      groma: fc.record({
+        kind: fc.constantFrom("area", "constructor", "__proto__"),
+        vertices: fc.array(
+          fc.record({ place: fc.jsonValue(), dataset: fc.constant("__proto__"), source: fc.jsonValue() }),
+        ),
+      }),
+    });
+    fc.assert(
+      fc.property(fc.array(feature), (features) => {
+        const { measurements } = readMeasurements(JSON.stringify({ type: "FeatureCollection", features }), [
+          cloud,
+        ]);
+        for (const { kind } of measurements) expect(kind in MEASUREMENT_KINDS).toBe(true);
+      }),
+    );
+  });
+});
+
+describe("records", () => {
+  it("are held against the file, and told where they are others", async () => {
+    const a = cloud.vertex(500000, 5300000, 1);
+    const measurements = [one("point", [a])];
+    const reading = (integers: readonly [number, number, number]) => ({
+      name: cloud.name,
+      readPoint: async () => ({ node: "0-0-0-0", index: 0, integers, source: a.source! }),
+    });
+    await verifyRecords(measurements, [reading(a.record!.integers)]);
+    await expect(verifyRecords(measurements, [reading([1, 2, 3])])).rejects.toMatchObject({
+      code: "MEASURE_RECORD",
+    });
+  });
+});
+
+describe("CSV", () => {
+  it("has a row a value and a row a vertex, names quoted and no formulas", () => {
+    const vertices = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 1)];
+    const measurements = [one("distance", vertices, '=1+1,"x"')];
+    const rows = valuesToCsv(measurements, { precision: 0.01 }).trimEnd().split("\r\n");
+    expect(rows[0]).toBe("measurement,kind,value_name,value,unit,uncertainty95,at_least,unknown_parts");
+    expect(rows[1]).toMatch(/^"'=1\+1,""x""",distance,space,10\.00\d*,m,0\.027\d*,0\.027\d*,$/);
+    const [, first] = verticesToCsv(measurements).split("\r\n");
+    expect(first).toMatch(
+      /,distance,1,[\d.]+,[\d.]+,[\d.]+,__proto__,0-0-0-0,0,500000000,1300000000,1000,500000,5300000,1$/,
+    );
+    expect(valuesToCsv(measurements)).toContain("point precision");
+  });
+});

@@ -1,0 +1,40 @@
+import { MeasureError } from "../../../errors/index.js";
+import type { Measurement } from "../measurement/measurement.js";
+import type { RecordedPoint } from "../vertex/vertex.js";
+
+/** A data set whose records can be read; a `PointCloud` is one. */
+export interface ReadableCloud {
+  readonly name: string;
+  readPoint(
+    node: string,
+    point: { readonly record: number },
+    options: { signal?: AbortSignal | undefined },
+  ): Promise<RecordedPoint>;
+}
+
+/**
+ * Holds vertices against the records that they say they stand on.
+ * @throws MeasureError MEASURE_RECORD where a record has other integers: the scan was converted again, or is another one
+ * @throws FormatError FORMAT_NODE where there is no such record; SourceError, DecodeError; the signal's reason when aborted
+ */
+export async function verifyRecords(
+  measurements: readonly Measurement[],
+  clouds: readonly ReadableCloud[],
+  { signal }: { signal?: AbortSignal | undefined } = {},
+): Promise<void> {
+  const byName = new Map(clouds.map((cloud) => [cloud.name, cloud]));
+  for (const { name, vertices } of measurements) {
+    for (const [i, { record }] of vertices.entries()) {
+      const cloud = record && byName.get(record.dataset);
+      if (!cloud) continue;
+      const { integers } = await cloud.readPoint(record.node, { record: record.index }, { signal });
+      if (integers.every((value, axis) => value === record.integers[axis])) continue;
+      throw new MeasureError({
+        code: "MEASURE_RECORD",
+        file: record.dataset,
+        cause: `record ${record.index} of node ${record.node} is not the one that vertex ${i + 1} of ${name} was measured on`,
+        fix: "open the file that the measurement was made in, or place the vertex again",
+      });
+    }
+  }
+}

@@ -1,0 +1,92 @@
+import { MeasureError } from "../../../errors/index.js";
+import {
+  MEASUREMENT_KINDS,
+  type Measurement,
+  type NamedValue,
+  valuesOf,
+} from "../measurement/measurement.js";
+import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
+import type { WorthOptions } from "../worth/point-errors.js";
+import {
+  FORMAT,
+  type MeasurementCollection,
+  type MeasurementFeature,
+  type SavedDataset,
+  type SavedVertex,
+  VERSION,
+} from "./document.js";
+import { geometryOf, positionOf } from "./geometry.js";
+
+/**
+ * Measurements as GeoJSON: geometries in WGS 84 for any GIS; the records, the coordinate systems and what the values are
+ * worth as foreign members (schema: `@groma/layer/measurements.schema.json`). One whose vertices have no value is saved
+ * all the same, without values.
+ */
+export function measurementsToGeoJson(
+  measurements: readonly Measurement[],
+  options: WorthOptions = {},
+): MeasurementCollection {
+  const datasets = new Map<string, SavedDataset>();
+  for (const { vertices } of measurements) {
+    for (const { cloud } of vertices) if (cloud) datasets.set(cloud.name, datasetOf(cloud));
+  }
+  return {
+    type: "FeatureCollection",
+    groma: { format: FORMAT, version: VERSION, datasets: [...datasets.values()] },
+    features: measurements.map((measurement) => featureOf(measurement, options)),
+  };
+}
+
+function featureOf(measurement: Measurement, options: WorthOptions): MeasurementFeature {
+  const { id, kind, name, vertices } = measurement;
+  const values = knownValues(measurement, options);
+  const columns = values.flatMap(({ name: title, quantity: { value, unit, uncertainty } }) => [
+    [`${title}_${ASCII[unit]}`, value],
+    [`${title}_${ASCII[unit]}_uncertainty95`, uncertainty],
+  ]);
+  return {
+    type: "Feature",
+    id,
+    geometry: geometryOf(vertices, MEASUREMENT_KINDS[kind].shape),
+    properties: { name, kind, ...Object.fromEntries(columns) },
+    groma: {
+      kind,
+      vertices: vertices.map(savedVertex),
+      values: values.map(
+        ({ name: title, quantity: { value, unit, uncertainty, atLeast, coverage, parts } }) => ({
+          ...{ name: title, value, unit, uncertainty, atLeast, coverage, parts },
+        }),
+      ),
+    },
+  };
+}
+
+/** Units in names of columns, which database files of a GIS want in ASCII. */
+const ASCII = { m: "m", "m²": "m2", "m³": "m3", rad: "rad", "1": "ratio" } as const;
+
+/** Values of a measurement, none where its vertices have none. */
+export function knownValues(measurement: Measurement, options: WorthOptions): readonly NamedValue[] {
+  try {
+    return valuesOf(measurement, options);
+  } catch (thrown) {
+    if (thrown instanceof MeasureError) return [];
+    throw thrown;
+  }
+}
+
+function datasetOf({ name, crs, scale }: MeasuredCloud): SavedDataset {
+  const { code, wkt, proj4, height } = crs;
+  const names = { name: crs.name, ...(code !== undefined && { code }), ...(wkt !== undefined && { wkt }) };
+  return { name, crs: { ...names, proj4 }, height, scale };
+}
+
+function savedVertex(vertex: Vertex): SavedVertex {
+  const { cloud, source, record } = vertex;
+  const dataset = record?.dataset ?? cloud?.name;
+  return {
+    place: positionOf(vertex),
+    ...(dataset !== undefined && { dataset }),
+    ...(source && { source: [source[0], source[1], source[2]] }),
+    ...(record && { node: record.node, index: record.index, integers: record.integers }),
+  };
+}
