@@ -130,6 +130,19 @@ function pagedFile(): Uint8Array {
 }
 
 describe("PointCloud", () => {
+  it("starts its worker before the file answers, and ends it where the file cannot be opened", async () => {
+    const workers: { terminated: boolean }[] = [];
+    const createWorker = () => {
+      const worker = { terminated: false, postMessage() {}, terminate: () => (worker.terminated = true) };
+      workers.push(worker);
+      return { ...worker, onmessage: null, onerror: null, onmessageerror: null };
+    };
+    const opening = PointCloud.fromUrl(new Blob([new Uint8Array(600)]), { workers: { createWorker } });
+    expect(workers).toHaveLength(1);
+    await expect(opening).rejects.toThrow(expect.objectContaining({ code: "FORMAT_MAGIC" }));
+    expect(workers).toEqual([expect.objectContaining({ terminated: true })]);
+  });
+
   it("goes by Groma's own record", async () => {
     const { cloud, executor } = await open(withRecord);
     expect([cloud.basis, cloud.crs.name, cloud.height.kind]).toEqual(["record", "recorded", "ellipsoidal"]);

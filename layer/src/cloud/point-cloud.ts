@@ -84,7 +84,12 @@ export class PointCloud {
   #heights: readonly [number, number];
   readonly #opening = new Map<OctreeNode, Promise<void>>();
 
-  private constructor(source: OpenedSource, georeference: Georeference, options: PointCloudOptions) {
+  private constructor(
+    source: OpenedSource,
+    georeference: Georeference,
+    options: PointCloudOptions,
+    executor: NodeExecutor,
+  ) {
     const { boundingBox, statistics, scale, attributes } = source;
     const { crs, sources, truth, tolerance } = georeference;
     this.#source = source;
@@ -108,7 +113,7 @@ export class PointCloud {
     this.#bounds = this.#rootBounds();
     this.#heights = this.#geometry.heights;
     this.#ownsExecutor = options.executor === undefined;
-    this.#executor = options.executor ?? new WorkerPool(options.workers);
+    this.#executor = executor;
     this.#dataSet = this.#executor.addDataSet({
       ...sources,
       file: source.name,
@@ -153,17 +158,20 @@ export class PointCloud {
   static async fromUrl(from: SourceLike, given: PointCloudOptions = {}): Promise<PointCloud> {
     const options = checkCloudOptions(given);
     const { signal } = options;
+    const executor = options.executor ?? new WorkerPool(options.workers);
+    if (executor instanceof WorkerPool) executor.warm();
     let cloud: PointCloud | undefined;
     try {
       const source = await openSource(from, options);
       const georeference = await georeferenceOf(source, options);
       signal?.throwIfAborted();
-      cloud = new PointCloud(source, georeference, options);
+      cloud = new PointCloud(source, georeference, options, executor);
       await cloud.#openRoot(signal);
       signal?.throwIfAborted();
       return cloud;
     } catch (thrown) {
       cloud?.destroy();
+      if (!options.executor) executor.destroy();
       // Whatever an abort made fail on the way.
       throw signal?.aborted ? signal.reason : thrown;
     }

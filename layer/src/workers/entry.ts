@@ -14,18 +14,17 @@ type JobRequest = Extract<WorkerRequest, { readonly job: ChunkJob }>;
 const dataSets = new Map<number, PreparedDataSet | unknown>();
 let wasm: Promise<Uint8Array> | undefined;
 
-const decoders = decodersWith(
-  new LazDecoder(async () => {
-    wasm ??= fetchWasm();
-    try {
-      return await create({ wasmBinary: await wasm });
-    } catch (thrown) {
-      // What could not be fetched is asked for again with the next job.
-      wasm = undefined;
-      throw thrown;
-    }
-  }),
-);
+const laz = new LazDecoder(async () => {
+  wasm ??= fetchWasm();
+  try {
+    return await create({ wasmBinary: await wasm });
+  } catch (thrown) {
+    // What could not be fetched is asked for again with the next job.
+    wasm = undefined;
+    throw thrown;
+  }
+});
+const decoders = decodersWith(laz);
 
 /** Magic number of a WebAssembly module: `\0asm`. */
 const WASM_MAGIC = [0x00, 0x61, 0x73, 0x6d];
@@ -101,3 +100,6 @@ self.onmessage = ({ data }: MessageEvent<WorkerRequest>) => {
   else if (data.kind === "forget") dataSets.delete(data.id);
   else void answer(data);
 };
+
+// While the file is opened the decoder is fetched and compiled. Whether that fails is for the first job to say.
+laz.prepare().catch(() => undefined);

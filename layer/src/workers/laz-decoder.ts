@@ -20,11 +20,20 @@ const BLOCK = 4096;
 /** Decodes LAZ chunks of point formats 6, 7 and 8. */
 export class LazDecoder implements PointDecoder<Encoded<"laz">> {
   readonly #create: () => Promise<LazPerf>;
-  #module: LazPerf | undefined;
+  #module: Promise<LazPerf> | undefined;
 
   /** @param create makes a fresh laz-perf module; it comes in one form for workers and one for Node */
   constructor(create: () => Promise<LazPerf>) {
     this.#create = create;
+  }
+
+  /** The module, made ahead of the first chunk where this is called before. */
+  prepare(): Promise<LazPerf> {
+    this.#module ??= this.#create().catch((thrown: unknown) => {
+      this.#module = undefined;
+      throw thrown;
+    });
+    return this.#module;
   }
 
   /** @throws DecodeError DECODE_CHUNK */
@@ -44,8 +53,7 @@ export class LazDecoder implements PointDecoder<Encoded<"laz">> {
     { pointFormat, recordLength }: Encoded<"laz">,
     { pointCount, file, node }: Expected,
   ): Promise<Uint8Array> {
-    const module = this.#module ?? (await this.#create());
-    this.#module = module;
+    const module = await this.prepare();
     try {
       return decodeWith(module, chunk, pointFormat, recordLength, pointCount);
     } catch (thrown) {

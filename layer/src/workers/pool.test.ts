@@ -67,6 +67,28 @@ function setUp(size: number, jobTimeout?: number) {
 }
 
 describe("WorkerPool", () => {
+  it("makes one worker ahead of the first job, which gets it", async () => {
+    const { pool, workers, job } = setUp(2);
+    pool.warm();
+    pool.warm();
+    expect(workers).toHaveLength(1);
+    const result = pool.run(job());
+    expect(workers).toHaveLength(1);
+    workers[0].done();
+    await expect(result).resolves.toBe(vertices);
+  });
+
+  it("leaves it to the first job to say that there can be no workers", async () => {
+    const pool = new WorkerPool({
+      createWorker: () => {
+        throw new Error("no workers here");
+      },
+    });
+    pool.warm();
+    const job = { dataSet: pool.addDataSet(spec), pointCount: 1, node: "0-0-0-0" } as NodeJob;
+    await expect(pool.run(job)).rejects.toThrow("no workers here");
+  });
+
   it("makes workers as needed, tells each of the data set once and gives each one job at a time", async () => {
     const { pool, workers, job } = setUp(2);
     const results = [pool.run(job("a")), pool.run(job("b")), pool.run(job("c"))];

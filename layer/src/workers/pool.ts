@@ -78,6 +78,15 @@ export class WorkerPool implements NodeExecutor {
     this.#size = options.size ?? defaultSize();
   }
 
+  /** Makes the first worker ahead of the first job, so that its scripts come while a file is opened. */
+  warm(): void {
+    try {
+      if (this.#slots.length === 0) this.#grow();
+    } catch {
+      // Where there are no workers, the first job says so.
+    }
+  }
+
   get pending(): number {
     return this.#waiting.length + this.#slots.filter((slot) => slot.task).length;
   }
