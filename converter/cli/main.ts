@@ -138,6 +138,29 @@ program
   .action(async (file: string, options) => (await import("./commands/locate.js")).runLocate(file, options));
 
 program
+  .command("profile")
+  .description("write all points in a strip along a line, record by record, to a file")
+  .argument("<files...>", "COPC files or their addresses")
+  .requiredOption("--line <FILE>", "GeoJSON file with one LineString")
+  .addOption(
+    new Option("--line-crs <CRS>", "coordinates of the line: longitude and latitude, or those of the scan")
+      .choices(["EPSG:4326", "source"])
+      .default("EPSG:4326"),
+  )
+  .addOption(
+    new Option("--width <W>", "width of the strip: metres; with --line-crs source, units of the scan")
+      .argParser(positive)
+      .makeOptionMandatory(),
+  )
+  .requiredOption("--out <FILE>", "output; the ending says the format: .las")
+  .option("--chainage", "add chainage and offset along the line to each LAS record, as extra bytes")
+  .option("--overwrite", "replace an existing output")
+  .addOption(progress())
+  .action(async (files: string[], options) =>
+    (await import("./commands/profile.js")).runProfile(files, options),
+  );
+
+program
   .command("serve")
   .description("serve the files of a folder with Range")
   .argument("<folder>")

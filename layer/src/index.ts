@@ -38,24 +38,27 @@ export {
 } from "./clips/index.js";
 export {
   type AttributeInfo,
-  type BoxRelation,
   type GeoreferenceOptions,
   guessHeights,
   type HeightData,
-  type PointBatch,
-  type PointBracket,
   PointCloud,
   type PointCloudOptions,
-  type PointQuery,
   type PointRecord,
-  type QueryOptions,
-  type QueryVolume,
   type RecordValue,
   type StreamLimits,
   type StreamProgress,
 } from "./cloud/index.js";
 export { DecodeError, DrawError, FormatError, type Outage, SourceError, StyleError } from "./errors/index.js";
 export { type NodeBounds, SharedBudget, type SharedBudgetOptions, type VoxelKey } from "./octree/index.js";
+export type {
+  BoxRelation,
+  PointBatch,
+  PointBracket,
+  PointOrigin,
+  PointQuery,
+  QueryOptions,
+  QueryVolume,
+} from "./query/index.js";
 export type {
   Address,
   AddressFunction,
@@ -67,6 +70,8 @@ export type {
   HeadersFunction,
   HeaderValues,
   HttpOptions,
+  LasEnvelope,
+  LasVariableRecord,
   NumberType,
   OpenOptions,
   PointAttribute,
@@ -96,6 +101,8 @@ export {
   type NodeVertices,
   type PointDecoder,
   type PoolOptions,
+  type RecordedNode,
+  type StorageSpec,
   type StoredAttribute,
   type WorkerLike,
   WorkerPool,

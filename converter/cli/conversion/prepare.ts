@@ -1,7 +1,6 @@
-import { existsSync, statSync } from "node:fs";
-import { dirname } from "node:path";
-import { type Fault, GromaError } from "@groma/georef";
+import type { Fault } from "@groma/georef";
 import type { CoreEvent, PointBounds, Scan } from "../core/core.js";
+import { OutputError, requirePlace } from "../given/output-place.js";
 import type { Planned } from "../pdal/bring.js";
 import type { Pdal } from "../pdal/find.js";
 import type { Job } from "../pdal/pipeline.js";
@@ -11,11 +10,6 @@ import { expectedWhereabouts, type Whereabouts } from "../place/whereabouts.js";
 import { expandInputs, InputError } from "./inputs.js";
 import type { ConvertOptions } from "./options.js";
 import { scanAll, sourcesOf } from "./sources.js";
-
-/** The output cannot be written. Codes: OUTPUT_EXISTS, OUTPUT_NAME, OUTPUT_WRITE, as the core has them. */
-class OutputError extends GromaError {
-  static override readonly kind = "OutputError";
-}
 
 /** An input, and what is known of it before its points are converted. */
 export type Prepared =
@@ -126,23 +120,12 @@ async function throughPdal(
 }
 
 function requireTarget(output: string, overwrite: boolean): void {
-  const refuse = (code: string, cause: string, fix: string) =>
-    new OutputError({ code, file: output, cause, fix });
-  if (statSync(output, { throwIfNoEntry: false })?.isDirectory()) {
-    throw refuse("OUTPUT_WRITE", "this is a folder", "name an output file");
-  }
-  if (!existsSync(dirname(output))) {
-    throw refuse("OUTPUT_WRITE", "its folder does not exist", "create the folder, or name another");
-  }
-  if (existsSync(output) && !overwrite) {
-    throw refuse("OUTPUT_EXISTS", "the file already exists", "give --overwrite, or another name");
-  }
+  requirePlace(output, overwrite);
   // As in the core, `output.rs`.
   if (!/\.laz$/i.test(output)) {
-    throw refuse(
-      "OUTPUT_NAME",
-      "a COPC file has a name that ends in .laz",
-      "name it so, best with .copc.laz",
-    );
+    throw new OutputError({
+      ...{ code: "OUTPUT_NAME", file: output, cause: "a COPC file has a name that ends in .laz" },
+      fix: "name it so, best with .copc.laz",
+    });
   }
 }

@@ -1,4 +1,4 @@
-import type { FileSource } from "./file-source.js";
+import type { FileSource } from "../files/file-source.js";
 
 /** What of a header the core does not tell (LAS 1.4 R15, table 3). */
 export interface HeaderDetails {

@@ -1,9 +1,9 @@
 import { type AccuracyPart, CrsError } from "@groma/georef";
 import { type Scan, type ScanStatistics, scanFile, type Verified, verifyFile } from "../core/core.js";
+import { FileSource } from "../files/file-source.js";
 import { type GeodeticBounds, geodeticBounds } from "../place/describe.js";
 import { type Placed, placed } from "../place/placed.js";
 import { type Whereabouts, whereabouts } from "../place/whereabouts.js";
-import { FileSource } from "./file-source.js";
 import { type GpsSpan, gpsSpan } from "./gps-time.js";
 import { type HeaderDetails, headerDetails } from "./header.js";
 import type { Octree } from "./octree.js";

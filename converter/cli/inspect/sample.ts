@@ -1,6 +1,6 @@
 import type { Scan, ScanStatistics } from "../core/core.js";
+import type { FileSource } from "../files/file-source.js";
 import { fields } from "./fields.js";
-import type { FileSource } from "./file-source.js";
 import type { HeaderDetails } from "./header.js";
 import type { Octree } from "./octree.js";
 

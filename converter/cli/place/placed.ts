@@ -10,7 +10,7 @@ import {
 } from "@groma/georef";
 import type { Scan } from "../core/core.js";
 import { fitBoundOf, geoidsOf } from "./geoids.js";
-import { type Georeferenced, georeference, georeferenceRecord } from "./georeference.js";
+import { type Georeferenced, georeference, georeferenceRecord, type Named } from "./georeference.js";
 import { TOLERANCE } from "./records.js";
 
 /** Where a file's points are, as the file itself says it: by the same code that a page uses, without PROJ. */
@@ -36,7 +36,7 @@ export interface Placed {
  * @throws RecordError RECORD_*
  * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED
  */
-export async function placed(scan: Scan): Promise<Placed> {
+export async function placed(scan: Named & Pick<Scan, "min" | "max" | "scale">): Promise<Placed> {
   const middle = (scan.min[2] + scan.max[2]) / 2;
   const record = georeferenceRecord(scan);
   if (!record) {

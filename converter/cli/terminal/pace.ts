@@ -1,5 +1,12 @@
-/** The stages of a conversion in their order, and the share of its time that each takes, by experience. */
-const STAGES: readonly { readonly stage: string; readonly share: number; readonly ofPdal?: true }[] = [
+/** A stage of some work, and the share of the time that it takes, by experience. */
+export interface Stage {
+  readonly stage: string;
+  readonly share: number;
+  readonly ofPdal?: true;
+}
+
+/** The stages of a conversion in their order. */
+const CONVERSION: readonly Stage[] = [
   { stage: "inspect", share: 0.4, ofPdal: true },
   { stage: "pdal", share: 0.6, ofPdal: true },
   { stage: "read", share: 0.55 },
@@ -20,8 +27,11 @@ export interface Pace {
   readonly overall: number;
 }
 
-/** Follows the stages of one conversion. */
-export function createPace(now: () => number = () => performance.now()): {
+/** Follows the stages of one conversion, or of other work. */
+export function createPace(
+  now: () => number = () => performance.now(),
+  stages: readonly Stage[] = CONVERSION,
+): {
   advance(stage: string, done: number, total: number): Pace;
 } {
   const began = now();
@@ -34,10 +44,10 @@ export function createPace(now: () => number = () => performance.now()): {
         stage = current;
         stageBegan = now();
       }
-      withPdal ||= STAGES.some((step) => step.stage === current && step.ofPdal);
+      withPdal ||= stages.some((step) => step.stage === current && step.ofPdal);
       const seconds = (now() - stageBegan) / 1000;
       const rate = seconds > 0 ? Math.round(done / seconds) : 0;
-      const share = overall(current, done, total, withPdal);
+      const share = overall(stages, current, done, total, withPdal);
       const elapsed = (now() - began) / 1000;
       const known = share >= FORECAST_FROM.share && elapsed >= FORECAST_FROM.seconds;
       const eta = known ? Math.max(0, Math.round((elapsed * (1 - share)) / share)) : null;
@@ -46,9 +56,15 @@ export function createPace(now: () => number = () => performance.now()): {
   };
 }
 
-/** Share of the whole conversion that is done, 0 to 1. */
-function overall(stage: string, done: number, total: number, withPdal: boolean): number {
-  const stages = STAGES.filter((step) => withPdal || !step.ofPdal);
+/** Share of the whole that is done, 0 to 1. */
+function overall(
+  all: readonly Stage[],
+  stage: string,
+  done: number,
+  total: number,
+  withPdal: boolean,
+): number {
+  const stages = all.filter((step) => withPdal || !step.ofPdal);
   const whole = stages.reduce((sum, { share }) => sum + share, 0);
   let before = 0;
   for (const step of stages) {

@@ -1,7 +1,7 @@
 import type { CoreEvent } from "../core/core.js";
 import type { ProgressKind } from "../given/choices.js";
 import { complain, count, printJson } from "./output.js";
-import { createPace, type Pace } from "./pace.js";
+import { createPace, type Pace, type Stage } from "./pace.js";
 
 /** Shows the events of a conversion; `stop` leaves the terminal tidy, however it ended. */
 export interface Progress {
@@ -14,8 +14,19 @@ export function defaultProgress(): ProgressKind {
   return process.stderr.isTTY ? "bar" : "plain";
 }
 
-export async function createProgress(kind: ProgressKind): Promise<Progress> {
-  return { bar, plain, json }[kind]();
+/** Work whose progress is shown. */
+export interface ShownWork {
+  /** What stands before the bar, at most eight characters. */
+  readonly label: string;
+  readonly stages?: readonly Stage[];
+}
+
+/** @param work Default: a conversion */
+export async function createProgress(
+  kind: ProgressKind,
+  work: ShownWork = { label: "convert" },
+): Promise<Progress> {
+  return { bar, plain, json }[kind](work);
 }
 
 /** `1,234,567 points/s, 12 s left`; stages that do not count points have no rate. */
@@ -34,17 +45,17 @@ function duration(seconds: number): string {
   return `${Math.floor(seconds / 3600)} h ${Math.floor((seconds % 3600) / 60)} min`;
 }
 
-async function bar(): Promise<Progress> {
+async function bar({ label, stages }: ShownWork): Promise<Progress> {
   const { SingleBar } = await import("cli-progress");
   const line = new SingleBar({
-    format: "convert  {bar} {percentage} %  {stage}  {pace}",
+    format: `${label.padEnd(8)} {bar} {percentage} %  {stage}  {pace}`,
     barCompleteChar: "█",
     barIncompleteChar: "░",
     hideCursor: true,
     clearOnComplete: true,
     stream: process.stderr,
   });
-  const pace = createPace();
+  const pace = createPace(undefined, stages);
   line.start(1000, 0, { stage: "", pace: "" });
   return {
     show(event) {
@@ -62,8 +73,8 @@ async function bar(): Promise<Progress> {
 }
 
 /** A line per stage and tenth. */
-async function plain(): Promise<Progress> {
-  const pace = createPace();
+async function plain({ stages }: ShownWork): Promise<Progress> {
+  const pace = createPace(undefined, stages);
   let last = "";
   return {
     show(event) {
@@ -83,8 +94,8 @@ async function plain(): Promise<Progress> {
 }
 
 /** `{ event, stage, done, total, rate, eta }` on standard output: points per second, seconds to the end of the whole. */
-async function json(): Promise<Progress> {
-  const pace = createPace();
+async function json({ stages }: ShownWork): Promise<Progress> {
+  const pace = createPace(undefined, stages);
   return {
     show(event) {
       if (event.event === "warning") {

@@ -4,11 +4,3 @@ export type { GeoreferenceOptions } from "./georeference.js";
 export { guessHeights, type HeightData } from "./height-data.js";
 export { NodeStream, type StreamLimits, type StreamListener, type StreamProgress } from "./node-stream.js";
 export { PointCloud } from "./point-cloud.js";
-export type {
-  BoxRelation,
-  PointBatch,
-  PointBracket,
-  PointQuery,
-  QueryOptions,
-  QueryVolume,
-} from "./query.js";

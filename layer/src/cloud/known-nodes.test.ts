@@ -3,9 +3,16 @@ import { describe, expect, it } from "vitest";
 import type { HierarchyPage, NodeStore, OctreeNode, Selection } from "../octree/index.js";
 import { insertPage } from "../octree/insert-page.fixture.js";
 import { isHeld } from "../octree/node-state.js";
+import {
+  boundsOf,
+  EDGE,
+  type PagedOctree,
+  pagedOctree,
+  storeOf,
+  viewAbove,
+} from "../query/paged-octree.fixture.js";
 import type { NodeVertices } from "../workers/index.js";
 import { NodeStream } from "./node-stream.js";
-import { boundsOf, EDGE, type PagedOctree, pagedOctree, storeOf, viewAbove } from "./paged-octree.fixture.js";
 
 const traversal = { maximumScreenSpaceError: 4, pointBudget: 1e6 };
 const VERTICES = { count: 50, bytes: 1000 } as NodeVertices;

@@ -1,7 +1,7 @@
 import { type Crs, ecefToGeodetic, type PointTransform, pointTransform, type Truth } from "@groma/georef";
 import { ancestorAt, isWithin, keyName, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
+import { nodeCube } from "../query/index.js";
 import type { PointSource } from "../sources/contract/point-source.js";
-import { cubeSlack } from "../workers/index.js";
 import { type AffineMap, affineBounds, affineMap } from "./affine-bounds.js";
 
 /** Radius from which the sag of the ground between samples is reckoned, metres: the least of the WGS84 ellipsoid's. */
@@ -48,26 +48,8 @@ export class NodeGeometry {
   }
 
   /** Cube of a node in source coordinates: min x, y, z and edge. */
-  cube({ depth, x, y, z }: VoxelKey): [number, number, number, number] {
-    const [minX, minY, minZ, whole] = this.#source.cube;
-    const edge = whole / 2 ** depth;
-    return [minX + x * edge, minY + y * edge, minZ + z * edge, edge];
-  }
-
-  /**
-   * Box in source coordinates that all points of a node lie in, those of writers that round differently too: the cube
-   * and the slack that decoded points have. Nothing is taken from the bounding box, which a header may have wrong.
-   * @param scale source units per step of the recorded integers, per axis
-   * @param out receives min x, y, z, max x, y, z
-   */
-  pointBox(key: VoxelKey, scale: readonly number[], out: Float64Array): Float64Array {
-    const [x, y, z, edge] = this.cube(key);
-    for (const [axis, least] of [x, y, z].entries()) {
-      const slack = cubeSlack(edge, scale[axis]);
-      out[axis] = least - slack;
-      out[axis + 3] = least + edge + slack;
-    }
-    return out;
+  cube(key: VoxelKey): [number, number, number, number] {
+    return nodeCube(this.#source.cube, key);
   }
 
   /** Least and greatest height above WGS84 of the data set's bounding box, metres; zeros where it has no place. */

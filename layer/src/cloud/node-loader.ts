@@ -1,5 +1,5 @@
-import { FormatError } from "../errors/index.js";
 import { LruCache, type OctreeNode } from "../octree/index.js";
+import { noNode } from "../query/index.js";
 import type { PointSource } from "../sources/contract/point-source.js";
 import {
   type Appearance,
@@ -143,16 +143,6 @@ export class NodeLoader {
 function bytesOf({ xyz, order, attributes }: NodeRecords): number {
   const buffers = new Set([xyz, order, ...attributes.map(({ bytes }) => bytes)].map(({ buffer }) => buffer));
   return [...buffers].reduce((sum, { byteLength }) => sum + byteLength, 0);
-}
-
-/** The error for a node that is not there. */
-export function noNode(name: string, file: string): FormatError {
-  return new FormatError({
-    code: "FORMAT_NODE",
-    file,
-    cause: `its octree has no node ${name} with points`,
-    fix: "Ask for a node that the octree lists",
-  });
 }
 
 /** The known node nearest to the root that has points. */

@@ -8,17 +8,19 @@ import {
   type StatedAccuracy,
   type Truth,
 } from "@groma/georef";
-import { FormatError } from "../errors/index.js";
+import { type NodeBounds, NodeStore, type OctreeNode, type VoxelKey } from "../octree/index.js";
+import { checkSignal } from "../options/index.js";
 import {
-  keyName,
-  type NodeBounds,
-  NodeStore,
-  type OctreeNode,
-  parseKey,
-  sameKey,
-  type VoxelKey,
-} from "../octree/index.js";
+  NodeAccess,
+  noNode,
+  type PointOrigin,
+  PointQuery,
+  pointBox,
+  type QueryOptions,
+  type QueryParts,
+} from "../query/index.js";
 import {
+  type LasEnvelope,
   type PointSource,
   type SourceBox,
   type SourceWarning,
@@ -30,17 +32,15 @@ import { type Appearance, type NodeExecutor, type NodeVertices, WorkerPool } fro
 import { recordedAppearance, showSixteenBits } from "./appearance.js";
 import type { AttributeInfo, PointRecord } from "./attribute-info.js";
 import { attributesOf } from "./attributes.js";
-import { checkCloudOptions, checkSignal, type PointCloudOptions } from "./cloud-options.js";
+import { checkCloudOptions, type PointCloudOptions } from "./cloud-options.js";
 import { type Georeference, georeferenceOf } from "./georeference.js";
 import { NodeGeometry } from "./node-geometry.js";
-import { NodeLoader, noNode } from "./node-loader.js";
+import { NodeLoader } from "./node-loader.js";
 import { NodeStream } from "./node-stream.js";
-import { openPage } from "./open-page.js";
 import { pointRecord } from "./point-record.js";
-import { PointQuery, type QueryOptions, type QueryParts } from "./query.js";
 
 /** A data set, opened once, whatever number of views draw it. Knows no view and no library of views. */
-export class PointCloud {
+export class PointCloud implements PointOrigin {
   /** File name without the path. */
   readonly name: string;
   readonly pointCount: number;
@@ -59,8 +59,10 @@ export class PointCloud {
   readonly geoids: readonly string[];
   /** The converter's statistics; undefined for files of other writers. */
   readonly statistics: CloudStatistics | undefined;
-  /** Source units per step of the recorded integers, per axis. */
+  /** Source units per step of the recorded integers, per axis: source coordinate = integer · scale + offset. */
   readonly scale: readonly [number, number, number];
+  /** Source units, per axis. */
+  readonly offset: readonly [number, number, number];
   /** Whether the points have colours of their own. */
   readonly hasColour: boolean;
   /** Brings nodes for views. @internal */
@@ -82,7 +84,7 @@ export class PointCloud {
   readonly #loader: NodeLoader;
   /** Least and greatest height above WGS84, metres. */
   #heights: readonly [number, number];
-  readonly #opening = new Map<OctreeNode, Promise<void>>();
+  readonly #access: NodeAccess;
 
   private constructor(
     source: OpenedSource,
@@ -107,8 +109,10 @@ export class PointCloud {
     this.#boundingBox = boundingBox;
     this.#warnings = source.warnings;
     this.scale = scale;
+    this.offset = source.offset;
     this.hasColour = attributes.some(({ name }) => name === "red") && statistics?.rgbBits !== null;
     this.#store = new NodeStore(source.name, source.pointCount, source.rootPage);
+    this.#access = new NodeAccess({ source, store: this.#store, released: () => this.stream.trim() });
     this.#geometry = new NodeGeometry(source, truth, crs);
     this.#bounds = this.#rootBounds();
     this.#heights = this.#geometry.heights;
@@ -140,7 +144,7 @@ export class PointCloud {
         store: this.#store,
         boundsOf: (node) => this.#geometry.bounds(node.key) ?? this.#bounds,
         loadVertices: (node, signal) => this.#loader.vertices(node, signal),
-        openPage: (node, signal) => this.#openPage(node, signal),
+        openPage: (node, signal) => this.#access.openPage(node, signal),
         get wait() {
           return source.wait;
         },
@@ -166,7 +170,7 @@ export class PointCloud {
       const georeference = await georeferenceOf(source, options);
       signal?.throwIfAborted();
       cloud = new PointCloud(source, georeference, options, executor);
-      await cloud.#openRoot(signal);
+      await cloud.#access.openRoot(signal);
       signal?.throwIfAborted();
       return cloud;
     } catch (thrown) {
@@ -239,7 +243,7 @@ export class PointCloud {
     options: { signal?: AbortSignal | undefined } = {},
   ): Promise<NodeVertices> {
     const signal = checkSignal(options, this.#source.name);
-    return this.#withPoints(key, signal, (node) => this.#loader.vertices(node, signal));
+    return this.#access.withPoints(key, signal, (node) => this.#loader.vertices(node, signal));
   }
 
   /**
@@ -257,7 +261,7 @@ export class PointCloud {
     const signal = checkSignal(options, this.#source.name);
     // A node may have left the octree since it was drawn: its key tells which one takes its place.
     const key = typeof from === "object" && "key" in from ? from.key : from;
-    const { name, records } = await this.#withPoints(key, signal, async (node) => {
+    const { name, records } = await this.#access.withPoints(key, signal, async (node) => {
       return { name: node.name, records: await this.#loader.records(node, signal) };
     });
     const index = typeof point === "number" ? records.order[point] : point.record;
@@ -274,75 +278,24 @@ export class PointCloud {
   query(options: QueryOptions = {}): PointQuery {
     const parts: QueryParts = {
       file: this.#source.name,
-      withNode: (key, signal, work) => this.#withNode(key, signal, work),
+      withNode: (key, signal, work) => this.#access.withNode(key, signal, work),
       records: (node, signal) => this.#loader.records(node, signal),
-      box: (key, out) => this.#geometry.pointBox(key, this.scale, out),
+      box: (key, out) => pointBox(this.#source, key, out),
       spacing: this.bounds.spacing,
       scale: this.scale,
-      offset: this.#source.offset,
+      offset: this.offset,
     };
     return new PointQuery(parts, options);
   }
 
   /**
-   * Works with the node with points that a key names, which stays in the octree meanwhile; reads hierarchy pages on
-   * the way to it.
-   * @throws FormatError FORMAT_NODE where the octree has no such node
+   * What a LAS file of some of the points begins and ends with; undefined where they are no LAS records.
+   * @throws SourceError, FormatError; the signal's reason when aborted
    */
-  async #withPoints<T>(
-    key: VoxelKey | string,
-    signal: AbortSignal,
-    work: (node: OctreeNode) => Promise<T>,
-  ): Promise<T> {
-    const file = this.#source.name;
-    const wanted = typeof key === "string" ? parseKey(key) : key;
-    if (!wanted) throw noNode(String(key), file);
-    return this.#withNode(wanted, signal, (node) => {
-      if (node.pointCount === 0) throw noNode(node.name, file);
-      return work(node);
-    });
-  }
-
-  /** The same with a node that need not have points. @throws FormatError FORMAT_NODE where the octree has no such node */
-  async #withNode<T>(
-    key: VoxelKey,
-    signal: AbortSignal,
-    work: (node: OctreeNode) => T | Promise<T>,
-  ): Promise<T> {
-    for (;;) {
-      signal.throwIfAborted();
-      const node = this.#store.closest(key);
-      const opening = this.#opening.get(node);
-      if (opening) await opening.catch(() => undefined);
-      else if (node.state === "page" || node.pageFailed) await this.#openAgain(node, signal);
-      else if (!sameKey(node.key, key)) throw noNode(keyName(key), this.#source.name);
-      else return this.#holding(node, work);
-    }
-  }
-
-  /** Keeps a node in the octree, and its page from being the next to go, while work is done with it. */
-  async #holding<T>(node: OctreeNode, work: (node: OctreeNode) => T | Promise<T>): Promise<T> {
-    const { page } = node;
-    page?.hold();
-    try {
-      return await work(node);
-    } finally {
-      page?.release();
-      if (page) this.#store.use(page);
-      this.stream.trim();
-    }
-  }
-
-  async #openAgain(node: OctreeNode, signal: AbortSignal): Promise<void> {
-    if (node.pageFailed) node.become("page");
-    node.pageFailed = false;
-    node.become("opening");
-    try {
-      await this.#openPage(node, signal);
-    } catch (thrown) {
-      node.become("page");
-      throw thrown;
-    }
+  async lasEnvelope(
+    options: { readonly signal?: AbortSignal | undefined } = {},
+  ): Promise<LasEnvelope | undefined> {
+    return this.#source.lasEnvelope?.(options);
   }
 
   /** Stops all loading and ends the workers. */
@@ -383,29 +336,6 @@ export class PointCloud {
         ? "Check the coordinate system, or give the right one with the option crs"
         : "Convert the scan again, or give its coordinate system with the option crs",
     });
-  }
-
-  async #openRoot(signal?: AbortSignal): Promise<void> {
-    const { root } = this.#store;
-    root.become("opening");
-    await this.#openPage(root, signal);
-    if (root.pointCount > 0 || root.children) return;
-    throw new FormatError({
-      code: "FORMAT_HIERARCHY",
-      file: this.#source.name,
-      cause: "its octree names no node with points",
-      fix: "Convert the scan again",
-    });
-  }
-
-  async #openPage(node: OctreeNode, signal?: AbortSignal): Promise<void> {
-    const reading = openPage(this.#source, this.#store, node, signal);
-    this.#opening.set(node, reading);
-    try {
-      await reading;
-    } finally {
-      this.#opening.delete(node);
-    }
   }
 }
 

@@ -1,3 +1,4 @@
+export { checkSignal } from "./check-signal.js";
 export { frozen } from "./frozen.js";
 export {
   colour,

@@ -17,6 +17,8 @@ export type {
   CrsDeclaration,
   EncodedChunk,
   HierarchyEntry,
+  LasEnvelope,
+  LasVariableRecord,
   PointSource,
   SourceBox,
   SourceWarning,

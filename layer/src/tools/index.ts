@@ -10,5 +10,9 @@ export type {
   Unit,
   Vector,
 } from "@groma/georef";
+export type { SourceSpace } from "../clips/index.js";
 export { MeasureError } from "../errors/index.js";
+export type { BoxRelation, QueryVolume } from "../query/index.js";
 export * from "./measure/index.js";
+export { Corridor } from "./profile/corridor.js";
+export { sourceLine } from "./profile/source-line.js";

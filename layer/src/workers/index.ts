@@ -1,7 +1,8 @@
 export { constantColumn } from "./column-plan.js";
+export { type Decoders, decodersWith } from "./decoders.js";
 export { LazDecoder, type LazPerf } from "./laz-decoder.js";
 export { LocalExecutor } from "./local-executor.js";
-export { cubeSlack } from "./node-job.js";
+export { cubeSlack, decodeNode } from "./node-job.js";
 export { checkNodeSize } from "./node-size.js";
 export type { DecodedPoints, Encoded, Expected, PointDecoder } from "./point-decoder.js";
 export { type PoolOptions, type WorkerLike, WorkerPool } from "./pool.js";
@@ -15,6 +16,8 @@ export type {
   NodeJob,
   NodeRecords,
   NodeVertices,
+  RecordedNode,
+  StorageSpec,
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";

@@ -44,6 +44,7 @@ export class LazDecoder implements PointDecoder<Encoded<"laz">> {
     return {
       xyz: readCoordinates(bytes, recordLength),
       attributes: fields.map((field) => ({ ...field, bytes, stride: recordLength })),
+      lasRecords: bytes,
     };
   }
 

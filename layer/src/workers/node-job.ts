@@ -6,7 +6,15 @@ import { drawingOrder } from "./drawing-order.js";
 import { cellGrid } from "./morton-sort.js";
 import { makeArrays } from "./node-columns.js";
 import { checkNodeSize } from "./node-size.js";
-import type { ChunkJob, DataSetSpec, NodeJob, NodeRecords, NodeVertices } from "./protocol.js";
+import type {
+  ChunkJob,
+  DataSetSpec,
+  NodeJob,
+  NodeRecords,
+  NodeVertices,
+  RecordedNode,
+  StorageSpec,
+} from "./protocol.js";
 import { integerBox, positionBox } from "./records.js";
 
 /** A data set with the map of its coordinates to ECEF, which is made once. */
@@ -30,7 +38,7 @@ export async function runNodeJob(
   job: NodeJob,
   decoders: Decoders,
 ): Promise<NodeVertices> {
-  const { xyz, count, order, attributes } = await decodeChunk(spec, job, decoders);
+  const { xyz, count, order, attributes } = inDrawingOrder(await decodeChunk(spec, job, decoders), job, spec);
   const box = integerBox(xyz);
   const domain = sourceBox(box, spec);
   checkInCube(domain, job, spec);
@@ -61,21 +69,41 @@ export async function runRecordsJob(
   job: ChunkJob,
   decoders: Decoders,
 ): Promise<NodeRecords> {
+  return inDrawingOrder(await decodeNode(spec, job, decoders), job, spec);
+}
+
+/**
+ * A node's points as they are recorded.
+ * @throws DecodeError
+ */
+export async function decodeNode(
+  spec: StorageSpec,
+  job: Omit<ChunkJob, "dataSet">,
+  decoders: Decoders,
+): Promise<RecordedNode> {
   const records = await decodeChunk(spec, job, decoders);
   checkInCube(sourceBox(integerBox(records.xyz), spec), job, spec);
   return records;
 }
 
 async function decodeChunk(
-  { encoding, file, scale, offset, bytesPerPoint }: DataSetSpec,
-  { chunk, checksum, pointCount, node, cube }: ChunkJob,
+  { encoding, file, bytesPerPoint }: StorageSpec,
+  { chunk, checksum, pointCount, node }: Omit<ChunkJob, "dataSet">,
   decoders: Decoders,
-): Promise<NodeRecords> {
+): Promise<RecordedNode> {
   checkNodeSize({ file, node, pointCount, bytesPerPoint });
   const expected = { pointCount, checksum, file, node };
-  const { xyz, attributes } = await decode(decoders, new Uint8Array(chunk), encoding, expected);
-  const count = xyz.length / 3;
-  return { xyz, attributes, count, order: drawingOrder(xyz, count, cellGrid(cube, scale, offset)) };
+  const decoded = await decode(decoders, new Uint8Array(chunk), encoding, expected);
+  return { ...decoded, count: decoded.xyz.length / 3 };
+}
+
+function inDrawingOrder(
+  records: RecordedNode,
+  { cube }: Pick<ChunkJob, "cube">,
+  { scale, offset }: StorageSpec,
+): NodeRecords {
+  const { xyz, count } = records;
+  return { ...records, order: drawingOrder(xyz, count, cellGrid(cube, scale, offset)) };
 }
 
 /** Coordinates in drawing order. */
@@ -91,7 +119,7 @@ function drawn(xyz: Int32Array, order: ArrayLike<number>): Int32Array {
 }
 
 /** Box of LAS integers in source coordinates. */
-function sourceBox(box: Int32Array, { scale, offset }: DataSetSpec): Domain {
+function sourceBox(box: Int32Array, { scale, offset }: StorageSpec): Domain {
   const at = (index: number) => box[index] * scale[index % 3] + offset[index % 3];
   return { minX: at(0), minY: at(1), minZ: at(2), maxX: at(3), maxY: at(4), maxZ: at(5) };
 }
@@ -106,7 +134,7 @@ export function cubeSlack(edge: number, scale: number): number {
 }
 
 /** Damaged chunks often decode, to points all over the place, whereas a node's points lie in its cube. */
-function checkInCube(domain: Domain, job: ChunkJob, spec: DataSetSpec): void {
+function checkInCube(domain: Domain, job: Pick<ChunkJob, "cube" | "node">, spec: StorageSpec): void {
   const [x, y, z, edge] = job.cube;
   const outside = (least: number, greatest: number, from: number, axis: number) => {
     const slack = cubeSlack(edge, spec.scale[axis]);

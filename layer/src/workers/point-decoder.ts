@@ -20,6 +20,8 @@ export interface DecodedPoints {
   readonly xyz: Int32Array;
   /** All attributes that the source names. */
   readonly attributes: readonly StoredAttribute[];
+  /** The LAS records themselves, one after the other, where points are such; attributes may share their bytes. */
+  readonly lasRecords?: Uint8Array | undefined;
 }
 
 /** Turns the chunks of one encoding into points. */

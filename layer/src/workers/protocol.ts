@@ -2,8 +2,8 @@ import type { FaultWire, Frame, Scheme, TruthSources } from "@groma/georef";
 import type { Encoding } from "../sources/open-source.js";
 import type { StoredAttribute } from "./stored-attribute.js";
 
-/** What a worker must know of a data set, once, before it takes jobs for it: where it is, and how it is stored. */
-export interface DataSetSpec extends TruthSources {
+/** How a data set is stored: all that is needed to decode its points. */
+export interface StorageSpec {
   /** Name of the file, for errors. */
   readonly file: string;
   /** How chunks are encoded, and so which decoder they get. */
@@ -14,6 +14,10 @@ export interface DataSetSpec extends TruthSources {
   readonly scale: readonly [number, number, number];
   /** Source units, per axis. */
   readonly offset: readonly [number, number, number];
+}
+
+/** What a worker must know of a data set, once, before it takes jobs for it: how it is stored, and where it is. */
+export interface DataSetSpec extends TruthSources, StorageSpec {
   /** Least and greatest height that is declared, source units. */
   readonly heights: readonly [number, number];
   /** Height above WGS84 that the column `ellipsoidalHeight` counts from, metres. */
@@ -119,13 +123,19 @@ export interface NodeVertices {
   readonly bytes: number;
 }
 
-/** A node's points as recorded, in the order of the chunk. The buffers of all arrays are transferred. */
-export interface NodeRecords {
+/** A node's points as recorded, in the order of the chunk. */
+export interface RecordedNode {
   readonly count: number;
   /** x, y and z of each point: the integers that the source's scale and offset turn into coordinates. */
   readonly xyz: Int32Array;
   /** All attributes that the source names. */
   readonly attributes: readonly StoredAttribute[];
+  /** The LAS records themselves, one after the other, where points are such; attributes may share their bytes. */
+  readonly lasRecords?: Uint8Array | undefined;
+}
+
+/** The same with the order in which they are drawn. The buffers of all arrays are transferred. */
+export interface NodeRecords extends RecordedNode {
   /** Index in the chunk of each drawn point; as {@link NodeVertices.order}. */
   readonly order: Uint16Array | Uint32Array;
 }

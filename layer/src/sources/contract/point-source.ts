@@ -54,6 +54,37 @@ export interface PointSource<Address = unknown, Encoding extends AnyEncoding = A
    * @throws SourceError, FormatError
    */
   chunk(address: Address, options?: ReadOptions): Promise<EncodedChunk>;
+  /**
+   * Reads what a LAS file of some of its points begins and ends with; there where points are LAS records.
+   * @throws SourceError, FormatError
+   */
+  lasEnvelope?(options?: ReadOptions): Promise<LasEnvelope>;
+}
+
+/** A file of the family of LAS but for its points, as bytes: what a LAS file with some of them begins and ends with. */
+export interface LasEnvelope {
+  /** Public header block as it stands, 375 bytes or more (LAS 1.4 R15, section 2.4). */
+  readonly header: Uint8Array;
+  /** Point data record format, without the bits that say that points are compressed. */
+  readonly pointFormat: number;
+  /** Bytes per uncompressed record, extra bytes included. */
+  readonly recordLength: number;
+  /**
+   * Variable length records in the order of the file, without those that say how its points are stored or that are
+   * true of all its points together only.
+   */
+  readonly records: readonly LasVariableRecord[];
+}
+
+/** A variable length record, extended or not, as bytes. */
+export interface LasVariableRecord {
+  readonly userId: string;
+  readonly recordId: number;
+  /** Whether it stands behind the points, with a header of 60 bytes instead of 54 (LAS 1.4 R15, section 2.6). */
+  readonly extended: boolean;
+  /** Its header as it stands. */
+  readonly header: Uint8Array;
+  readonly content: Uint8Array;
 }
 
 /** The encoded points of a node. */

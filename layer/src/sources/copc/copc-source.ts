@@ -1,5 +1,6 @@
 import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
-import type { EncodedChunk, HierarchyEntry, PointSource } from "../contract/point-source.js";
+import type { EncodedChunk, HierarchyEntry, LasEnvelope, PointSource } from "../contract/point-source.js";
+import { readEnvelope } from "../las/envelope.js";
 import { BASE_RECORD_LENGTH, readText } from "../las/las-header.js";
 import { type LazEncoding, recordFields } from "../las/record-fields.js";
 import { Checksums } from "./checksums.js";
@@ -92,6 +93,10 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
     const bytes = await this.#bytes.read(offset, offset + length, options);
     const whole = bytes.byteLength === bytes.buffer.byteLength;
     return { bytes: (whole ? bytes.buffer : bytes.slice().buffer) as ArrayBuffer, checksum };
+  }
+
+  lasEnvelope(options: ReadOptions = {}): Promise<LasEnvelope> {
+    return readEnvelope(this.#bytes, this.#file.header, options);
   }
 
   /** The file's checksums, looked for with its first page. */

@@ -3,7 +3,7 @@ import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
 import { type LasHeader, readText, readU64, truncated } from "./las-header.js";
 
 /** Length of a VLR's header in bytes (LAS 1.4 R15, section 2.5). */
-const VLR_HEADER = 54;
+export const VLR_HEADER = 54;
 /** Length of an extended VLR's header in bytes (LAS 1.4 R15, section 2.6). */
 export const EVLR_HEADER = 60;
 /** More records than any writer makes: a count above it is taken for damage, not walked. */

@@ -1,7 +1,6 @@
 import { keyName, type OctreeNode, ROOT_KEY, type VoxelKey } from "../octree/index.js";
-import { number, optionPlace, some, withMethods } from "../options/index.js";
-import type { NodeRecords } from "../workers/index.js";
-import { checkSignal } from "./cloud-options.js";
+import { checkSignal, number, optionPlace, some, withMethods } from "../options/index.js";
+import type { RecordedNode } from "../workers/index.js";
 import { Pace } from "./pace.js";
 
 /** How a box lies to a volume: within it, apart from it, or partly in it (or it may be). */
@@ -35,7 +34,7 @@ export interface PointBatch {
   readonly node: string;
   readonly key: VoxelKey;
   /** All points of the node as they are recorded, in the order of the file. */
-  readonly records: NodeRecords;
+  readonly records: RecordedNode;
   /** Which of them the volume contains: indices of records, rising. */
   readonly inside: Uint32Array;
 }
@@ -70,7 +69,7 @@ export interface QueryParts {
   /** Does work with the node of a key, whose hierarchy page is read before where need be. */
   withNode<T>(key: VoxelKey, signal: AbortSignal, work: (node: OctreeNode) => T | Promise<T>): Promise<T>;
   /** A node's points as recorded. */
-  records(node: OctreeNode, signal: AbortSignal): Promise<NodeRecords>;
+  records(node: OctreeNode, signal: AbortSignal): Promise<RecordedNode>;
   /** Box that all points of a node lie in, source coordinates: least x, y, z, greatest x, y, z. */
   box(key: VoxelKey, out: Float64Array): Float64Array;
   /** Distance between points of the root, metres on the ground; halved at each level. */
@@ -220,7 +219,7 @@ export class PointQuery {
   }
 
   /** Asks the volume for each point, with pauses. */
-  async #select({ xyz, count }: NodeRecords, signal: AbortSignal): Promise<Uint32Array> {
+  async #select({ xyz, count }: RecordedNode, signal: AbortSignal): Promise<Uint32Array> {
     const volume = this.#volume!;
     const [scaleX, scaleY, scaleZ] = this.#parts.scale;
     const [offsetX, offsetY, offsetZ] = this.#parts.offset;

@@ -4,7 +4,7 @@ import { keyName, type NodeStore, type OctreeNode, type VoxelKey } from "../octr
 import type { NodeRecords } from "../workers/index.js";
 import { openPage } from "./open-page.js";
 import { EDGE, type PagedOctree, pagedOctree, storeOf } from "./paged-octree.fixture.js";
-import { type PointBatch, PointQuery, type QueryOptions, type QueryParts } from "./query.js";
+import { type PointBatch, PointQuery, type QueryOptions, type QueryParts } from "./point-query.js";
 
 /** Lets all that is waiting go on, as a request does. */
 const turnOfTheLoop = () => new Promise((resolve) => setImmediate(resolve));

@@ -1,0 +1,91 @@
+import { pointTransform } from "@groma/georef";
+import type { RecordedPoints } from "@groma/layer/query";
+import { Corridor, sourceLine } from "@groma/layer/tools";
+import { OptionError } from "../given/option-error.js";
+import { placed } from "../place/placed.js";
+import type { Position } from "./geojson.js";
+
+const DEGREE = Math.PI / 180;
+
+/** In which coordinates a line or a polygon is given: those of the file, or longitude and latitude. */
+export type GivenCrs = "source" | "EPSG:4326";
+
+/** Places that were given, in the coordinates of a file, and the length of a unit that goes with them. */
+export interface InSource {
+  readonly positions: readonly (readonly [number, number])[];
+  /** Source units for a unit of lengths that were given with the places: metres with longitude and latitude. */
+  readonly unit: number;
+}
+
+/**
+ * Brings places into the plane of a file's coordinates.
+ *
+ * @throws OptionError OPTION_CRS where they are no longitude and latitude, or the file's coordinates are angles
+ * @throws CrsError, RecordError, PlacementError
+ */
+export async function inSource(
+  positions: readonly Position[],
+  crs: GivenCrs,
+  { source }: RecordedPoints,
+  given: string,
+): Promise<InSource> {
+  if (crs === "source") return { positions, unit: 1 };
+  if (positions.some(([longitude, latitude]) => Math.abs(longitude) > 540 || Math.abs(latitude) > 90)) {
+    throw new OptionError({
+      ...{ code: "OPTION_CRS", file: given, cause: "its coordinates are no longitudes and latitudes" },
+      fix: "give --line-crs source for the coordinates of the scan",
+    });
+  }
+  const { crs: named, truth } = await placed(declarationOf(source));
+  if (named.horizontalUnit.kind === "angular") {
+    throw new OptionError({
+      ...{
+        code: "OPTION_CRS",
+        file: source.name,
+        cause: "its coordinates are angles, in which no width is the same everywhere",
+      },
+      fix: "convert the scan to a projected system first",
+    });
+  }
+  const transform = pointTransform(truth);
+  const space = {
+    boundingBox: source.boundingBox,
+    place: (x: number, y: number, z: number, out: Float64Array) => {
+      transform(x, y, z, out, 0);
+      return out;
+    },
+  };
+  const radians = positions.map(([longitude, latitude]) => [longitude * DEGREE, latitude * DEGREE] as const);
+  return { positions: sourceLine(space, radians, given), unit: 1 / named.horizontalUnit.size };
+}
+
+/** What an opened file says of its coordinates, as the core would tell it. */
+function declarationOf({ name, boundingBox, scale, crs }: RecordedPoints["source"]) {
+  const { wkt, geoTiff, las, georeference, transformation } = crs;
+  const base64 = (bytes: Uint8Array | undefined) => bytes && Buffer.from(bytes).toString("base64");
+  const records = [
+    ["1", base64(georeference)],
+    ["3", base64(transformation)],
+  ].filter(([, content]) => content !== undefined);
+  return {
+    ...{ file: name, ...boundingBox, scale, groma: Object.fromEntries(records) },
+    ...(wkt !== undefined && { wkt }),
+    ...(geoTiff && {
+      geoTiff: { directory: [...geoTiff.directory], doubles: [...geoTiff.doubles], ascii: geoTiff.ascii },
+    }),
+    ...(las && las),
+  };
+}
+
+/** The strip along a line. @throws OptionError OPTION_LINE where the line has no length */
+export function corridor({ positions, unit }: InSource, width: number, given: string): Corridor {
+  try {
+    return new Corridor(positions, width * unit);
+  } catch (error) {
+    if (!(error instanceof RangeError)) throw error;
+    throw new OptionError({
+      ...{ code: "OPTION_LINE", file: given, cause: error.message },
+      fix: "give a line with two or more different vertices",
+    });
+  }
+}

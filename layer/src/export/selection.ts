@@ -1,0 +1,83 @@
+import type { PointBatch, PointOrigin, PointQuery, QueryVolume } from "../query/index.js";
+
+/** How points lie along a line: what a profile adds to their records. */
+export interface AlongLine {
+  /**
+   * @param out receives the chainage (distance along the line) and the signed offset from it, left positive
+   */
+  locate(x: number, y: number, out: Float64Array): void;
+}
+
+/** Points that are written to one file. */
+export interface PointSelection {
+  readonly origin: PointOrigin;
+  /** Part of space, source coordinates. Default: everything. */
+  readonly volume?: QueryVolume | undefined;
+  /** Classes of the points that are wanted. Default: all. */
+  readonly classes?: ReadonlySet<number> | undefined;
+  /** Distance between neighbouring points that suffices; as `QueryOptions.spacing`. Default: 0, every point. */
+  readonly spacing?: number | undefined;
+  /** The line along which the points were cut. */
+  readonly along?: AlongLine | undefined;
+}
+
+/** How far an export is. */
+export interface ExportProgress {
+  /** Points that were read so far. */
+  readonly read: number;
+  /** Points of all nodes that are read. */
+  readonly total: number;
+  /** Points that were written so far. */
+  readonly written: number;
+}
+
+/** What every export may be given. */
+export interface ExportOptions {
+  readonly signal?: AbortSignal | undefined;
+  /** Told after each node. */
+  readonly onProgress?: ((progress: ExportProgress) => void) | undefined;
+}
+
+/** Indices of a batch's records that are wanted, rising. */
+type Wanted = Uint32Array;
+
+/**
+ * Goes through the points of selections, one after the other, node by node in a fixed order, and hands over those that
+ * are wanted.
+ * @param take writes them
+ * @returns number of points handed over
+ * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what `take` throws
+ */
+export async function eachBatch(
+  selections: readonly PointSelection[],
+  { signal, onProgress }: ExportOptions,
+  take: (batch: PointBatch, wanted: Wanted, selection: PointSelection) => Promise<void>,
+): Promise<number> {
+  const queries: { readonly query: PointQuery; readonly selection: PointSelection }[] = [];
+  let [read, total, written] = [0, 0, 0];
+  for (const selection of selections) {
+    const query = selection.origin.query({ volume: selection.volume, spacing: selection.spacing });
+    total += (await query.bracket({ signal })).most;
+    queries.push({ query, selection });
+  }
+  onProgress?.({ read, total, written });
+  for (const { query, selection } of queries) {
+    const { classes } = selection;
+    for await (const batch of query.batches({ signal })) {
+      const wanted = classes ? ofClasses(batch, classes) : batch.inside;
+      if (wanted.length > 0) await take(batch, wanted, selection);
+      read += batch.records.count;
+      written += wanted.length;
+      onProgress?.({ read, total, written });
+    }
+  }
+  onProgress?.({ read: total, total, written });
+  return written;
+}
+
+function ofClasses({ records, inside }: PointBatch, classes: ReadonlySet<number>): Wanted {
+  const attribute = records.attributes.find(({ name }) => name === "classification");
+  if (!attribute) return new Uint32Array(0);
+  const { bytes, at, stride } = attribute;
+  return inside.filter((point) => classes.has(bytes[at + point * stride]));
+}

@@ -1,0 +1,15 @@
+export type { LazPerf } from "../workers/index.js";
+export { NodeAccess, type NodeAccessParts, noNode } from "./node-access.js";
+export { nodeCube, pointBox } from "./node-cube.js";
+export { openPage } from "./open-page.js";
+export { Pace } from "./pace.js";
+export {
+  type BoxRelation,
+  type PointBatch,
+  type PointBracket,
+  PointQuery,
+  type QueryOptions,
+  type QueryParts,
+  type QueryVolume,
+} from "./point-query.js";
+export { type PointOrigin, RecordedPoints, type RecordedPointsOptions } from "./recorded-points.js";

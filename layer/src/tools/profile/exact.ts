@@ -1,0 +1,45 @@
+// Decisions by whole numbers: every float64 is an integer times a power of two, and what is compared is homogeneous.
+
+/** One float64 as mantissa · 2 ** exponent. */
+function parts(value: number): readonly [mantissa: bigint, exponent: number] {
+  const view = new DataView(new ArrayBuffer(8));
+  view.setFloat64(0, value);
+  const bits = view.getBigUint64(0);
+  const field = Number((bits >> 52n) & 0x7ffn);
+  const fraction = bits & 0xfffffffffffffn;
+  const mantissa = field === 0 ? fraction : fraction | 0x10000000000000n;
+  return [bits >> 63n === 1n ? -mantissa : mantissa, (field === 0 ? 1 : field) - 1075];
+}
+
+/** Finite numbers as integers of one common unit, a power of two. */
+function integers(values: readonly number[]): bigint[] {
+  const split = values.map(parts);
+  const unit = Math.min(...split.filter(([mantissa]) => mantissa !== 0n).map(([, exponent]) => exponent));
+  return split.map(([mantissa, exponent]) => (mantissa === 0n ? 0n : mantissa << BigInt(exponent - unit)));
+}
+
+/**
+ * Whether a point lies no farther than a distance from a segment, decided without any rounding.
+ * @param segment its ends: ax, ay, bx, by, which differ
+ * @param flat whether points before the start, and behind the end, are left out
+ */
+export function isNear(
+  x: number,
+  y: number,
+  segment: readonly [number, number, number, number],
+  distance: number,
+  flat: { readonly start: boolean; readonly end: boolean },
+): boolean {
+  const [px, py, ax, ay, bx, by, reach] = integers([x, y, ...segment, distance]);
+  const [ux, uy] = [bx - ax, by - ay];
+  const [vx, vy] = [px - ax, py - ay];
+  const along = ux * vx + uy * vy;
+  const square = ux * ux + uy * uy;
+  if (along < 0n) return !flat.start && vx * vx + vy * vy <= reach * reach;
+  if (along > square) {
+    const [wx, wy] = [px - bx, py - by];
+    return !flat.end && wx * wx + wy * wy <= reach * reach;
+  }
+  const across = ux * vy - uy * vx;
+  return across * across <= reach * reach * square;
+}

@@ -1,0 +1,53 @@
+import { ecefToGeodetic, pointTransform, truthOf } from "@groma/georef";
+import { describe, expect, it } from "vitest";
+import { sourceLine } from "./source-line.js";
+
+const utm = {
+  proj4: "+proj=utm +zone=32 +datum=WGS84",
+  horizontalUnit: { kind: "linear", name: "metre", size: 1, declared: true },
+  verticalUnit: { kind: "linear", name: "metre", size: 1, declared: true },
+  height: { kind: "ellipsoidal" },
+} as const;
+
+const transform = pointTransform(truthOf({ crs: utm as never }, 100, "scan"));
+const space = {
+  boundingBox: { min: [500000, 5200000, 0], max: [501000, 5201000, 200] },
+  place(x: number, y: number, z: number, out: Float64Array) {
+    transform(x, y, z, out, 0);
+    return out;
+  },
+} as const;
+
+/** Longitude and latitude of a place, radians. */
+function angles(x: number, y: number): [number, number] {
+  const ecef = space.place(x, y, 100, new Float64Array(3));
+  const geodetic = new Float64Array(3);
+  ecefToGeodetic(ecef[0], ecef[1], ecef[2], geodetic);
+  return [geodetic[0], geodetic[1]];
+}
+
+describe("a line in the plane of a data set", () => {
+  it("is found to a micrometre, with turns of longitude left out", () => {
+    const wanted = [
+      [500000, 5200000],
+      [500500.123, 5200321.5],
+      [501000, 5201000],
+    ] as const;
+    const line = wanted.map(([x, y]) => angles(x, y));
+    line[1][0] += 2 * Math.PI;
+    for (const [index, [x, y]] of sourceLine(space, line, "line").entries()) {
+      expect(Math.hypot(x - wanted[index][0], y - wanted[index][1])).toBeLessThan(1e-6);
+    }
+  });
+
+  it("goes on beyond the data set's bounds, where its map is carried on linearly", () => {
+    const [[x, y]] = sourceLine(space, [angles(501300, 5199800)], "line");
+    expect(Math.hypot(x - 501300, y - 5199800)).toBeLessThan(0.05);
+  });
+
+  it("has no vertices without a place", () => {
+    expect(() => sourceLine(space, [angles(500100, 5200100), [Number.NaN, 0]], "line.geojson")).toThrow(
+      /line.geojson: vertex 2 of the line/,
+    );
+  });
+});
