@@ -1,45 +1,8 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { distance, random } from "../cartesian/points.fixture.js";
-import {
-  compileTransformation,
-  type Domain,
-  fitPatchwork,
-  fitPlacement,
-  type GridWindow,
-  place,
-  placeIntegers,
-  type Step,
-  WGS84,
-} from "../index.js";
-import { samplerOf } from "../transformation/sampler.fixture.js";
-
-const DEGREE = Math.PI / 180;
-/**
- * 1' × 1' cells around 46° north, 9° east, of chance values up to an amplitude: by column and by row, and a tenth of it
- * by node, so that lines have folds that change little along them, as those of real grids.
- */
-function window(channels: number, amplitude: number, unit: number, seed: number): GridWindow {
-  const next = random(seed);
-  const [columns, rows] = [14, 14];
-  const chance = (count: number) => Array.from({ length: count }, () => amplitude * (2 * next() - 1));
-  const values = Array.from({ length: channels }, () => {
-    const [byColumn, byRow] = [chance(columns), chance(rows)];
-    return chance(columns * rows).map(
-      (value, i) => byColumn[i % columns] + byRow[Math.floor(i / columns)] + value / 10,
-    );
-  });
-  return {
-    ...{ grid: "chance", columns, rows, channels, unit },
-    ...{ west: 8.9 * DEGREE, south: 45.9 * DEGREE },
-    ...{ stepLongitude: DEGREE / 60, stepLatitude: DEGREE / 60 },
-    values: Float32Array.from(values.flat()),
-  };
-}
-
-const UTM = "+proj=utm +zone=32 +ellps=WGS84";
-const AREA = { minX: 494e3, minY: 5085e3, maxX: 504e3, maxY: 5096e3 };
-const patchwork = await fitPatchwork(samplerOf(UTM), AREA);
+import { compileTransformation, type Domain, fitPlacement, place, placeIntegers } from "../index.js";
+import { AREA, chanceSteps } from "./chance-grids.fixture.js";
 
 const share = fc.noBias(fc.integer({ min: 0, max: 1e6 })).map((i) => i / 1e6);
 const nodes = fc.record({
@@ -64,15 +27,10 @@ describe("placing over the cells of chance grids", () => {
         const minX = AREA.minX + at[0] * (AREA.maxX - AREA.minX - edge);
         const minY = AREA.minY + at[1] * (AREA.maxY - AREA.minY - edge);
         const domain: Domain = { minX, minY, minZ: 0, maxX: minX + edge, maxY: minY + edge, maxZ: height };
-        const arc = roughness / 6.4e6;
-        const steps: Step[] = [{ kind: "projection", patchwork }];
-        if (grids !== "heights") {
-          steps.push({ kind: "horizontalShift", direction: "forward", window: window(2, 1, arc, seed) });
-        }
-        if (grids !== "shifts") {
-          steps.push({ kind: "verticalShift", multiplier: 1, window: window(1, roughness, 1, seed + 1) });
-        }
-        steps.push({ kind: "geocentric", ellipsoid: WGS84 });
+        const steps = chanceSteps(roughness, seed, {
+          shift: grids === "heights" ? undefined : "forward",
+          heights: grids !== "shifts",
+        });
         const compiled = compileTransformation({ steps });
         const placement = fitPlacement(compiled, domain, tolerance);
         const { scheme, creases, relief, remainders } = placement;
@@ -115,11 +73,7 @@ describe("placing over the cells of chance grids", () => {
   });
 
   it("puts points outside of a node somewhere, never nowhere", () => {
-    const steps: Step[] = [
-      { kind: "projection", patchwork },
-      { kind: "verticalShift", multiplier: 1, window: window(1, 0.2, 1, 7) },
-      { kind: "geocentric", ellipsoid: WGS84 },
-    ];
+    const steps = chanceSteps(0.2, 6, { heights: true });
     const domain = { minX: 497e3, minY: 5089e3, minZ: 0, maxX: 499e3, maxY: 5091e3, maxZ: 100 };
     const placement = fitPlacement(compileTransformation({ steps }), domain, 0.001);
     expect(placement.relief).toBeDefined();
