@@ -75,19 +75,31 @@ const typescript = {
   },
 };
 
-/** The best engine for the places of points, but not one that conversion cannot do without. @type {Step} */
+/**
+ * The best engine for the places of points, but not one that conversion cannot do without. A PROJ of the system that is
+ * older than the one that the script gives is taken only where that one cannot be had. @type {Step}
+ */
 const proj = {
   name: "PROJ",
   async run(root) {
+    const { code, said } = await script(root, "install-proj");
+    if (code === 0) return said;
     const need = { program: "projinfo", args: ["EPSG:4326"], package: "proj-bin" };
     try {
-      return await ensurePrograms([need], root);
+      return `${await ensurePrograms([need], root)}; a current one: ${said}`;
     } catch (error) {
       if (!(error instanceof SetupError)) throw error;
-      return `not there, proj4js and EGM96 do its work less exactly (${error.message})`;
+      return `not there, proj4js and EGM96 do its work less exactly (${said})`;
     }
   },
 };
+
+/** Runs a script of the converter that brings a program. */
+async function script(root, name) {
+  const shell = process.platform === "win32" ? "bash" : "sh";
+  const { code, said } = await attempt(shell, [join(root, "converter/scripts", name)]);
+  return { code, said: said.replace(`${name}: `, "") };
+}
 
 /** @type {Step} */
 const browser = {
@@ -127,12 +139,8 @@ const referees = {
 const pdal = {
   name: "PDAL",
   async run(root) {
-    const script = join(root, "converter/scripts/install-pdal");
-    const shell = process.platform === "win32" ? "bash" : "sh";
-    const { code, said } = await attempt(shell, [script]);
-    return code === 0
-      ? said.replace(/^.*install-pdal: /s, "")
-      : `not there (${said.replace("install-pdal: ", "")})`;
+    const { code, said } = await script(root, "install-pdal");
+    return code === 0 ? said : `not there (${said})`;
   },
 };
 

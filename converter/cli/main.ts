@@ -27,7 +27,7 @@ const placing = () => [
     "--engine <name>",
     "what transforms the coordinates: PROJ with its grids, or proj4js with EGM96",
   ).choices(ENGINES),
-  new Option("--proj <DIR>", "folder of PROJ's programs projinfo and cct, if they are not on PATH"),
+  new Option("--proj <DIR>", "folder of PROJ's programs projinfo and cct, instead of the one that is found"),
   new Option("--grids <DIR>", "folder of grid files, searched before PROJ's own"),
 ];
 const progress = () => new Option("--progress <kind>", "how progress is shown").choices(PROGRESS_KINDS);

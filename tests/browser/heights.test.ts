@@ -1,4 +1,4 @@
-import { execFileSync, spawnSync } from "node:child_process";
+import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { decodeEgm96, ecefToGeodetic, egm96Undulation } from "@groma/georef";
@@ -6,6 +6,7 @@ import type { Cartesian3 } from "cesium";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
+import { proj, projMissing } from "../proj.js";
 import { data, projectRoot } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { ecef, pixelOf, settle } from "./globe.js";
@@ -21,7 +22,6 @@ const egm96 = decodeEgm96(readFileSync(join(projectRoot, "layer/dist/cloud/egm96
 /** Places of RD New + NAP by PROJ with the grids of the Netherlands: x, y, z and ECEF. */
 const truth = data("truth/grid_rd_nap.json");
 const grids = data("grids");
-const projMissing = spawnSync("projinfo", ["--version"]).error && "PROJ's programs are not on PATH";
 const autzen = data("autzen.laz");
 const autzenMissing = autzen.missing ?? data("grids/us_nga_egm96_15.tif").missing ?? projMissing;
 const geoidMissing = truth.missing ?? grids.missing ?? projMissing;
@@ -63,7 +63,7 @@ async function placed(page: Page) {
 function raisedByProj([longitude, latitude, height]: readonly number[]): number {
   const grid = `+grids=${data("grids/us_nga_egm96_15.tif").path}`;
   const args = ["-d", "6", "+proj=vgridshift", grid, "+multiplier=1"];
-  const output = execFileSync("cct", args, {
+  const output = execFileSync(proj!.cct, args, {
     input: `${longitude} ${latitude} ${height} 0\n`,
     encoding: "utf8",
   });

@@ -1,16 +1,15 @@
-import { spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { ecefToGeodetic } from "@groma/georef";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { projMissing } from "../proj.js";
 import { data } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { coreMissing } from "./core.js";
 import { distance, groma, gromaJson, locate } from "./groma.js";
 
 const grids = data("grids");
-const projMissing = spawnSync("cct", ["--version"]).error && "PROJ (cct, projinfo) is not on PATH";
 
 /** The tables: source coordinates with heights above a national zero, and ECEF by PROJ with its grids. */
 const TABLES = [
@@ -174,18 +173,20 @@ describe.skipIf(missing)("groma locate after a conversion without PROJ", () => {
     expect(groma(["info", out]).stdout).toContain(words.split("\n")[0]);
   });
 
-  it("takes proj4js by itself where PATH has no PROJ", () => {
+  it("takes proj4js by itself where there is no PROJ", () => {
     const empty = join(folder, "empty");
     mkdirSync(empty);
-    const before = process.env.PATH;
+    const before = { PATH: process.env.PATH, XDG_CACHE_HOME: process.env.XDG_CACHE_HOME };
     try {
-      process.env.PATH = empty;
+      Object.assign(process.env, { PATH: empty, XDG_CACHE_HOME: empty });
       const { name, crs } = tables[0];
       const done = convert(`${name}-10`, crs, join(folder, "no-proj.copc.laz"));
       expect(done.engine.name).toBe("proj4js");
       expect(done.operation.notes.join()).toMatch(/without PROJ/);
     } finally {
-      process.env.PATH = before;
+      process.env.PATH = before.PATH;
+      if (before.XDG_CACHE_HOME === undefined) delete process.env.XDG_CACHE_HOME;
+      else process.env.XDG_CACHE_HOME = before.XDG_CACHE_HOME;
     }
   });
 });

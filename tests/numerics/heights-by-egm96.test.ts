@@ -1,4 +1,4 @@
-import { execFileSync, spawnSync } from "node:child_process";
+import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import {
@@ -15,12 +15,12 @@ import {
 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import { distance, random } from "../../georef/src/cartesian/points.fixture.js";
+import { proj, projMissing } from "../proj.js";
 import { data, projectRoot } from "../project.js";
 
 const DEGREE = Math.PI / 180;
 const grid = data("grids/us_nga_egm96_15.tif");
-const cctMissing = spawnSync("cct", ["--version"]).error && "cct of PROJ is not on PATH";
-const missing = grid.missing ?? cctMissing;
+const missing = grid.missing ?? projMissing;
 const skipped = missing ? ` (skipped: ${missing})` : "";
 
 /** Half a centimetre, by which the nodes of the model are rounded, and what float32 costs PROJ. */
@@ -33,7 +33,7 @@ const systems = JSON.parse(asset("vertical-systems.json").toString()) as Vertica
 /** `cct` over points; four columns, of which it prints as many. */
 function cct(args: readonly string[], points: readonly (readonly number[])[]): number[][] {
   const input = points.map((point) => `${[...point, 0, 0].slice(0, 4).join(" ")}\n`).join("");
-  const output = execFileSync("cct", ["-d", "9", ...args], { input, encoding: "utf8" });
+  const output = execFileSync(proj!.cct, ["-d", "9", ...args], { input, encoding: "utf8" });
   return output
     .trim()
     .split("\n")
@@ -115,12 +115,12 @@ describe("a height system given in the page", () => {
         ...[`+proj=vgridshift +grids=${grid.path} +multiplier=1`, "+proj=cart +ellps=WGS84"],
       ];
       const pipeline = ["+proj=pipeline", ...steps.map((step) => `+step ${step}`)].join(" ");
-      const proj = cct(pipeline.split(" "), rows);
+      const byProj = cct(pipeline.split(" "), rows);
       const own = new Float64Array(3);
       let [toProj, toTruth] = [0, 0];
       for (const [i, [x, y, z, ...truth]] of rows.entries()) {
         evaluate(x, y, z, own, 0);
-        toProj = Math.max(toProj, distance(own, proj[i].slice(0, 3)));
+        toProj = Math.max(toProj, distance(own, byProj[i].slice(0, 3)));
         toTruth = Math.max(toTruth, distance(own, truth));
       }
       console.log(

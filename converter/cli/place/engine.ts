@@ -49,8 +49,8 @@ export async function chosenProj({ engine, proj, grids }: EngineChoice): Promise
   const found = await findProj({ folder: proj, grids });
   if (found || (engine === undefined && grids === undefined)) return found;
   throw new ProjError({
-    ...{ code: "PROJ_MISSING", file: "cct", cause: "PROJ is not on PATH, and it was asked for" },
-    fix: "install PROJ (package proj-bin), name the folder of its programs with --proj, or leave --engine and --grids out",
+    ...{ code: "PROJ_MISSING", file: "cct", cause: "PROJ was not found, and it was asked for" },
+    fix: "install PROJ (converter/scripts/install-proj, or the package proj), name the folder of its programs with --proj, or leave --engine and --grids out",
   });
 }
 

@@ -1,4 +1,4 @@
-import { chmodSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { chmodSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, describe, expect, it } from "vitest";
@@ -7,11 +7,19 @@ import { findProj } from "./find.js";
 const folder = mkdtempSync(join(tmpdir(), "groma-find-"));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
 const here = (await findProj()) !== undefined;
+/** Programs that say the same whatever they are asked. */
+function stubs(where: string, says: string): void {
+  mkdirSync(where, { recursive: true });
+  for (const name of ["cct", "projinfo"]) {
+    writeFileSync(join(where, name), `#!/bin/sh\necho '${says}'\n`);
+    chmodSync(join(where, name), 0o755);
+  }
+}
 const absent = here ? "" : " (skipped: PROJ is not installed)";
 
 describe("PROJ", () => {
   it("is not found on an empty PATH, and that is no error", async () => {
-    expect(await findProj({ environment: { PATH: folder } })).toBeUndefined();
+    expect(await findProj({ environment: { PATH: folder, XDG_CACHE_HOME: folder } })).toBeUndefined();
   });
 
   it("has to be in a folder that was given", async () => {
@@ -22,12 +30,32 @@ describe("PROJ", () => {
     ["too old", "cct: Rel. 8.2.1, January 1st, 2022", "PROJ_VERSION"],
     ["something else", "hello", "PROJ_FAILED"],
   ])("is refused when it is %s", async (_, says, code) => {
-    for (const name of ["cct", "projinfo"]) {
-      writeFileSync(join(folder, name), `#!/bin/sh\necho '${says}'\n`);
-      chmodSync(join(folder, name), 0o755);
-    }
+    stubs(folder, says);
     await expect(findProj({ folder })).rejects.toMatchObject({ code });
     for (const name of ["cct", "projinfo"]) rmSync(join(folder, name));
+  });
+
+  it.skipIf(process.platform === "win32").each([
+    ["that of install-proj before an older one of PATH", "9.1.1", "9.6.0", "9.6.0"],
+    ["one of PATH that is as new", "9.7.0", "9.6.0", "9.7.0"],
+    ["that of install-proj where PATH has none that runs", "8.0.0", "9.6.0", "9.6.0"],
+  ])("is %s", async (_, ofPath, installed, version) => {
+    const place = mkdtempSync(join(folder, "both-"));
+    stubs(join(place, "path"), `cct: Rel. ${ofPath}, 2025`);
+    stubs(join(place, "groma/proj/bin"), `cct: Rel. ${installed}, 2025`);
+    const environment = { PATH: join(place, "path"), XDG_CACHE_HOME: place, PROJ_DATA: "/mine" };
+    const proj = await findProj({ environment });
+    expect(proj?.version).toBe(version);
+    const own = join(place, "groma/proj/usr/share/proj");
+    const data = proj?.environment.PROJ_DATA?.split(":").slice(0, 2);
+    expect(data).toEqual(version === installed ? [own, "/mine"] : ["/mine"]);
+  });
+
+  it.skipIf(process.platform === "win32")("is the one that GROMA_PROJ names", async () => {
+    const place = mkdtempSync(join(folder, "named-"));
+    stubs(place, "cct: Rel. 9.2.0, 2023");
+    const environment = { ...process.env, GROMA_PROJ: place };
+    expect(await findProj({ environment })).toMatchObject({ version: "9.2.0", cct: join(place, "cct") });
   });
 
   it.skipIf(!here)(`keeps its own folders behind the one that is given${absent}`, async () => {

@@ -1,4 +1,5 @@
 import { existsSync } from "node:fs";
+import { homedir } from "node:os";
 import { delimiter, join, resolve } from "node:path";
 import { ProjError } from "./errors.js";
 import { failed, run } from "./run.js";
@@ -15,7 +16,7 @@ export interface Proj {
 }
 
 export interface FindOptions {
-  /** Folder of the programs; otherwise they are looked for on PATH. */
+  /** Folder of the programs; otherwise GROMA_PROJ names it, or they are looked for. */
   readonly folder?: string | undefined;
   /** A folder of grids that goes before PROJ's own. */
   readonly grids?: string | undefined;
@@ -24,20 +25,39 @@ export interface FindOptions {
 }
 
 /** The oldest PROJ whose `projinfo` and `cct` answer as they are read here. */
-const OLDEST = [9, 1];
+const OLDEST = [9, 1] as const;
+/** The oldest whose tables name the grids as PROJ-data does today. */
+const CURRENT = [9, 6] as const;
+/** Data of the PROJ that Debian installs for all its users, which `install-proj`'s lies beside. */
+const OF_DEBIAN = "/usr/share/proj";
+
+/** Where `install-proj` puts PROJ unless it is told another place. */
+const installed = (environment: NodeJS.ProcessEnv): string =>
+  join(environment.XDG_CACHE_HOME || join(homedir(), ".cache"), "groma/proj");
 
 /**
- * Looks for PROJ. Its network access stays off unless the user's environment turns it on (`PROJ_NETWORK=ON`).
+ * Looks for PROJ: where the user says, where GROMA_PROJ says, on PATH if that is a current one, where `install-proj`
+ * puts it, on PATH. Its network access stays off unless the user's environment turns it on (`PROJ_NETWORK=ON`).
  *
- * @returns nothing when no folder was given and PATH has no PROJ
+ * @returns nothing when no folder was given and there is no PROJ
  * @throws ProjError PROJ_MISSING when the given folder has none, PROJ_VERSION, PROJ_GRID when `grids` is no folder
  */
 export async function findProj(options: FindOptions = {}): Promise<Proj | undefined> {
   const given = options.environment ?? process.env;
+  const folder = options.folder ?? (given.GROMA_PROJ || undefined);
   // Numbers are written and read with a decimal point, whatever the user's language.
   const environment: NodeJS.ProcessEnv = { PROJ_NETWORK: "OFF", ...given, LC_ALL: "C" };
   delete environment.PROJ_DEBUG;
-  const program = (name: string) => (options.folder === undefined ? name : join(options.folder, name));
+  const own = installed(given);
+  const takesOwn =
+    folder === undefined && existsSync(join(own, "bin/cct")) && !(await hasCurrent(environment));
+  if (takesOwn) {
+    // Its database before any other, since that of another version would not be read.
+    const others = [given.PROJ_DATA ?? given.PROJ_LIB, existsSync(OF_DEBIAN) ? OF_DEBIAN : undefined];
+    environment.PROJ_DATA = [join(own, "usr/share/proj"), ...others.filter(Boolean)].join(delimiter);
+  }
+  const programs = takesOwn ? join(own, "bin") : folder;
+  const program = (name: string) => (programs === undefined ? name : join(programs, name));
   const projinfo = program("projinfo");
   const cct = program("cct");
 
@@ -49,19 +69,33 @@ export async function findProj(options: FindOptions = {}): Promise<Proj | undefi
     environment.PROJ_DATA = withFolder(options.grids, directories);
   } catch (error) {
     const absent = error instanceof ProjError && error.code === "PROJ_MISSING";
-    if (absent && options.folder === undefined) return undefined;
+    if (absent && programs === undefined) return undefined;
     throw error;
   }
   return { version, projinfo, cct, environment, directories: await searchPaths(projinfo, environment) };
+}
+
+/** Whether PATH has a current PROJ. */
+async function hasCurrent(environment: NodeJS.ProcessEnv): Promise<boolean> {
+  try {
+    return isAtLeast(CURRENT, await versionOf("cct", environment));
+  } catch (error) {
+    if (error instanceof ProjError) return false;
+    throw error;
+  }
+}
+
+function isAtLeast([major, minor]: readonly [number, number], version: string): boolean {
+  const [ofMajor, ofMinor] = version.split(".").map(Number);
+  return ofMajor > major || (ofMajor === major && ofMinor >= minor);
 }
 
 async function versionOf(cct: string, environment: NodeJS.ProcessEnv): Promise<string> {
   const { stdout, stderr } = await run(cct, ["--version"], { environment });
   const found = /Rel\. (\d+)\.(\d+)(?:\.(\d+))?/.exec(stdout + stderr);
   if (!found) throw failed(cct, "it does not tell its version");
-  const [major, minor] = [Number(found[1]), Number(found[2])];
-  const version = `${major}.${minor}.${found[3] ?? 0}`;
-  if (major < OLDEST[0] || (major === OLDEST[0] && minor < OLDEST[1])) {
+  const version = `${found[1]}.${found[2]}.${found[3] ?? 0}`;
+  if (!isAtLeast(OLDEST, version)) {
     throw new ProjError({
       code: "PROJ_VERSION",
       file: cct,

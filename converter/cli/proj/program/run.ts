@@ -70,7 +70,7 @@ function missing(program: string, code: string): ProjError {
     code: "PROJ_MISSING",
     file: program,
     cause: code === "ENOENT" ? "program not found" : "no permission to execute the program",
-    fix: "install PROJ 9.1 or newer (Debian: proj-bin, Homebrew: proj), or convert with --engine proj4js",
+    fix: "install PROJ (Debian: converter/scripts/install-proj, Homebrew: proj), or convert with --engine proj4js",
   });
 }
 
