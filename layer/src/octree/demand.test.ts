@@ -231,6 +231,9 @@ describe("gather", () => {
         });
         const bases = ({ demand }: typeof part) => demand.base.filter((base) => base).length;
         expect(bases(part)).toBe(bases(whole));
+        // Some more than are needed, since what the limit allows is asked at times only.
+        const needed = whole.demand.pixels.filter((pixels) => 2 * pixels >= threshold * (1 - 1e-5)).length;
+        expect(part.nodes.length).toBeLessThanOrEqual(1.5 * needed + 3 + bases(part));
       }),
       { numRuns: 300 },
     );
@@ -251,6 +254,27 @@ describe("gather", () => {
       );
       const counts = countsAt(demand, thresholdFor([demand], limit), limit);
       expect(counts.reduce((sum, count) => sum + count, 0)).toBe(limit - 50);
+    }
+  });
+
+  it("ranks nodes that the camera is in before all others, the widest apart first", () => {
+    const spheres: NodeBounds[] = Array.from({ length: 17 }, (_, index) => ({
+      ...{ x: index < 9 ? 5 : 40, y: 0, z: 0, radius: 10 },
+      spacing: index === 0 ? 20 : index < 9 ? 1 + index : 15,
+    }));
+    const { nodes, demand } = gather(family(spheres), view, everything, known);
+    const inside = nodes.slice(0, 9).map(({ bounds }) => bounds!.spacing);
+    expect(inside).toEqual([20, 9, 8, 7, 6, 5, 4, 3, 2]);
+    expect(demand.pixels.slice(0, 9)).toEqual(inside.map((spacing) => 1e12 * spacing));
+    expect(Math.max(...demand.pixels.slice(9))).toBeLessThan(1e6);
+  });
+
+  it("takes a node around the camera of a parallel view for one in the middle of the picture", () => {
+    const flat: View = { ...view, projection: { kind: "orthographic", extent: 1000 / PIXELS_PER_METRE } };
+    for (const x of [-9, 0, 9]) {
+      const sphere: NodeBounds = { x, y: 0, z: 0, radius: 10, spacing: 2 };
+      const { demand } = gather(family(new Array(17).fill(sphere)), flat, everything, known);
+      expect(new Set(demand.pixels)).toEqual(new Set([2 * PIXELS_PER_METRE]));
     }
   });
 
