@@ -36,9 +36,10 @@ export { sameHeights, samePlane } from "./crs/same.js";
 export { type CurvatureRadii, curvatureRadii, radiusAlong } from "./ellipsoid/curvature.js";
 export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
-export { eastNorthUp, type Frame, pointIn, pointOf, turnIn, turnOut } from "./ellipsoid/frame.js";
+export { eastNorthUp, type Frame, levelFrame, pointIn, pointOf, turnIn, turnOut } from "./ellipsoid/frame.js";
 export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
 export { ENGINE, type ExactTransform, exactTransform } from "./engines/exact.js";
+export { isOwnPlane, type MapPlane, planeTransform, truthOnMap } from "./engines/map-plane.js";
 export { type GridPlane, gridPlane, type PlaneInverse } from "./engines/projection.js";
 export {
   placePoint,
@@ -91,7 +92,11 @@ export { type ControlPoint, type FittedSimilarity, fitSimilarity } from "./simil
 export { localCrs } from "./similarity/local-crs.js";
 export { decodeTransformation } from "./transformation/decode.js";
 export { encodeTransformation } from "./transformation/encode.js";
-export { type CompiledTransformation, compileTransformation } from "./transformation/evaluate.js";
+export {
+  type CompiledTransformation,
+  compileTransformation,
+  type StepwiseTruth,
+} from "./transformation/evaluate.js";
 export { type GivenHeights, withHeights } from "./transformation/given-heights.js";
 export type { PointTransform } from "./transformation/link.js";
 export { fitPatchwork, PATCHWORK_TOLERANCE, type ProjectionSampler } from "./transformation/patchwork.js";

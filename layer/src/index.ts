@@ -15,6 +15,7 @@ export {
   GromaError,
   type HeightGuess,
   type HeightReference,
+  type MapPlane,
   type OperationReport,
   type PackedEpsg,
   PlacementError,

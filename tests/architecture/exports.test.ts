@@ -4,7 +4,9 @@ import { describe, expect, it } from "vitest";
 import { projectRoot } from "../project.js";
 
 /** What applications import. */
-const ENTRIES = ["layer/src/index.ts", "layer/src/cesium/index.ts", "layer/src/tools/index.ts"];
+const ENTRIES = ["index.ts", "cesium/index.ts", "openlayers/index.ts", "tools/index.ts"].map(
+  (entry) => `layer/src/${entry}`,
+);
 const OURS = /\/(georef|layer)\/(src|dist)\//;
 
 /**

@@ -13,7 +13,7 @@ import {
   styleTextures,
 } from "../../layer/src/effects/index.js";
 import { richFacts, styleOf } from "../../layer/src/effects/scene.fixture.js";
-import { WEBGL2 } from "../../layer/src/effects/webgl2-target.fixture.js";
+import { WEBGL2 } from "../../layer/src/effects/webgl2-target.js";
 import { columnsOf, type GpuResult, type PlainTexture, run } from "./gpu-page.js";
 import { launch } from "./harness.js";
 

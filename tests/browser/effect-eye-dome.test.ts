@@ -6,7 +6,7 @@ import {
   planEffects,
 } from "../../layer/src/effects/index.js";
 import { richFacts, styleOf } from "../../layer/src/effects/scene.fixture.js";
-import { WEBGL2 } from "../../layer/src/effects/webgl2-target.fixture.js";
+import { WEBGL2 } from "../../layer/src/effects/webgl2-target.js";
 import { PERSPECTIVE, SIZE, usePage, VIEW } from "./effect-draw.js";
 import { run } from "./gpu-page.js";
 

@@ -2,7 +2,7 @@ import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { composePointShader, composeQuad, passesOf, planEffects } from "../../layer/src/effects/index.js";
 import { combinations } from "../../layer/src/effects/scene.fixture.js";
-import { WEBGL2 } from "../../layer/src/effects/webgl2-target.fixture.js";
+import { WEBGL2 } from "../../layer/src/effects/webgl2-target.js";
 import { launch } from "./harness.js";
 
 /** A program as the page compiles it, and what it is expected to read. */

@@ -12,8 +12,11 @@ import { projectRoot } from "../project.js";
 import { runPython } from "../python.js";
 import { launch, openPage, type Watch } from "./harness.js";
 
-const root = join(projectRoot, "tests/browser/stage");
-const built = join(projectRoot, "tests/artifacts/stage");
+/** Pages of tests: a scene of the globe, and a map. */
+type Which = "stage" | "map-stage";
+
+const builtFolder = (which: Which) => join(projectRoot, "tests/artifacts", which);
+const rootFolder = (which: Which) => join(projectRoot, "tests/browser", which);
 const clouds = join(projectRoot, "tests/artifacts/clouds");
 const pictures = join(projectRoot, "tests/artifacts/pictures");
 const expected = join(projectRoot, "tests/browser/expected");
@@ -33,7 +36,7 @@ export interface StagePage {
 
 /** Writes the scans of `stage/clouds.py` as COPC where they are not there yet. */
 function makeClouds(): void {
-  const script = join(root, "clouds.py");
+  const script = join(rootFolder("stage"), "clouds.py");
   const done = join(clouds, "cliff.copc.laz");
   if (existsSync(done) && statSync(done).mtimeMs > statSync(script).mtimeMs) return;
   mkdirSync(clouds, { recursive: true });
@@ -51,7 +54,9 @@ export function cloudPath(name: string): string {
 }
 
 /** Builds the page where anything that it is made of is newer than it. */
-async function buildPage(): Promise<void> {
+async function buildPage(which: Which): Promise<void> {
+  const root = rootFolder(which);
+  const built = builtFolder(which);
   const page = join(built, "index.html");
   const sources = [root, join(projectRoot, "layer/dist"), join(projectRoot, "georef/dist")];
   if (existsSync(page) && statSync(page).mtimeMs > Math.max(...sources.map(newest))) return;
@@ -79,11 +84,17 @@ function newest(folder: string): number {
   return Math.max(...entries.map(({ parentPath, name }) => statSync(join(parentPath, name)).mtimeMs));
 }
 
-/** Opens the page. */
-export async function openStage(): Promise<StagePage> {
+/**
+ * Opens a page.
+ * @param further folders that it is served, by the beginning of their addresses
+ */
+export async function openStage(
+  which: Which = "stage",
+  further: Readonly<Record<string, string>> = {},
+): Promise<StagePage> {
   makeClouds();
-  await buildPage();
-  const server = await serve();
+  await buildPage(which);
+  const server = await serve(which, further);
   const browser = await launch();
   const { page, watch } = await openPage(browser, { width: 820, height: 640 });
   await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/index.html`);
@@ -99,11 +110,12 @@ export async function openStage(): Promise<StagePage> {
   };
 }
 
-function serve(): Promise<Server> {
+function serve(which: Which, further: Readonly<Record<string, string>>): Promise<Server> {
   const folders: readonly (readonly [string, string])[] = [
+    ...Object.entries(further),
     ["/cesium/", cesium],
     ["/clouds/", clouds],
-    ["/", built],
+    ["/", builtFolder(which)],
   ];
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url ?? "/", "http://localhost");

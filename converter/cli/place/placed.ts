@@ -1,11 +1,12 @@
 import {
   type AccuracyPart,
   accuracyParts,
+  type CompiledTransformation,
   type Crs,
   ENGINE,
+  type ExactTransform,
   type GeoreferenceRecord,
   type OperationReport,
-  type Truth,
   truthOf,
 } from "@groma/georef";
 import type { Scan } from "../core/core.js";
@@ -20,7 +21,7 @@ export interface Placed {
   /** What has to be known of how the coordinate reference system was found. */
   readonly notes: Georeferenced["notes"];
   /** Source coordinates → ECEF. */
-  readonly truth: Truth;
+  readonly truth: ExactTransform | CompiledTransformation;
   readonly engine: GeoreferenceRecord["engine"];
   readonly operation: OperationReport | undefined;
   /** Grids that heights go through. */

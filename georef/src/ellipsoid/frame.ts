@@ -3,6 +3,7 @@ import { ecefToGeodetic } from "./ecef-to-geodetic.js";
 /**
  * A local Cartesian frame, metres.
  * ECEF = origin + rotation · local; `rotation` is column-major, its columns the unit vectors east, north, up in ECEF.
+ * On a map the plane of its projection and the height stand in the place of ECEF.
  */
 export interface Frame {
   /** ECEF, 3 values, metres. */
@@ -73,4 +74,12 @@ export function turnOut(
   z: number,
 ): readonly [number, number, number] {
   return [r[0] * x + r[3] * y + r[6] * z, r[1] * x + r[4] * y + r[7] * z, r[2] * x + r[5] * y + r[8] * z];
+}
+
+/** Frame at a point of a map: its axes are those of the map and the height. @param origin x, y, height, metres */
+export function levelFrame(origin: ArrayLike<number>): Frame {
+  return {
+    origin: Float64Array.of(origin[0], origin[1], origin[2]),
+    rotation: Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1),
+  };
 }

@@ -1,15 +1,19 @@
 import type { Crs } from "../crs/crs.js";
 import { PlacementError } from "../errors/errors.js";
 import { decodeTransformation } from "../transformation/decode.js";
-import { type CompiledTransformation, compileTransformation } from "../transformation/evaluate.js";
+import {
+  type CompiledTransformation,
+  compileTransformation,
+  type StepwiseTruth,
+} from "../transformation/evaluate.js";
 import type { PointTransform } from "../transformation/link.js";
 import { type ExactTransform, exactTransform } from "./exact.js";
 
 /**
- * The one map of a data set, source coordinates → ECEF, whatever it was made from: proj4js and a similarity are exactly
+ * The one map of a data set, source coordinates → ECEF (or the plane of a map), whatever it was made from: proj4js and a similarity are exactly
  * linear in z, a transformation with the grids of PROJ is not. {@link fitPlacement} takes either.
  */
-export type Truth = ExactTransform | CompiledTransformation;
+export type Truth = ExactTransform | StepwiseTruth;
 
 /**
  * A data set without a coordinate reference system, put on the globe as a rigid body with one scale:
@@ -38,7 +42,11 @@ export interface TruthSources {
  * @throws RecordError RECORD_* when the transformation cannot be read
  * @throws CrsError CRS_UNSUPPORTED
  */
-export function truthOf(sources: TruthSources, middle: number, file: string): Truth {
+export function truthOf(
+  sources: TruthSources,
+  middle: number,
+  file: string,
+): ExactTransform | CompiledTransformation {
   if (sources.transformation)
     return compileTransformation(decodeTransformation(sources.transformation, file), file);
   if (sources.similarity) return similarityTransform(sources.similarity);

@@ -48,9 +48,15 @@ export function boxOf(domain: Domain): Box {
 /**
  * Samples the exact transform on the 9 × 9 Chebyshev nodes of the domain and turns the samples into coefficients.
  *
+ * @param frameAt the node frame at the place of the domain's middle. Default: east-north-up
  * @throws PlacementError PLACE_DOMAIN when the domain is no box, or the transform is not finite on it
  */
-export function expand(exact: ExactTransform, domain: Domain, file: string): Expansion {
+export function expand(
+  exact: ExactTransform,
+  domain: Domain,
+  file: string,
+  frameAt = eastNorthUp,
+): Expansion {
   const box = boxOf(domain);
   if (!isBox(domain)) throw outside(file, "the bounds of the points are not a finite box", domain);
 
@@ -74,7 +80,7 @@ export function expand(exact: ExactTransform, domain: Domain, file: string): Exp
   ] as const)
     evaluate(u, v);
   const origin = [0, 1, 2].map((axis) => sample[axis] + box.z * sample[axis + 3]);
-  const frame = eastNorthUp(origin);
+  const frame = frameAt(origin);
 
   const values = new Float64Array(NODES * NODES * 6);
   for (let i = 0; i < NODES; i++) {

@@ -1,8 +1,9 @@
 import { NODES } from "../approximation/chebyshev.js";
 import type { Domain } from "../cartesian/domain.js";
+import { eastNorthUp } from "../ellipsoid/frame.js";
 import type { ExactTransform } from "../engines/exact.js";
 import { PlacementError } from "../errors/errors.js";
-import type { CompiledTransformation } from "../transformation/evaluate.js";
+import type { StepwiseTruth } from "../transformation/evaluate.js";
 import { fitBound, storageBound, tailBound } from "./certificate.js";
 import { QUADRATIC_TERMS, turnedCreases, turnedTerms } from "./creases.js";
 import { type Expansion, expand, plusQuadratic } from "./expansion.js";
@@ -34,13 +35,16 @@ import {
  * @param domain box of the points, source units
  * @param toleranceMetres greater than zero
  * @param file name for error messages
+ * @param frameAt the frame that a node is placed in, at the place of its middle. Default: east-north-up, for ECEF;
+ *   {@link levelFrame} for a map
  * @throws PlacementError PLACE_DOMAIN when the exact transform is not finite on the domain, PLACE_TOLERANCE
  */
 export function fitPlacement(
-  truth: ExactTransform | CompiledTransformation,
+  truth: ExactTransform | StepwiseTruth,
   domain: Domain,
   toleranceMetres: number,
   file = "points",
+  frameAt = eastNorthUp,
 ): Placement {
   if (!(toleranceMetres > 0)) {
     throw new PlacementError({
@@ -51,7 +55,7 @@ export function fitPlacement(
     });
   }
   const node = typeof truth === "function" ? withoutGrids(truth) : nodeTransform(truth, domain);
-  const smooth = expand(node.smooth, domain, file);
+  const smooth = expand(node.smooth, domain, file, frameAt);
   const tail = tailBound(smooth);
   const { frame } = smooth;
 

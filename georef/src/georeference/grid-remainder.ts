@@ -83,3 +83,9 @@ export function turned(remainder: GridRemainder, rotation: Float64Array): GridRe
   }
   return { ...remainder, cells };
 }
+
+/** The same along the third axis alone. */
+export function heightsOf(remainder: GridRemainder): GridRemainder {
+  const cells = remainder.cells.map((term, at) => (at % CELL_TERMS < 2 * AXIS_TERMS ? 0 : term));
+  return { ...remainder, cells };
+}

@@ -1,15 +1,15 @@
 import { AMPLIFICATION } from "../approximation/chebyshev.js";
 import type { Domain } from "../cartesian/domain.js";
 import type { ExactTransform } from "../engines/exact.js";
-import { linkOf } from "../transformation/compile.js";
-import type { CompiledTransformation } from "../transformation/evaluate.js";
+import { linksOf } from "../transformation/compile.js";
+import type { StepwiseTruth } from "../transformation/evaluate.js";
 import type { Link, PointTransform } from "../transformation/link.js";
 import { holds } from "../transformation/projection.js";
 import { patchworkOf } from "../transformation/rectangle.js";
 import type { Transformation } from "../transformation/step.js";
 import { type Unfolded, unfoldAll } from "./creases.js";
 import { boxOf } from "./expansion.js";
-import type { GridRemainder } from "./grid-remainder.js";
+import { type GridRemainder, heightsOf } from "./grid-remainder.js";
 import { NodeSamples } from "./node-samples.js";
 import { type FinishedPart, type GridPart, splitGrid } from "./split-grid.js";
 
@@ -49,15 +49,18 @@ const BETWEEN_SAMPLES = 1.25;
  * @param domain box of the points, source units
  */
 export function nodeTransform(
-  { transformation, evaluate }: CompiledTransformation,
+  { transformation, evaluate, end, stretch = 1, own }: StepwiseTruth,
   domain: Domain,
 ): NodeTransform {
   const box = boxOf(domain);
   const samples = new NodeSamples(box);
-  const common = { truth: evaluate, truthBound: patchworkOf(transformation).bound };
+  const common = { truth: evaluate, truthBound: stretch * patchworkOf(transformation).bound };
+  const smoothOf = (links: readonly Link[]) => {
+    const smooth = linearInHeight(links, box.z, samples.halfHeight);
+    return own === undefined ? smooth : keepingPlane(smooth, own);
+  };
   const undivided = (): NodeTransform => {
-    const all = transformation.steps.map((step) => linkOf(step));
-    return { ...common, smooth: linearInHeight(all, box.z, samples.halfHeight), corrections: [] };
+    return { ...common, smooth: smoothOf(linksOf(transformation, end)), corrections: [] };
   };
   const links: Link[] = [];
   const parts: GridPart[] = [];
@@ -68,21 +71,38 @@ export function nodeTransform(
       parts.push(part);
       links.push(part.link);
     } else {
-      links.push(linkOf(step));
+      links.push(...linksOf({ steps: [step] }, end));
     }
     samples.apply(links[links.length - 1]);
     if (!samples.finite()) return undivided();
   }
-  const before = patchworkBound(transformation, domain) + 0.5 * samples.curvature() * BETWEEN_SAMPLES;
-  return {
-    ...common,
-    smooth: linearInHeight(links, box.z, samples.halfHeight),
-    corrections: correctionsOf(parts, links, before),
+  const patched = stretch * patchworkBound(transformation, domain);
+  const before = patched + 0.5 * samples.curvature() * BETWEEN_SAMPLES;
+  const corrections = correctionsOf(parts, links, before, own === undefined ? (part) => part : heightsOf);
+  return { ...common, smooth: smoothOf(links), corrections };
+}
+
+/** The same with x and y as they are in the source, times what a unit of the source is. */
+function keepingPlane(smooth: ExactTransform, own: number): ExactTransform {
+  return (x, y, out, offset) => {
+    smooth(x, y, out, offset);
+    out[offset] = x * own;
+    out[offset + 1] = y * own;
+    out[offset + 3] = 0;
+    out[offset + 4] = 0;
   };
 }
 
-/** All remainders, all but the smallest, and so on down to none. */
-function correctionsOf(parts: readonly GridPart[], links: readonly Link[], before: number): Correction[] {
+/**
+ * All remainders, all but the smallest, and so on down to none.
+ * @param keep what of a remainder is added
+ */
+function correctionsOf(
+  parts: readonly GridPart[],
+  links: readonly Link[],
+  before: number,
+  keep: (remainder: GridRemainder) => GridRemainder,
+): Correction[] {
   let shift = 0;
   const finished: FinishedPart[] = [];
   for (const part of parts) {
@@ -96,7 +116,7 @@ function correctionsOf(parts: readonly GridPart[], links: readonly Link[], befor
   return Array.from({ length: finished.length + 1 }, (_, count) => {
     const [kept, leftOut] = [finished.slice(0, count), finished.slice(count)];
     const reach = sum(kept, "length");
-    const remainders = kept.map(({ remainder }) => remainder);
+    const remainders = kept.map(({ remainder }) => keep(remainder));
     return {
       remainders,
       ...(count > 0 && { unfolded: unfoldAll(remainders) }),

@@ -3,7 +3,7 @@ import { datumShiftLink, geocentricLink, heightLink } from "./ellipsoid-links.js
 import type { Link } from "./link.js";
 import { projectionLink } from "./projection.js";
 import { horizontalShiftLink, verticalShiftLink } from "./shift-links.js";
-import type { HorizontalShiftStep, Step, VerticalShiftStep } from "./step.js";
+import type { HorizontalShiftStep, Step, Transformation, VerticalShiftStep } from "./step.js";
 
 /** A step that looks something up in a grid. */
 export type GridStep = HorizontalShiftStep | VerticalShiftStep;
@@ -32,4 +32,9 @@ export function linkOf(step: Step, surfaceOf: SurfaceOf = surfaceOfWindow): Link
     case "geocentric":
       return geocentricLink(step);
   }
+}
+
+/** Compiles all steps. @param end takes the place of the step to ECEF */
+export function linksOf({ steps }: Pick<Transformation, "steps">, end?: Link): Link[] {
+  return steps.map((step) => (end && step.kind === "geocentric" ? end : linkOf(step)));
 }

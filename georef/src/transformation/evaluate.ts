@@ -1,15 +1,25 @@
 import { PlacementError } from "../errors/errors.js";
-import { linkOf } from "./compile.js";
+import { linksOf } from "./compile.js";
 import { invert, startingPoints } from "./inverse.js";
-import type { PointTransform } from "./link.js";
+import type { Link, PointTransform } from "./link.js";
 import { domainOf } from "./rectangle.js";
 import type { Transformation } from "./step.js";
 
-/** A transformation ready for use. */
-export interface CompiledTransformation {
+/** A transformation as far as points are placed by it: to ECEF, or to what stands in its place. */
+export interface StepwiseTruth {
   readonly transformation: Transformation;
   /** For many points: NaN where there is no place. */
   readonly evaluate: PointTransform;
+  /** What is done in place of the step to ECEF; undefined: that step. */
+  readonly end?: Link | undefined;
+  /** Metres of the place per metre on the ground, at most. Default: 1. */
+  readonly stretch?: number;
+  /** Units of the place per source unit, where x and y stay those of the source whatever the steps say. */
+  readonly own?: number;
+}
+
+/** A transformation ready for use. */
+export interface CompiledTransformation extends StepwiseTruth {
   /**
    * One point to ECEF.
    * @throws PlacementError PLACE_DOMAIN outside the data set's domain or its grids
@@ -28,12 +38,16 @@ export interface CompiledTransformation {
   inverse(x: number, y: number, z: number, out: Float64Array, offset?: number): void;
 }
 
-/** @param file name for error messages */
+/**
+ * @param file name for error messages
+ * @param end takes the place of the step to ECEF; then what is said of ECEF below holds for what it leads to
+ */
 export function compileTransformation(
   transformation: Transformation,
   file = "points",
+  end?: Link,
 ): CompiledTransformation {
-  const links = transformation.steps.map((step) => linkOf(step));
+  const links = linksOf(transformation, end);
   const state = new Float64Array(3);
   const domain = domainOf(transformation);
 
@@ -68,6 +82,7 @@ export function compileTransformation(
   return {
     transformation,
     evaluate,
+    end,
     forward(x, y, z, out, offset = 0) {
       evaluate(x, y, z, out, offset);
       if (

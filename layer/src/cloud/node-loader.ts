@@ -1,6 +1,6 @@
 import { LruCache, type OctreeNode } from "../octree/index.js";
 import { noNode } from "../query/index.js";
-import type { PointSource } from "../sources/contract/point-source.js";
+import type { EncodedChunk, PointSource } from "../sources/contract/point-source.js";
 import {
   type Appearance,
   type ChunkJob,
@@ -11,6 +11,7 @@ import {
 } from "../workers/index.js";
 import { showSixteenBits } from "./appearance.js";
 import type { NodeGeometry } from "./node-geometry.js";
+import { type SharedReads, unlessAborted } from "./shared-reads.js";
 
 /** The node that decides for all how colours are read and what columns count from, loaded or not. */
 type Judged =
@@ -21,6 +22,8 @@ type Judged =
 export interface LoaderParts {
   readonly source: Pick<PointSource, "name" | "bytesPerPoint" | "chunk">;
   readonly executor: NodeExecutor;
+  /** Chunks by the names of their nodes, which other octrees of the data set read too. */
+  readonly chunks: SharedReads<EncodedChunk>;
   /** Number of the data set with the executor. */
   readonly dataSet: number;
   readonly geometry: Pick<NodeGeometry, "cube">;
@@ -93,7 +96,8 @@ export class NodeLoader {
 
   async #decode(node: OctreeNode): Promise<NodeRecords> {
     const { name, pointCount } = node;
-    const records = await this.#parts.executor.records(await this.#jobOf(node, undefined));
+    const job = await this.#jobOf(node, undefined);
+    const records = await this.#done(this.#parts.executor.records(job), name);
     this.#records.set(name, records, { points: pointCount, bytes: bytesOf(records) });
     this.#records.trim((candidate) => candidate === name);
     return records;
@@ -113,7 +117,7 @@ export class NodeLoader {
 
   async #make(node: OctreeNode, signal: AbortSignal | undefined): Promise<NodeVertices> {
     const job = { ...(await this.#jobOf(node, signal)), appearance: this.#appearance };
-    const vertices = await this.#parts.executor.run(job, signal);
+    const vertices = await this.#done(this.#parts.executor.run(job, signal), node.name);
     this.#appearance ??= vertices.seen;
     const { rgbBits } = this.#appearance ?? vertices;
     if (rgbBits === 8 && vertices.rgbBits === 16) this.#judgeAgain();
@@ -128,14 +132,33 @@ export class NodeLoader {
     this.#parts.judgedAgain?.();
   }
 
+  /** A job's outcome. A chunk that cannot be decoded is read again when it is next asked for. */
+  async #done<T>(job: Promise<T>, name: string): Promise<T> {
+    try {
+      return await job;
+    } catch (thrown) {
+      this.#parts.chunks.forget(name);
+      throw thrown;
+    }
+  }
+
   async #jobOf(node: OctreeNode, signal: AbortSignal | undefined): Promise<ChunkJob> {
-    const { source, dataSet, geometry } = this.#parts;
+    const { source, chunks, dataSet, geometry } = this.#parts;
     const { address, pointCount, name } = node;
     if (address === undefined || pointCount === 0) throw noNode(name, source.name);
     const { name: file, bytesPerPoint } = source;
     checkNodeSize({ file, node: name, pointCount, bytesPerPoint });
-    const { bytes, checksum } = await source.chunk(address, { signal });
-    return { dataSet, chunk: bytes, checksum, pointCount, node: name, cube: geometry.cube(node.key) };
+    const read = (until: AbortSignal) => source.chunk(address, { signal: until });
+    const { bytes, checksum } = await chunks.read(name, signal, read);
+    // Whoever decodes a chunk takes it away.
+    return {
+      dataSet,
+      chunk: bytes.slice(0),
+      checksum,
+      pointCount,
+      node: name,
+      cube: geometry.cube(node.key),
+    };
   }
 }
 
@@ -153,13 +176,4 @@ function firstNode(root: OctreeNode): OctreeNode | undefined {
     for (const child of node.children ?? []) if (child) queue.push(child);
   }
   return undefined;
-}
-
-/** The promise's outcome, or the signal's reason as soon as it is aborted. */
-function unlessAborted<T>(promise: Promise<T>, signal: AbortSignal): Promise<T> {
-  return new Promise((resolve, reject) => {
-    const stop = () => reject(signal.reason);
-    signal.addEventListener("abort", stop, { once: true });
-    promise.then(resolve, reject).finally(() => signal.removeEventListener("abort", stop));
-  });
 }

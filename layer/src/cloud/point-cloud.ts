@@ -8,10 +8,9 @@ import {
   type StatedAccuracy,
   type Truth,
 } from "@groma/georef";
-import { type NodeBounds, NodeStore, type OctreeNode, type VoxelKey } from "../octree/index.js";
+import { type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
 import { checkSignal } from "../options/index.js";
 import {
-  NodeAccess,
   noNode,
   type PointOrigin,
   PointQuery,
@@ -28,15 +27,22 @@ import {
 } from "../sources/contract/point-source.js";
 import type { CloudStatistics } from "../sources/contract/statistics.js";
 import { type OpenedSource, openSource, type SourceLike } from "../sources/open-source.js";
-import { type Appearance, type NodeExecutor, type NodeVertices, WorkerPool } from "../workers/index.js";
-import { recordedAppearance, showSixteenBits } from "./appearance.js";
+import {
+  type Appearance,
+  type DataSetSpec,
+  type NodeExecutor,
+  type NodeVertices,
+  WorkerPool,
+} from "../workers/index.js";
+import { recordedAppearance } from "./appearance.js";
 import type { AttributeInfo, PointRecord } from "./attribute-info.js";
 import { attributesOf } from "./attributes.js";
 import { checkCloudOptions, type PointCloudOptions } from "./cloud-options.js";
 import { type Georeference, georeferenceOf } from "./georeference.js";
+import { MapOctrees } from "./map-octrees.js";
 import { NodeGeometry } from "./node-geometry.js";
-import { NodeLoader } from "./node-loader.js";
-import { NodeStream } from "./node-stream.js";
+import type { NodeStream } from "./node-stream.js";
+import { type OctreeParts, PlacedOctree, sharedReads } from "./placed-octree.js";
 import { pointRecord } from "./point-record.js";
 
 /** A data set, opened once, whatever number of views draw it. Knows no view and no library of views. */
@@ -65,26 +71,24 @@ export class PointCloud implements PointOrigin {
   readonly offset: readonly [number, number, number];
   /** Whether the points have colours of their own. */
   readonly hasColour: boolean;
-  /** Brings nodes for views. @internal */
-  readonly stream: NodeStream;
+  /** The octree as it lies on the globe. @internal */
+  readonly globe: PlacedOctree;
+  /** The octree as it lies in the planes of maps. @internal */
+  readonly maps: MapOctrees;
 
   readonly #source: PointSource;
   #boundingBox: SourceBox;
   #bounds: NodeBounds;
   #warnings: readonly SourceWarning[];
   readonly #truth: Truth;
-  readonly #store: NodeStore;
-  readonly #geometry: NodeGeometry;
   readonly #executor: NodeExecutor;
   readonly #ownsExecutor: boolean;
-  readonly #dataSet: number;
+  readonly #shared = sharedReads();
   #attributes:
     | { readonly appearance: Appearance | undefined; readonly list: readonly AttributeInfo[] }
     | undefined;
-  readonly #loader: NodeLoader;
   /** Least and greatest height above WGS84, metres. */
   #heights: readonly [number, number];
-  readonly #access: NodeAccess;
 
   private constructor(
     source: OpenedSource,
@@ -111,14 +115,14 @@ export class PointCloud implements PointOrigin {
     this.scale = scale;
     this.offset = source.offset;
     this.hasColour = attributes.some(({ name }) => name === "red") && statistics?.rgbBits !== null;
-    this.#store = new NodeStore(source.name, source.pointCount, source.rootPage);
-    this.#access = new NodeAccess({ source, store: this.#store, released: () => this.stream.trim() });
-    this.#geometry = new NodeGeometry(source, truth, crs);
-    this.#bounds = this.#rootBounds();
-    this.#heights = this.#geometry.heights;
+    const geometry = new NodeGeometry(source, truth, crs);
+    this.#bounds = rootBounds(geometry, source.name, typeof truth === "function" ? crs.name : undefined);
+    this.#heights = geometry.heights;
     this.#ownsExecutor = options.executor === undefined;
     this.#executor = executor;
-    this.#dataSet = this.#executor.addDataSet({
+    const limits = { ...options.limits, ...(options.budget && { budget: options.budget }) };
+    const parts: OctreeParts = { source, executor, limits, ...this.#shared };
+    const spec: DataSetSpec = {
       ...sources,
       file: source.name,
       encoding: source.encoding,
@@ -128,29 +132,14 @@ export class PointCloud implements PointOrigin {
       heights: [boundingBox.min[2], boundingBox.max[2]],
       ellipsoidalOrigin: this.#heights[0],
       tolerance,
+    };
+    const made = ({ extent }: NodeVertices) => this.#holdAgainst(extent);
+    this.globe = new PlacedOctree(parts, { geometry, spec, made, appearance: recordedAppearance(source) });
+    this.maps = new MapOctrees(parts, {
+      ...{ truth, spec, crs, made },
+      now: () => ({ boundingBox: this.#boundingBox, appearance: this.globe.loader.appearance }),
+      onGlobe: (key) => geometry.bounds(key) ?? this.#bounds,
     });
-    this.#loader = new NodeLoader({
-      source,
-      executor: this.#executor,
-      dataSet: this.#dataSet,
-      geometry: this.#geometry,
-      root: this.#store.root,
-      appearance: recordedAppearance(source),
-      judgedAgain: () => this.stream.forEachVertices(showSixteenBits),
-      made: ({ extent }) => this.#holdAgainst(extent),
-    });
-    this.stream = new NodeStream(
-      {
-        store: this.#store,
-        boundsOf: (node) => this.#geometry.bounds(node.key) ?? this.#bounds,
-        loadVertices: (node, signal) => this.#loader.vertices(node, signal),
-        openPage: (node, signal) => this.#access.openPage(node, signal),
-        get wait() {
-          return source.wait;
-        },
-      },
-      { ...options.limits, ...(options.budget && { budget: options.budget }) },
-    );
   }
 
   /**
@@ -170,7 +159,7 @@ export class PointCloud implements PointOrigin {
       const georeference = await georeferenceOf(source, options);
       signal?.throwIfAborted();
       cloud = new PointCloud(source, georeference, options, executor);
-      await cloud.#access.openRoot(signal);
+      await cloud.globe.access.openRoot(signal);
       signal?.throwIfAborted();
       return cloud;
     } catch (thrown) {
@@ -179,6 +168,11 @@ export class PointCloud implements PointOrigin {
       // Whatever an abort made fail on the way.
       throw signal?.aborted ? signal.reason : thrown;
     }
+  }
+
+  /** Brings nodes for views of the globe. @internal */
+  get stream(): NodeStream {
+    return this.globe.stream;
   }
 
   /** Box of all points, source units: as declared, or the octree's cube where that is found wrong. */
@@ -198,7 +192,7 @@ export class PointCloud implements PointOrigin {
 
   /** The attributes of the points, with their ranges as far as they are known. */
   get attributes(): readonly AttributeInfo[] {
-    const { appearance } = this.#loader;
+    const appearance = this.globe.loader.appearance ?? this.maps.appearance;
     if (this.#attributes?.appearance !== appearance || !this.#attributes) {
       this.#attributes = { appearance, list: this.#listAttributes(appearance) };
     }
@@ -229,7 +223,7 @@ export class PointCloud implements PointOrigin {
 
   /** Nodes of the octree that are known so far. */
   get nodeCount(): number {
-    return this.#store.size;
+    return this.globe.store.size;
   }
 
   /**
@@ -243,7 +237,7 @@ export class PointCloud implements PointOrigin {
     options: { signal?: AbortSignal | undefined } = {},
   ): Promise<NodeVertices> {
     const signal = checkSignal(options, this.#source.name);
-    return this.#access.withPoints(key, signal, (node) => this.#loader.vertices(node, signal));
+    return this.globe.access.withPoints(key, signal, (node) => this.globe.loader.vertices(node, signal));
   }
 
   /**
@@ -261,8 +255,8 @@ export class PointCloud implements PointOrigin {
     const signal = checkSignal(options, this.#source.name);
     // A node may have left the octree since it was drawn: its key tells which one takes its place.
     const key = typeof from === "object" && "key" in from ? from.key : from;
-    const { name, records } = await this.#access.withPoints(key, signal, async (node) => {
-      return { name: node.name, records: await this.#loader.records(node, signal) };
+    const { name, records } = await this.globe.access.withPoints(key, signal, async (node) => {
+      return { name: node.name, records: await this.globe.loader.records(node, signal) };
     });
     const index = typeof point === "number" ? records.order[point] : point.record;
     if (index === undefined || !(index in records.order)) {
@@ -276,10 +270,11 @@ export class PointCloud implements PointOrigin {
    * @throws StyleError STYLE_OPTION
    */
   query(options: QueryOptions = {}): PointQuery {
+    const { globe } = this;
     const parts: QueryParts = {
       file: this.#source.name,
-      withNode: (key, signal, work) => this.#access.withNode(key, signal, work),
-      records: (node, signal) => this.#loader.records(node, signal),
+      withNode: (key, signal, work) => globe.access.withNode(key, signal, work),
+      records: (node, signal) => globe.loader.records(node, signal),
       box: (key, out) => pointBox(this.#source, key, out),
       spacing: this.bounds.spacing,
       scale: this.scale,
@@ -300,8 +295,9 @@ export class PointCloud implements PointOrigin {
 
   /** Stops all loading and ends the workers. */
   destroy(): void {
-    this.stream.destroy();
-    this.#executor.removeDataSet(this.#dataSet);
+    this.globe.destroy();
+    this.maps.destroy();
+    for (const reads of Object.values(this.#shared)) reads.limit(0);
     if (this.#ownsExecutor) this.#executor.destroy();
   }
 
@@ -316,33 +312,31 @@ export class PointCloud implements PointOrigin {
     const [x, y, z, edge] = this.#source.cube;
     this.#warnings = [...this.#warnings, wrongBounds(this.#boundingBox)];
     this.#boundingBox = { min: [x, y, z], max: [x + edge, y + edge, z + edge] };
-    this.#geometry.widen(this.#boundingBox);
-    this.#bounds = this.#geometry.bounds(this.#store.root.key) ?? this.#bounds;
-    this.#heights = this.#geometry.heights;
+    this.globe.widen(this.#boundingBox);
+    this.maps.widen(this.#boundingBox);
+    this.#bounds = this.globe.bounds ?? this.#bounds;
+    this.#heights = this.globe.geometry.heights;
     this.#attributes = undefined;
-    forgetBounds(this.#store.root);
-  }
-
-  #rootBounds(): NodeBounds {
-    const bounds = this.#geometry.bounds(this.#store.root.key);
-    if (bounds) return bounds;
-    const derived = typeof this.#truth === "function";
-    const what = derived ? this.crs.name : "the transformation in its georeference record";
-    throw new PlacementError({
-      code: "PLACE_DOMAIN",
-      file: this.#source.name,
-      cause: `its coordinates lie outside what ${what} covers`,
-      fix: derived
-        ? "Check the coordinate system, or give the right one with the option crs"
-        : "Convert the scan again, or give its coordinate system with the option crs",
-    });
   }
 }
 
-/** Has the spheres of a node and of all below it reckoned anew. */
-function forgetBounds(node: OctreeNode): void {
-  node.bounds = undefined;
-  for (const child of node.children ?? []) if (child) forgetBounds(child);
+/**
+ * Sphere around all points.
+ * @param system the coordinate system that the page derived the places from; undefined: the file's own transformation
+ */
+function rootBounds(geometry: NodeGeometry, file: string, system: string | undefined): NodeBounds {
+  const bounds = geometry.bounds(ROOT_KEY);
+  if (bounds) return bounds;
+  const derived = system !== undefined;
+  const what = system ?? "the transformation in its georeference record";
+  throw new PlacementError({
+    code: "PLACE_DOMAIN",
+    file,
+    cause: `its coordinates lie outside what ${what} covers`,
+    fix: derived
+      ? "Check the coordinate system, or give the right one with the option crs"
+      : "Convert the scan again, or give its coordinate system with the option crs",
+  });
 }
 
 /** Last part of an address or path, decoded, without query. */

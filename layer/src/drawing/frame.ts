@@ -1,5 +1,5 @@
 import type { ClipSet } from "../clips/index.js";
-import type { PointCloud, StreamProgress } from "../cloud/index.js";
+import type { PlacedOctree, PointCloud, StreamProgress } from "../cloud/index.js";
 import {
   asksForSilhouettes,
   type CloudPlacing,
@@ -81,6 +81,7 @@ type Part = "selection" | "facts" | "plan";
 export class LayerFrames<V extends ViewTypes> {
   readonly #cloud: PointCloud;
   readonly #owner: object;
+  readonly #octree: PlacedOctree;
   readonly #placing: CloudPlacing;
   readonly #completion = new Completion();
   readonly #costs = new CostMeter();
@@ -95,10 +96,14 @@ export class LayerFrames<V extends ViewTypes> {
   /** Milliseconds from the frame before the last one to it; 0 where they did not follow each other. */
   #interval = 0;
 
-  /** @param owner the layer, by which stream and budgets know it */
-  constructor(cloud: PointCloud, owner: object) {
+  /**
+   * @param owner the layer, by which stream and budgets know it
+   * @param octree the data set's own, as it lies in the view: on the globe, or on a map
+   */
+  constructor(cloud: PointCloud, owner: object, octree: PlacedOctree = cloud.globe) {
     this.#cloud = cloud;
     this.#owner = owner;
+    this.#octree = octree;
     this.#placing = cloudPlacing(cloud);
   }
 
@@ -132,7 +137,7 @@ export class LayerFrames<V extends ViewTypes> {
 
   /** Nothing is drawn: the layer wants no nodes until the next frame. */
   rest(show: boolean): void {
-    if (this.#selection) this.#cloud.stream.detach(this.#owner);
+    if (this.#selection) this.#octree.stream.detach(this.#owner);
     this.#selection = undefined;
     this.#clips.rest();
     this.#completion.rest(show);
@@ -148,7 +153,7 @@ export class LayerFrames<V extends ViewTypes> {
     camera: FrameCamera,
     rendererOf: () => LayerRenderer<V>,
   ): FrameReport | "unfinished" | "blocked" {
-    const { stream } = this.#cloud;
+    const { stream } = this.#octree;
     const { budget, style, clips: volumes } = settings;
     const allowance = FrameAllowance.after(this.#interval);
     const clips = this.#clips;
@@ -163,7 +168,7 @@ export class LayerFrames<V extends ViewTypes> {
     const plan = this.#plan(style, facts, forced);
     if (this.#isFirst("plan")) return "unfinished";
     const request = {
-      ...{ selection, cloud: this.#cloud, plan, style, facts, clips, allowance },
+      ...{ selection, octree: this.#octree, plan, style, facts, clips, allowance },
       depth: camera.depth,
     };
     const { content } = renderer;
@@ -184,9 +189,9 @@ export class LayerFrames<V extends ViewTypes> {
 
   #select(settings: LayerSettings, { view }: FrameCamera, allowance: FrameAllowance): Selection {
     const { maximumScreenSpaceError, pointBudget, budget } = settings;
-    const rejects = (bounds: NodeBounds) => this.#clips.rejects(bounds, allowance);
+    const rejects = (bounds: NodeBounds) => this.#clips.rejects(bounds.onGlobe ?? bounds, allowance);
     const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
-    this.#selection = this.#cloud.stream.update(this.#owner, view, options);
+    this.#selection = this.#octree.stream.update(this.#owner, view, options);
     return this.#selection;
   }
 
@@ -196,7 +201,8 @@ export class LayerFrames<V extends ViewTypes> {
     selection: Selection,
     silhouettes: number | undefined,
   ): SceneFacts {
-    const { attributes, stream } = this.#cloud;
+    const { attributes } = this.#cloud;
+    const { stream } = this.#octree;
     const { volumes } = this.#clips;
     const verticesOf = (node: OctreeNode) => stream.vertices(node);
     const here = selection.nodes.flatMap((node) => verticesOf(node) ?? []);

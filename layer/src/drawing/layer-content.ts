@@ -1,4 +1,4 @@
-import type { PointCloud } from "../cloud/index.js";
+import type { PlacedOctree } from "../cloud/index.js";
 import {
   type EffectPlan,
   nodeUniforms,
@@ -23,7 +23,8 @@ import type { AttributeSet } from "./vertex-attributes.js";
 /** What a frame is to show. */
 export interface ContentRequest {
   readonly selection: Selection;
-  readonly cloud: PointCloud;
+  /** As it lies in the view. */
+  readonly octree: PlacedOctree;
   readonly plan: EffectPlan;
   readonly style: PointCloudStyle;
   readonly facts: SceneFacts;
@@ -99,13 +100,13 @@ export class LayerContent<V extends ViewTypes> {
    * @returns steps that wait for a later frame: nodes to be uploaded or held against volumes, and a new material
    */
   prepare(request: ContentRequest): number {
-    const { selection, cloud, plan, clips, depth, allowance } = request;
+    const { selection, octree, plan, clips, depth, allowance } = request;
     this.#depth = depth;
     this.programs.nextFrame();
     const materials = this.#materials;
     const material = materials.want(plan);
     const linked = this.programs.prepare(programsOf(material.plan, depth), allowance);
-    const vertices = (node: OctreeNode) => cloud.stream.vertices(node);
+    const vertices = (node: OctreeNode) => octree.stream.vertices(node);
     const here = selection.nodes.flatMap((node) => vertices(node) ?? []);
     const unformed = clips.form(here, allowance);
     const drawn = linked ? material : materials.shown;

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { planEffects } from "../effects/index.js";
 import { richFacts, styleOf } from "../effects/scene.fixture.js";
-import { WEBGL2 } from "../effects/webgl2-target.fixture.js";
+import { WEBGL2 } from "../effects/webgl2-target.js";
 import { FrameAllowance } from "./frame-allowance.js";
 import type { Gpu, GpuTypes } from "./gpu.js";
 import { type ProgramNeed, programsOf } from "./program-needs.js";

@@ -1,6 +1,6 @@
 import { eastNorthUp } from "@groma/georef";
 import { PointCloud } from "../cloud/index.js";
-import { WEBGL2 } from "../effects/webgl2-target.fixture.js";
+import { WEBGL2 } from "../effects/webgl2-target.js";
 import { tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource } from "../sources/index.js";
 import type { NodeExecutor, NodeVertices } from "../workers/index.js";

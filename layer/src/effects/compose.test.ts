@@ -7,7 +7,7 @@ import type { PointPass, PointShader, QuadShader } from "./declaration/shader.js
 import { type EffectPlan, layerUniforms, passesOf, styleTextures } from "./effect-plan.js";
 import { planEffects, withoutClips } from "./plan.js";
 import { combinations, hasOwnTest, richFacts, styleOf } from "./scene.fixture.js";
-import { WEBGL2 } from "./webgl2-target.fixture.js";
+import { WEBGL2 } from "./webgl2-target.js";
 
 /** By what each effect is known in a program's text. Those that are not here have a test of their own. */
 const TRACES: Readonly<Partial<Record<EffectName, readonly RegExp[]>>> = {

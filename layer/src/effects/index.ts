@@ -55,3 +55,4 @@ export {
   withoutClips,
 } from "./plan.js";
 export { completeStyle, defaultStyle, type StyleParts } from "./style.js";
+export { WEBGL2 } from "./webgl2-target.js";

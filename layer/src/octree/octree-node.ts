@@ -1,9 +1,12 @@
 import { assertLegal, isHeld, type NodeState } from "./node-state.js";
 import { keyName, octant, type VoxelKey } from "./voxel-key.js";
 
-/** Where a node lies on the globe and how dense it is: all that a traversal needs of it. */
+/** Where a node lies on the globe, or on a map, and how dense it is: all that a traversal needs of it. */
 export interface NodeBounds {
-  /** Centre of a sphere around the node's part of the data, ECEF, metres. */
+  /**
+   * Centre of a sphere around the node's part of the data, ECEF, metres; on a map the plane of its projection, in
+   * nominal metres, and the height above WGS 84.
+   */
   readonly x: number;
   readonly y: number;
   readonly z: number;
@@ -11,6 +14,8 @@ export interface NodeBounds {
   readonly radius: number;
   /** Distance between the node's points, metres on the ground. */
   readonly spacing: number;
+  /** The same on the globe, of a node that lies on a map. */
+  readonly onGlobe?: NodeBounds;
 }
 
 /** One node of the octree: its place in the file and its state. What was loaded for it is kept elsewhere. */

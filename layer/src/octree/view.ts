@@ -1,6 +1,6 @@
 import type { NodeBounds } from "./octree-node.js";
 
-/** A camera over the globe in plain numbers: float64, ECEF (EPSG:4978), metres. */
+/** A camera over the globe in plain numbers: float64, ECEF (EPSG:4978), metres; over a map, what `NodeBounds` has there. */
 export interface View {
   /** Camera position, 3 numbers. */
   readonly position: ArrayLike<number>;

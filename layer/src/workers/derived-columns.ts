@@ -150,3 +150,30 @@ export function planHeight(
     sink({ name: "ellipsoidalHeight", components: 1, data, scale: 1, offset: origin, bound: off });
   });
 }
+
+/**
+ * The same of points on a map, whose third coordinate it is.
+ * @param positions metres in the node frame, drawing order
+ * @param bound of the positions, metres
+ */
+export function planLevelHeight(
+  positions: () => Float32Array,
+  count: number,
+  { origin: frameOrigin }: Frame,
+  bound: number,
+  origin: number,
+  sink: ColumnSink,
+): PlannedArray {
+  const from = frameOrigin[2] - origin;
+  return planArray(Float32Array, count, (data) => {
+    const local = positions();
+    let reach = 0;
+    for (let point = 0; point < count; point++) {
+      const height = local[3 * point + 2] + from;
+      data[point] = height;
+      reach = Math.max(reach, Math.abs(height));
+    }
+    const off = bound + halfUlp32(reach);
+    sink({ name: "ellipsoidalHeight", components: 1, data, scale: 1, offset: origin, bound: off });
+  });
+}

@@ -8,6 +8,7 @@ import {
   planColour,
   planElevation,
   planHeight,
+  planLevelHeight,
 } from "./derived-columns.js";
 import type { Appearance, Column, DataSetSpec, NodeVertices } from "./protocol.js";
 import type { StoredAttribute } from "./stored-attribute.js";
@@ -60,7 +61,9 @@ export function makeArrays(
       .filter(({ name }) => !COLOUR_CHANNELS.includes(name))
       .map((attribute) => planAttribute(points, attribute, given?.ranges.get(attribute.name)?.[0], sink)),
     planElevation(points, xyz, heights, spec.scale[2], spec.offset[2], spec.heights[0], sink),
-    planHeight(() => positions, count, frame, bound, spec.ellipsoidalOrigin, sink),
+    spec.plane
+      ? planLevelHeight(() => positions, count, frame, bound, spec.ellipsoidalOrigin, sink)
+      : planHeight(() => positions, count, frame, bound, spec.ellipsoidalOrigin, sink),
   ];
   const buffer = layOut(planned.filter((array) => array !== undefined));
   const seen = given ? undefined : { rgbBits, rgbBitsKnown: false, ranges: rangesOf(columns) };

@@ -1,4 +1,13 @@
-import { type Domain, fitPlacement, placeIntegers, type Truth, truthOf } from "@groma/georef";
+import {
+  type Domain,
+  eastNorthUp,
+  fitPlacement,
+  levelFrame,
+  placeIntegers,
+  type Truth,
+  truthOf,
+  truthOnMap,
+} from "@groma/georef";
 import { badChunk } from "./chunk-layout.js";
 import { cubeMap } from "./cube-map.js";
 import { type Decoders, decode } from "./decoders.js";
@@ -17,7 +26,7 @@ import type {
 } from "./protocol.js";
 import { integerBox, positionBox } from "./records.js";
 
-/** A data set with the map of its coordinates to ECEF, which is made once. */
+/** A data set with the map of its coordinates to ECEF or to the plane of a map, which is made once. */
 export interface PreparedDataSet {
   readonly spec: DataSetSpec;
   readonly truth: Truth;
@@ -25,8 +34,10 @@ export interface PreparedDataSet {
 
 /** Makes the map of a data set. @throws CrsError, RecordError */
 export function prepareDataSet(spec: DataSetSpec): PreparedDataSet {
-  const truth = truthOf(spec, (spec.heights[0] + spec.heights[1]) / 2, spec.file);
-  return { spec, truth };
+  const { plane, heights, file, crs } = spec;
+  const middle = (heights[0] + heights[1]) / 2;
+  const truth = truthOf(spec, middle, file);
+  return { spec, truth: plane ? truthOnMap(truth, plane, middle, crs.verticalUnit.size, file) : truth };
 }
 
 /**
@@ -42,7 +53,8 @@ export async function runNodeJob(
   const box = integerBox(xyz);
   const domain = sourceBox(box, spec);
   checkInCube(domain, job, spec);
-  const placement = fitPlacement(truth, domain, spec.tolerance, spec.file);
+  const frameAt = spec.plane ? levelFrame : eastNorthUp;
+  const placement = fitPlacement(truth, domain, spec.tolerance, spec.file, frameAt);
   const { frame, bound, scheme } = placement;
   const place = (positions: Float32Array) => {
     placeIntegers(placement, drawn(xyz, order), count, spec.scale, spec.offset, positions);

@@ -1,4 +1,4 @@
-import type { FaultWire, Frame, Scheme, TruthSources } from "@groma/georef";
+import type { FaultWire, Frame, MapPlane, Scheme, TruthSources } from "@groma/georef";
 import type { Encoding } from "../sources/open-source.js";
 import type { StoredAttribute } from "./stored-attribute.js";
 
@@ -24,6 +24,8 @@ export interface DataSetSpec extends TruthSources, StorageSpec {
   readonly ellipsoidalOrigin: number;
   /** Greatest distance of a drawn point from its exact place, metres. */
   readonly tolerance: number;
+  /** The plane of a map that its points are placed in. Default: they are placed on the globe. */
+  readonly plane?: MapPlane | undefined;
 }
 
 /** What must be the same for all nodes of a data set, or its nodes would not match in colour. */
@@ -104,7 +106,7 @@ export interface NodeVertices {
   /** Index in the chunk of each drawn point. Every prefix of the drawing order is an even sample of the node. */
   readonly order: Uint16Array | Uint32Array;
   readonly count: number;
-  /** Node frame: local metres → ECEF. */
+  /** Node frame: local metres → ECEF; on a map, local metres → the plane and the height. */
   readonly frame: Frame;
   /** Least and greatest position in the node frame: min x, y, z, max x, y, z, metres. */
   readonly box: Float32Array;

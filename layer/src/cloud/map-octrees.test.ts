@@ -1,0 +1,107 @@
+import proj4 from "proj4";
+import { describe, expect, it } from "vitest";
+import type { View } from "../octree/index.js";
+import { tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
+import { BlobSource, type ByteSource } from "../sources/index.js";
+import type { DataSetSpec, NodeExecutor, NodeJob, NodeVertices } from "../workers/index.js";
+import type { MapProjection } from "./map-octrees.js";
+import { PointCloud } from "./point-cloud.js";
+
+const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
+const MERCATOR: MapProjection = {
+  ...{
+    code: "EPSG:3857",
+    definition: proj4.defs("EPSG:3857"),
+    metresPerUnit: 1,
+    wraps: true,
+    tolerance: 0.01,
+  },
+};
+const OWN: MapProjection = { ...MERCATOR, code: "EPSG:32632", definition: `${UTM} +no_defs`, wraps: false };
+const POLE = { ...MERCATOR, code: "pole", definition: "+proj=nowhere" };
+
+/** Sees all of a data set, so near that its first node is wanted. */
+const EVERYTHING: View = {
+  ...{ position: [0, 0, 1e9], direction: [0, 0, -1], planes: [], height: 1e6, horizon: false },
+  projection: { kind: "orthographic", extent: 100 },
+};
+
+async function open() {
+  const specs: DataSetSpec[] = [];
+  const jobs: NodeJob[] = [];
+  const executor = {
+    ...{ pending: 0, removeDataSet: () => undefined, destroy: () => undefined },
+    addDataSet: (spec: DataSetSpec) => specs.push(spec),
+    run: async (job: NodeJob) => {
+      jobs.push(job);
+      const extent = Float64Array.of(0, 0, 0, 1, 1, 1);
+      return { count: job.pointCount, bytes: 1, extent, columns: new Map() } as unknown as NodeVertices;
+    },
+  } as unknown as NodeExecutor;
+  const blob = new BlobSource(new Blob([tinyCopc({ points: 10 }).slice()]), "tiny.copc.laz");
+  const reads: string[] = [];
+  const source: ByteSource = {
+    name: blob.name,
+    size: blob.size,
+    read(begin, end, options) {
+      reads.push(`${begin}-${end}`);
+      return blob.read(begin, end, options);
+    },
+  } as ByteSource;
+  const cloud = await PointCloud.fromUrl(source, { executor, crs: UTM, vertical: "ellipsoidal" });
+  return { cloud, specs, jobs, reads };
+}
+
+const settled = async (cloud: PointCloud, view: object, octree = cloud.globe) => {
+  octree.stream.update(view, EVERYTHING, { maximumScreenSpaceError: 1, pointBudget: 1e6 });
+  while (octree.stream.active > 0) await new Promise((resolve) => setTimeout(resolve));
+};
+
+describe("a data set on maps", () => {
+  it("is read once for the globe and for maps, and decoded for each", async () => {
+    const { cloud, jobs, reads } = await open();
+    const [globe, map] = [{}, {}];
+    await settled(cloud, globe);
+    const before = [...reads];
+    expect(jobs.map(({ dataSet }) => dataSet)).toEqual([1]);
+    const octree = await cloud.maps.acquire(MERCATOR);
+    await settled(cloud, map, octree);
+    expect(jobs.map(({ dataSet }) => dataSet)).toEqual([1, 2]);
+    expect(reads).toEqual(before);
+    cloud.destroy();
+  });
+
+  it("has one octree for each projection, as long as a view uses it", async () => {
+    const { cloud, specs } = await open();
+    const [first, second] = await Promise.all([cloud.maps.acquire(MERCATOR), cloud.maps.acquire(MERCATOR)]);
+    expect(second).toBe(first);
+    expect(await cloud.maps.acquire(OWN)).not.toBe(first);
+    cloud.maps.release(first);
+    expect(await cloud.maps.acquire(MERCATOR)).toBe(first);
+    cloud.maps.release(first);
+    cloud.maps.release(first);
+    expect(await cloud.maps.acquire(MERCATOR)).not.toBe(first);
+    expect(specs.map(({ plane }) => plane?.own)).toEqual([undefined, false, true, false]);
+    cloud.destroy();
+  });
+
+  it("is placed to the tolerance of the map where that is less than its own", async () => {
+    const { cloud, specs } = await open();
+    await cloud.maps.acquire(MERCATOR);
+    await cloud.maps.acquire({ ...MERCATOR, tolerance: 2e-4 });
+    expect(specs.map(({ tolerance }) => tolerance)).toEqual([0.001, 0.001, 2e-4]);
+  });
+
+  it("refuses a projection that is none, and goes on with others", async () => {
+    const { cloud } = await open();
+    await expect(cloud.maps.acquire(POLE)).rejects.toThrow(/CRS_UNSUPPORTED: pole/);
+    await expect(cloud.maps.acquire(POLE)).rejects.toThrow(/CRS_UNSUPPORTED: pole/);
+    expect((await cloud.maps.acquire(MERCATOR)).plane?.code).toBe("EPSG:3857");
+  });
+
+  it("says so where it has no place in the projection", async () => {
+    const { cloud } = await open();
+    const far = { ...MERCATOR, code: "far", definition: "+proj=gnom +lat_0=-90 +lon_0=0 +ellps=WGS84" };
+    await expect(cloud.maps.acquire(far)).rejects.toThrow(/PLACE_MAP/);
+  });
+});

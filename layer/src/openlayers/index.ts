@@ -1,0 +1,37 @@
+export type { GpuCounts, GpuKind } from "../drawing/gpu.js";
+export {
+  ASPRS_CLASSES,
+  type ClassTable,
+  type ColourBy,
+  EFFECT_NAMES,
+  type EffectName,
+  type EyeDomeLighting,
+  type EyeDomeStyle,
+  eyeDomeOf,
+  type Forced,
+  GRADIENTS,
+  type GradientName,
+  type GradientStop,
+  type LedgerRow,
+  type MeasuredCost,
+  type PointClass,
+  type PointCloudStyle,
+  type PointFilter,
+  type PointShape,
+  type ReturnKind,
+  type SizeMode,
+  type StyleParts,
+} from "../effects/index.js";
+export * from "../index.js";
+export type { DrawingOptions, PointCloudLayerOptions } from "./layer-options.js";
+export {
+  type LayerStatistics,
+  type PickOptions,
+  type PickResult,
+  PointCloudLayer,
+} from "./point-cloud-layer.js";
+export {
+  PointCloudErrorEvent,
+  PointCloudSource,
+  type PointCloudSourceOptions,
+} from "./point-cloud-source.js";

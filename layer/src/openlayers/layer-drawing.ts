@@ -1,0 +1,137 @@
+import { ClipSet } from "../clips/index.js";
+import type { PointCloud } from "../cloud/index.js";
+import type { LayerSettings } from "../drawing/frame.js";
+import {
+  checkFilter,
+  checkForced,
+  completeStyle,
+  defaultStyle,
+  type Forced,
+  type PointCloudStyle,
+  type PointFilter,
+  type StyleParts,
+} from "../effects/index.js";
+import type { SharedBudget } from "../octree/index.js";
+import { checkDrawingOption, type DrawingOptions } from "./layer-options.js";
+
+/**
+ * How a layer draws. Style, filter and effects are held against a data set as soon as one is known; what was given before
+ * waits for it.
+ */
+export class LayerDrawing {
+  /** Grows with each change. */
+  revision = 0;
+  #cloud: PointCloud | undefined;
+  #parts: StyleParts[] = [];
+  #style: PointCloudStyle | undefined;
+  #filter: PointFilter | undefined;
+  #forced: Forced = {};
+  #clips = new ClipSet();
+  #maximumScreenSpaceError = 2;
+  #pointBudget: number;
+  #budget: SharedBudget | undefined;
+
+  constructor(options: DrawingOptions) {
+    const { style, filter, forced, clips, maximumScreenSpaceError = 2, pointBudget, budget } = options;
+    if (style) this.#parts.push(style);
+    this.#filter = filter;
+    this.#forced = forced ?? {};
+    this.#clips = clips ?? this.#clips;
+    this.#maximumScreenSpaceError = maximumScreenSpaceError;
+    this.#budget = budget;
+    this.#pointBudget = pointBudget ?? (budget ? Number.POSITIVE_INFINITY : 1_000_000);
+  }
+
+  /**
+   * Draws this data set from now on.
+   * @throws StyleError for what was given before and cannot be drawn with it; it is left out then
+   */
+  follow(cloud: PointCloud): void {
+    if (cloud === this.#cloud) return;
+    this.#cloud = cloud;
+    this.#style = defaultStyle(cloud);
+    this.revision++;
+    const [parts, filter, forced] = [this.#parts, this.#filter, this.#forced];
+    this.#parts = [];
+    this.#filter = undefined;
+    this.#forced = {};
+    for (const part of parts) this.style = part;
+    this.filter = filter;
+    this.forced = forced;
+  }
+
+  /** What a frame is drawn by; undefined before a data set is known. */
+  get settings(): LayerSettings | undefined {
+    const style = this.#style;
+    if (!style) return undefined;
+    return {
+      ...{ style, filter: this.#filter, forced: this.#forced, clips: this.#clips, budget: this.#budget },
+      ...{ maximumScreenSpaceError: this.#maximumScreenSpaceError, pointBudget: this.#pointBudget },
+    };
+  }
+
+  get style(): PointCloudStyle | undefined {
+    return this.#style;
+  }
+
+  set style(parts: StyleParts) {
+    if (this.#cloud && this.#style) this.#style = completeStyle(parts, this.#style, this.#cloud);
+    // Another data set is to be drawn alike.
+    this.#parts.push(parts);
+    this.revision++;
+  }
+
+  get filter(): PointFilter | undefined {
+    return this.#filter;
+  }
+
+  set filter(filter: PointFilter | undefined) {
+    this.#filter = filter && this.#cloud ? checkFilter(filter, this.#cloud) : filter;
+    this.revision++;
+  }
+
+  get forced(): Forced {
+    return this.#forced;
+  }
+
+  set forced(forced: Forced) {
+    this.#forced = checkForced(forced, this.#cloud?.name ?? "PointCloudLayer");
+    this.revision++;
+  }
+
+  get clips(): ClipSet {
+    return this.#clips;
+  }
+
+  set clips(clips: ClipSet | undefined) {
+    this.#clips = clips === undefined ? new ClipSet() : checkDrawingOption("clips", clips);
+    this.revision++;
+  }
+
+  get maximumScreenSpaceError(): number {
+    return this.#maximumScreenSpaceError;
+  }
+
+  set maximumScreenSpaceError(pixels: number) {
+    this.#maximumScreenSpaceError = checkDrawingOption("maximumScreenSpaceError", pixels);
+    this.revision++;
+  }
+
+  get pointBudget(): number {
+    return this.#pointBudget;
+  }
+
+  set pointBudget(points: number) {
+    this.#pointBudget = checkDrawingOption("pointBudget", points);
+    this.revision++;
+  }
+
+  get budget(): SharedBudget | undefined {
+    return this.#budget;
+  }
+
+  set budget(budget: SharedBudget | undefined) {
+    this.#budget = budget === undefined ? undefined : checkDrawingOption("budget", budget);
+    this.revision++;
+  }
+}

@@ -1,0 +1,168 @@
+import { pointOf } from "../drawing/drawn-node.js";
+import type { GpuMilliseconds, LayerRenderer as Renderer } from "../drawing/frame.js";
+import { type ContentRequest, LayerContent } from "../drawing/layer-content.js";
+import { nearestId, windowPixels } from "../drawing/pick-window.js";
+import { quadProgramOf } from "../drawing/program-needs.js";
+import type { Program } from "../drawing/programs.js";
+import { type PointPass, passesOf } from "../effects/index.js";
+import { GlObjects, type GlTypes } from "./engine/gl-objects.js";
+import { GlUniforms } from "./engine/gl-uniforms.js";
+import type { MapCamera } from "./map-camera.js";
+import { type MapNode, type MapView, NodeDrawable } from "./node-drawable.js";
+import { Picture } from "./picture.js";
+import { clear, drawPoints, drawQuad, type PassTarget } from "./point-passes.js";
+
+const UNMEASURED: GpuMilliseconds = { points: undefined, picture: undefined };
+
+/** All that a layer has and does on the GPU, in a context of its own. */
+export class LayerRenderer implements Renderer<MapView> {
+  readonly content: LayerContent<MapView>;
+  readonly blends: boolean;
+  readonly silhouettes = undefined;
+  readonly measuresGpu = false;
+  readonly gpuMilliseconds = UNMEASURED;
+  readonly objects: GlObjects;
+  readonly #gl: WebGL2RenderingContext;
+  /** Values that the view itself fills. */
+  readonly #view = new GlUniforms();
+  readonly #picture: Picture;
+  readonly #numbers: Picture;
+  #camera: MapCamera | undefined;
+  /** Frames in which something was drawn, for tests and benches. */
+  #drawn = 0;
+
+  constructor(gl: WebGL2RenderingContext) {
+    this.#gl = gl;
+    this.objects = new GlObjects(gl);
+    const float = gl.getExtension("EXT_color_buffer_float") ?? gl.getExtension("EXT_color_buffer_half_float");
+    this.blends = float !== null;
+    this.#picture = new Picture(this.objects);
+    this.#numbers = new Picture(this.objects);
+    this.content = new LayerContent<MapView>(
+      this.objects,
+      this.#view,
+      (vertices) => new NodeDrawable(this.objects, vertices),
+    );
+  }
+
+  /** How often the canvas was drawn. */
+  get framesDrawn(): number {
+    return this.#drawn;
+  }
+
+  /** What is drawn from now on is seen by this camera. */
+  begin(camera: MapCamera): void {
+    this.#camera = camera;
+  }
+
+  draw(): void {
+    const camera = this.#camera;
+    const gl = this.#gl;
+    if (!camera) return;
+    this.#drawn++;
+    const { canvas } = gl;
+    if (canvas.width !== camera.width || canvas.height !== camera.height) {
+      canvas.width = camera.width;
+      canvas.height = camera.height;
+    }
+    const screen: PassTarget = { framebuffer: undefined, viewport: [0, 0, camera.width, camera.height] };
+    clear(gl, screen, true);
+    const { material, nodes } = this.content;
+    if (!material || nodes.length === 0) return;
+    this.#setView(camera, camera.width, camera.height);
+    const { offscreen, points } = passesOf(material.plan);
+    if (!offscreen) {
+      this.#picture.release();
+      drawPoints(gl, "color", nodes, camera, screen, this.#programs("color", "scene"));
+      return;
+    }
+    const [first, second] = points;
+    this.#picture.prepare(camera.width, camera.height, second !== undefined);
+    const target = this.#picture.target();
+    clear(gl, target, true);
+    drawPoints(gl, first, nodes, camera, target, this.#programs(first, "own"));
+    if (second) {
+      const sums = this.#picture.target("sums");
+      clear(gl, sums, false);
+      drawPoints(gl, second, nodes, camera, sums, this.#programs(second, "own"));
+    }
+    const { colour, depth } = this.#picture;
+    if (colour) this.#view.setTexture("u_color", colour);
+    if (depth) this.#view.setTexture("u_depth", depth);
+    const quad = this.content.programs.of(quadProgramOf(material.plan, this.content.depth));
+    quad.program.use(material.uniforms);
+    drawQuad(gl, screen);
+  }
+
+  probe(_asked: boolean, _request: ContentRequest): boolean {
+    return false;
+  }
+
+  /** Nothing of the layer is in the next frame. */
+  rest(): void {
+    this.content.rest();
+    this.#picture.release();
+    this.#numbers.release();
+  }
+
+  /**
+   * The point that the last frame shows nearest to a place of the map. Waits for the GPU.
+   * @param position CSS pixels from the upper left
+   * @param window edge of the square around it in which the nearest point counts, CSS pixels
+   */
+  pick(position: { readonly x: number; readonly y: number }, window: number) {
+    const camera = this.#camera;
+    const { nodes } = this.content;
+    const gl = this.#gl;
+    if (!camera || nodes.length === 0 || gl.isContextLost()) return undefined;
+    const { pixelRatio } = camera.frame;
+    const edge = windowPixels(window, pixelRatio);
+    const reach = (edge - 1) / 2;
+    const x = Math.floor(position.x * pixelRatio) - reach;
+    const y = camera.height - 1 - Math.floor(position.y * pixelRatio) - reach;
+    this.#numbers.prepare(edge, edge, false);
+    this.#setView(camera, camera.width, camera.height);
+    // The whole picture, shifted so that the window comes to lie in the corner.
+    const target = this.#numbers.target("points", [-x, -y, camera.width, camera.height]);
+    clear(gl, target, true);
+    drawPoints(gl, "id", nodes, camera, target, this.#programs("id", "own"));
+    const pixels = new Uint8Array(4 * edge * edge);
+    gl.readPixels(0, 0, edge, edge, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    const id = nearestId(pixels, edge);
+    return id ? pointOf(nodes, id - 1) : undefined;
+  }
+
+  /** RGBA of the canvas at a place, 0 to 255. @param position CSS pixels from the upper left */
+  colourAt(position: { readonly x: number; readonly y: number }): Uint8Array | undefined {
+    const camera = this.#camera;
+    const gl = this.#gl;
+    if (!camera || gl.isContextLost()) return undefined;
+    const { pixelRatio } = camera.frame;
+    const pixel = new Uint8Array(4);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    const y = camera.height - 1 - Math.floor(position.y * pixelRatio);
+    gl.readPixels(Math.floor(position.x * pixelRatio), y, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    return pixel;
+  }
+
+  /** Frees all. */
+  destroy(): void {
+    this.content.destroy();
+    this.objects.destroy();
+  }
+
+  #setView({ projection, frame }: MapCamera, width: number, height: number): void {
+    this.#view.set({
+      u_projection: projection,
+      u_viewport: [0, 0, width, height],
+      u_pixelRatio: frame.pixelRatio,
+    });
+  }
+
+  /** The programs of a pass. */
+  #programs(pass: PointPass, into: "scene" | "own"): (node: MapNode) => Program<GlTypes> {
+    const { programs } = this.content;
+    return ({ plan }) => programs.of({ plan, pass, into, logarithmic: false });
+  }
+}

@@ -1,0 +1,76 @@
+import { DrawError } from "../errors/index.js";
+
+/** Corners of an extent in CSS pixels, from the upper left. */
+type Corners = readonly (readonly number[])[];
+
+/** The element that a layer puts into a map: a canvas with a WebGL 2 context of its own. */
+export class MapCanvas {
+  readonly element: HTMLElement;
+  readonly canvas: HTMLCanvasElement;
+  #gl: WebGL2RenderingContext | undefined;
+  readonly #events: { readonly lost: () => void; readonly restored: () => void };
+
+  /** @param events of the context: it is taken away, and comes back */
+  constructor(className: string, events: { readonly lost: () => void; readonly restored: () => void }) {
+    this.element = document.createElement("div");
+    this.element.className = className;
+    Object.assign(this.element.style, { position: "absolute", width: "100%", height: "100%" });
+    this.canvas = document.createElement("canvas");
+    Object.assign(this.canvas.style, { position: "absolute", left: "0" });
+    this.element.append(this.canvas);
+    this.#events = events;
+    this.canvas.addEventListener("webglcontextlost", this.#onLost);
+    this.canvas.addEventListener("webglcontextrestored", this.#onRestored);
+  }
+
+  /**
+   * The context; undefined while the browser has taken it away.
+   * @throws DrawError DRAW_WEBGL2 where the browser has no WebGL 2
+   */
+  get gl(): WebGL2RenderingContext | undefined {
+    this.#gl ??= this.canvas.getContext("webgl2", OPTIONS) ?? undefined;
+    if (this.#gl) return this.#gl.isContextLost() ? undefined : this.#gl;
+    throw new DrawError({
+      code: "DRAW_WEBGL2",
+      file: "map",
+      cause: "the browser gives no WebGL 2 context",
+      fix: "Use a browser with WebGL 2, and see that hardware acceleration is on",
+    });
+  }
+
+  /** @param size CSS pixels @param corners of the layer's extent, beyond which nothing of it shows */
+  lay(size: readonly number[], opacity: number, corners: Corners | undefined): void {
+    const { style } = this.canvas;
+    style.width = `${size[0]}px`;
+    style.height = `${size[1]}px`;
+    style.opacity = opacity === 1 ? "" : String(opacity);
+    const places = corners?.map(([x, y]) => `${x}px ${y}px`);
+    style.clipPath = places ? `polygon(${places.join(", ")})` : "";
+  }
+
+  destroy(): void {
+    this.canvas.removeEventListener("webglcontextlost", this.#onLost);
+    this.canvas.removeEventListener("webglcontextrestored", this.#onRestored);
+    // Browsers count contexts, and take away the oldest when there are some sixteen.
+    this.#gl?.getExtension("WEBGL_lose_context")?.loseContext();
+    this.element.remove();
+  }
+
+  readonly #onLost = (event: Event): void => {
+    // Else the browser would not give it back.
+    event.preventDefault();
+    this.#events.lost();
+  };
+
+  readonly #onRestored = (): void => this.#events.restored();
+}
+
+/** What was drawn stays until something else is drawn; colours are as they are, whatever the opacity. */
+const OPTIONS: WebGLContextAttributes = {
+  alpha: true,
+  antialias: false,
+  depth: true,
+  stencil: false,
+  premultipliedAlpha: false,
+  preserveDrawingBuffer: true,
+};

@@ -1,0 +1,30 @@
+import type { DrawnNode } from "../drawing/drawn-node.js";
+import { NodeBuffers } from "../drawing/node-buffers.js";
+import type { UploadedNode } from "../drawing/node-uploads.js";
+import type { AttributeSet } from "../drawing/vertex-attributes.js";
+import type { GlTypes } from "./engine/gl-objects.js";
+
+/** What a map draws with. */
+export interface MapView extends GlTypes {
+  readonly node: NodeDrawable;
+}
+
+/** A node as a frame shows it on a map. */
+export type MapNode = DrawnNode<MapView>;
+
+/** A node on the GPU. */
+export class NodeDrawable extends NodeBuffers<GlTypes> implements UploadedNode {
+  /** From above, a height that all points are lifted by does not show. */
+  lift(): void {}
+
+  /** Draws its first points with the program that is in use. */
+  draw(gl: WebGL2RenderingContext, reads: AttributeSet, count: number): void {
+    const { array, constants } = this.array(reads);
+    gl.bindVertexArray(array);
+    for (const { location, value } of constants) {
+      const [x = 0, y = 0, z = 0, w = 1] = value;
+      gl.vertexAttrib4f(location, x, y, z, w);
+    }
+    gl.drawArrays(gl.POINTS, 0, count);
+  }
+}

@@ -1,0 +1,68 @@
+import type { PlacedOctree, PointCloud } from "../cloud/index.js";
+import { type FrameReport, LayerFrames, type LayerSettings } from "../drawing/frame.js";
+import { LayerRenderer } from "./layer-renderer.js";
+import { type MapFrame, mapCamera } from "./map-camera.js";
+import type { MapView } from "./node-drawable.js";
+
+/** The frames of a layer in one projection of a map, and what it has on the GPU for them. */
+export class PlacedFrames {
+  readonly cloud: PointCloud;
+  readonly octree: PlacedOctree;
+  readonly frames: LayerFrames<MapView>;
+  readonly renderer: LayerRenderer;
+  readonly #unsubscribe: () => void;
+
+  /**
+   * @param owner the layer, by which stream and budgets know it
+   * @param changed called when points have come, or are gone
+   * @param failed called with what cannot be had
+   */
+  constructor(
+    cloud: PointCloud,
+    octree: PlacedOctree,
+    gl: WebGL2RenderingContext,
+    owner: object,
+    { changed, failed }: { readonly changed: () => void; readonly failed: (error: Error) => void },
+  ) {
+    this.cloud = cloud;
+    this.octree = octree;
+    this.frames = new LayerFrames(cloud, owner, octree);
+    this.renderer = new LayerRenderer(gl);
+    this.#unsubscribe = octree.stream.subscribe({
+      nodeLoaded: changed,
+      nodeFailed: (_node, error) => {
+        failed(error);
+        changed();
+      },
+      nodeEvicted: (node) => this.renderer.content.free(node),
+    });
+  }
+
+  /** Draws a frame. */
+  draw(
+    settings: LayerSettings,
+    frame: Omit<MapFrame, "metresPerUnit" | "bounds">,
+  ): FrameReport | "unfinished" | "blocked" {
+    const { plane, bounds } = this.octree;
+    if (!plane || !bounds) throw new TypeError("a map needs an octree in its plane");
+    const camera = mapCamera({ ...frame, metresPerUnit: plane.metresPerUnit, bounds });
+    return this.frames.draw(settings, camera.frame, () => {
+      this.renderer.begin(camera);
+      return this.renderer;
+    });
+  }
+
+  /** Nothing is drawn for now. */
+  rest(show: boolean): void {
+    this.frames.rest(show);
+    this.renderer.rest();
+  }
+
+  /** Frees all, and gives the octree back. */
+  destroy(): void {
+    this.rest(false);
+    this.#unsubscribe();
+    this.renderer.destroy();
+    this.cloud.maps.release(this.octree);
+  }
+}

@@ -1,0 +1,81 @@
+import type { GpuTypes } from "../drawing/gpu.js";
+import type { Program } from "../drawing/programs.js";
+import type { PointPass } from "../effects/index.js";
+import type { GlTypes } from "./engine/gl-objects.js";
+import type { GlFramebuffer } from "./engine/gl-types.js";
+import type { MapCamera } from "./map-camera.js";
+import type { MapNode } from "./node-drawable.js";
+
+/** What is drawn into, in pixels: the canvas, or a picture of the layer's own. */
+export interface PassTarget {
+  /** Undefined: the canvas. */
+  readonly framebuffer: GlFramebuffer | undefined;
+  /** Lower left corner, width and height of the whole picture in it. */
+  readonly viewport: readonly [x: number, y: number, width: number, height: number];
+}
+
+/** Binds a target, and clears it: colours to nothing and, unless they are to stay, depths to the farthest. */
+export function clear(gl: WebGL2RenderingContext, target: PassTarget, depth: boolean): void {
+  bind(gl, target);
+  gl.colorMask(true, true, true, true);
+  gl.depthMask(true);
+  gl.clearColor(0, 0, 0, 0);
+  gl.clearDepth(1);
+  gl.clear(depth ? gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT : gl.COLOR_BUFFER_BIT);
+}
+
+/** Draws nodes, once for each world of the map that shows. */
+export function drawPoints(
+  gl: WebGL2RenderingContext,
+  pass: PointPass,
+  nodes: Iterable<MapNode>,
+  camera: MapCamera,
+  target: PassTarget,
+  programOf: (node: MapNode) => Program<GlTypes>,
+): void {
+  bind(gl, target);
+  setState(gl, pass);
+  let used: GpuTypes["program"] | undefined;
+  for (const node of nodes) {
+    const { program, reads } = programOf(node);
+    if (program !== used) program.use(node.uniforms);
+    used = program;
+    for (const world of camera.worlds) {
+      node.uniforms.set({ u_modelView: camera.modelView(node.uploaded.vertices.frame.origin, world) });
+      program.useNode(node.uniforms);
+      node.uploaded.draw(gl, reads, node.count);
+    }
+  }
+  gl.bindVertexArray(null);
+}
+
+/** Draws a triangle over the whole of a target. */
+export function drawQuad(gl: WebGL2RenderingContext, target: PassTarget): void {
+  bind(gl, target);
+  setState(gl, "color");
+  gl.bindVertexArray(null);
+  gl.drawArrays(gl.TRIANGLES, 0, 3);
+}
+
+function bind(gl: WebGL2RenderingContext, { framebuffer, viewport }: PassTarget): void {
+  gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer?.framebuffer ?? null);
+  gl.viewport(...viewport);
+}
+
+/** How colour and depth are treated: the nearest wins, but splats within the blend depth of the nearest add up. */
+function setState(gl: WebGL2RenderingContext, pass: PointPass): void {
+  gl.enable(gl.DEPTH_TEST);
+  gl.depthFunc(gl.LEQUAL);
+  gl.disable(gl.CULL_FACE);
+  gl.disable(gl.DITHER);
+  const shown = pass !== "depth";
+  gl.colorMask(shown, shown, shown, shown);
+  gl.depthMask(pass !== "splat");
+  if (pass !== "splat") {
+    gl.disable(gl.BLEND);
+    return;
+  }
+  gl.enable(gl.BLEND);
+  gl.blendEquation(gl.FUNC_ADD);
+  gl.blendFunc(gl.ONE, gl.ONE);
+}

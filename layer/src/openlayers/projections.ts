@@ -1,0 +1,34 @@
+import type { GromaError } from "@groma/georef";
+import { CrsError } from "@groma/georef";
+import type Projection from "ol/proj/Projection.js";
+import proj4 from "proj4";
+import type { MapProjection } from "../cloud/index.js";
+
+/** Least tolerance of placing, nominal metres: no map is looked at so closely. */
+const FINEST = 1e-4;
+/** Share of a pixel at the finest resolution of the map that a point may be off. */
+const PIXEL_SHARE = 0.1;
+
+/**
+ * What a data set must know of a map's projection to be placed in it.
+ * @param finest least resolution of the view, units of the projection per pixel
+ * @param file the data set's name, for errors
+ * @throws CrsError CRS_PROJECTION where it is not registered with proj4
+ */
+export function projectionOfMap(projection: Projection, finest: number, file: string): MapProjection {
+  const code = projection.getCode();
+  const definition: object | undefined = proj4.defs(code);
+  const metresPerUnit = projection.getMetersPerUnit();
+  if (!definition || !metresPerUnit) throw notRegistered(code, file);
+  const tolerance = Math.max(FINEST, PIXEL_SHARE * finest * metresPerUnit);
+  return { code, definition, metresPerUnit, wraps: projection.canWrapX(), tolerance };
+}
+
+function notRegistered(code: string, file: string): GromaError {
+  return new CrsError({
+    code: "CRS_PROJECTION",
+    file,
+    cause: `the projection of the map, ${code}, is not known to proj4`,
+    fix: `define it with proj4.defs("${code}", …) or ask for its definition with fromEPSGCode, and call register(proj4)`,
+  });
+}

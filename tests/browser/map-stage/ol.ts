@@ -1,0 +1,9 @@
+/** The parts of OpenLayers that tests use. */
+export { default as Feature } from "ol/Feature.js";
+export { default as VectorLayer } from "ol/layer/Vector.js";
+export { default as OlMap } from "ol/Map.js";
+export { register } from "ol/proj/proj4.js";
+export { get as getProjection } from "ol/proj.js";
+export { default as VectorSource } from "ol/source/Vector.js";
+export { default as View } from "ol/View.js";
+export { default as proj4 } from "proj4";
