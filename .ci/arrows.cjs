@@ -106,8 +106,10 @@ module.exports = {
     layer("tools/measure", ["options", "errors"]),
     layer("tools/profile", ["query", "clips", "options", "errors"]),
     layer("export", ["query", CONTRACT, "options", "errors"]),
+    layer("tools/draw", ["tools/measure", "errors"]),
     // A view hands out all that every application needs, beside its own.
     layer("cesium", [
+      "tools",
       "drawing",
       "effects",
       "clips",

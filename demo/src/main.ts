@@ -16,12 +16,13 @@ import { showFacts } from "./panel/facts.js";
 import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
 import { Ledger } from "./panel/ledger.js";
+import { Measuring } from "./panel/measuring.js";
 import { Message } from "./panel/message.js";
 import { Picked } from "./panel/picked.js";
 import { Progress } from "./panel/progress.js";
 import { STYLE_GROUPS } from "./panel/style-fields.js";
 import { VIEW_GROUPS } from "./panel/view-fields.js";
-import { type Flight, goToCloud } from "./scene/camera.js";
+import { type Flight, goToCloud, goToPlaces } from "./scene/camera.js";
 import { ClipBox } from "./scene/clip-box.js";
 import { Picking } from "./scene/picking.js";
 import { addBaseMap, createViewer } from "./viewer.js";
@@ -39,11 +40,17 @@ interface Opened {
 
 /** The page once its globe stands. */
 function start(viewer: Viewer): void {
-  const groma: Groma = { viewer, layer: undefined };
-  window.groma = groma;
   let options: PageOptions = { fly: true };
   let opened: Opened | undefined;
   const slot = new CloudSlot(viewer.scene.primitives);
+  const measuring = new Measuring(
+    viewer,
+    () => slot.layer,
+    ({ vertices }) => goToPlaces(viewer, vertices, way("fly")),
+    (thrown) => message.show(thrown),
+  );
+  const groma: Groma = { viewer, measure: measuring.tool, layer: undefined };
+  window.groma = groma;
   const progress = new Progress();
   const controls = new Controls((aspect) => {
     if (slot.layer) void goToCloud(viewer, slot.layer, { aspect, free: freeArea(), way: way("fly") });
@@ -56,7 +63,8 @@ function start(viewer: Viewer): void {
   const picked = new Picked();
   const picking = new Picking(
     viewer,
-    () => slot.layer,
+    // A click that places a vertex shows no record.
+    () => (measuring.tool.drawing ? undefined : slot.layer),
     (hit) => {
       picked.show(hit);
       if (hit) box.moveTo(hit.position);
@@ -176,6 +184,7 @@ function start(viewer: Viewer): void {
     classes.attach(layer);
     ledger.attach(layer);
     picking.clear();
+    measuring.tool.attach([layer.cloud]);
     progress.follow(layer);
     tellFailures(layer);
     if (wanted !== "stay") {

@@ -1,5 +1,6 @@
 import { geodeticToEcef } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
+import type { MeasureTool } from "@groma/layer/tools";
 import type { Cartesian3, Viewer } from "cesium";
 import type { Page } from "playwright-core";
 
@@ -7,6 +8,7 @@ import type { Page } from "playwright-core";
 export interface Groma {
   readonly viewer: Viewer;
   readonly layer: PointCloudLayer;
+  readonly measure: MeasureTool;
 }
 
 declare global {

@@ -1,6 +1,6 @@
 import { eastNorthUp, PlacementError } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
-import { Cartesian3, PerspectiveFrustum, type Viewer } from "cesium";
+import { BoundingSphere, Cartesian3, HeadingPitchRange, PerspectiveFrustum, type Viewer } from "cesium";
 import { fitView, type ScreenRectangle, viewWindow } from "./framing.js";
 
 /** From where a cloud is looked at. */
@@ -40,6 +40,23 @@ export function goToCloud(viewer: Viewer, layer: PointCloudLayer, flight: Flight
     camera.flyTo({ ...pose, duration, complete: resolve, cancel: resolve });
   });
 }
+
+/** Takes the camera to where it sees places, ECEF, from the direction in which it looks. */
+export function goToPlaces(
+  { camera }: Viewer,
+  places: readonly { readonly ecef: readonly [number, number, number] }[],
+  way: Flight["way"],
+): void {
+  const points = places.map(({ ecef: [x, y, z] }) => new Cartesian3(x, y, z));
+  const sphere = BoundingSphere.fromPoints(points);
+  // Of one point nothing but its surroundings can be seen.
+  sphere.radius = Math.max(sphere.radius, LEAST_RADIUS);
+  const offset = new HeadingPitchRange(camera.heading, Math.min(camera.pitch, -0.3), 4 * sphere.radius);
+  camera.flyToBoundingSphere(sphere, { duration: way === "jump" ? 0 : FLIGHT, offset });
+}
+
+/** Metres around a place that are shown with it. */
+const LEAST_RADIUS = 5;
 
 /** Where a descent begins: over the cloud, so high that the shape of the earth shows. */
 function farAbove(viewer: Viewer, layer: PointCloudLayer, flight: Flight): Pose {

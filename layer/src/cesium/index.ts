@@ -1,3 +1,4 @@
+export type { Vector } from "@groma/georef";
 export type { GpuMilliseconds } from "../drawing/frame.js";
 export type { GpuCounts, GpuKind } from "../drawing/gpu.js";
 export {
@@ -24,6 +25,7 @@ export {
   type StyleParts,
 } from "../effects/index.js";
 export * from "../index.js";
+export type { MeasuredCloud, ScreenPoint, Vertex, VertexRecord, ViewAdapter } from "../tools/index.js";
 export type {
   LayerSource,
   PickOptions,
@@ -32,4 +34,5 @@ export type {
   WindowPosition,
 } from "./layer-options.js";
 export type { LayerStatistics } from "./layer-statistics.js";
+export { measureView } from "./measure-view.js";
 export { PointCloudLayer } from "./point-cloud-layer.js";

@@ -30,6 +30,7 @@ export { measurementsToGeoJson } from "./save/write.js";
 export { MeasureUnits, type MeasureUnitsOptions, type Words } from "./units/measure-units.js";
 export type { AngleUnit, AreaUnit, LengthUnit, SlopeUnit, VolumeUnit } from "./units/tables.js";
 export {
+  attached,
   ecefVertex,
   type MeasuredCloud,
   placeVertex,

@@ -53,6 +53,8 @@ export interface Words {
   readonly unit: string;
   /** `± 0.032 m`, `at least ± 0.001 m` where a part is unknown, nothing where all parts are. */
   readonly worth: string;
+  /** `1,523.847 m` */
+  readonly main: string;
   /** All of it: `1,523.847 m ± 0.032 m`. */
   readonly text: string;
 }
@@ -131,7 +133,7 @@ export class MeasureUnits {
     );
     const letter = hemispheres[quantity.value < 0 ? 1 : 0];
     const text = `${value}${unit} ${letter}`;
-    return { value: text, unit: "", worth, text: worth === "" ? text : `${text} ${worth}` };
+    return { value: text, unit: "", worth, ...texts(text, worth) };
   }
 
   #entry(unit: Exclude<SiUnit, "rad">): { readonly symbol: string; readonly size: number } {
@@ -164,8 +166,7 @@ export class MeasureUnits {
 
   #joined(value: string, unit: string, scaled: Scaled, worthUnit = unit): Words {
     const worth = this.#worth(scaled, worthUnit);
-    const text = `${value}${spaced(unit)}`;
-    return { value, unit, worth, text: worth === "" ? text : `${text} ${worth}` };
+    return { value, unit, worth, ...texts(`${value}${spaced(unit)}`, worth) };
   }
 
   #worth({ uncertainty, atLeast }: Scaled, unit: string): string {
@@ -174,6 +175,10 @@ export class MeasureUnits {
     const size = `± ${numberText(atLeast, decimals, this.locale)}${spaced(unit)}`;
     return uncertainty === null ? `at least ${size}` : size;
   }
+}
+
+function texts(main: string, worth: string): Pick<Words, "main" | "text"> {
+  return { main, text: worth === "" ? main : `${main} ${worth}` };
 }
 
 /** What text needs of a value in another unit. */
@@ -197,7 +202,7 @@ function scaledTo<Q extends Quantity>(quantity: Q, value: number, rate: number):
 
 /** Decimals where no uncertainty tells: a millimetre, and what it is of areas and angles of the size of a scan. */
 function defaultDecimals(unit: SiUnit, size: number): number {
-  const step = { m: 1e-3, "m²": 1e-2, "m³": 1e-2, rad: 1e-8, "1": 1e-6 }[unit];
+  const step = { m: 1e-3, "m²": 1e-2, "m³": 1e-2, rad: 1e-5, "1": 1e-6 }[unit];
   return Math.max(0, Math.ceil(-Math.log10(step / size)));
 }
 

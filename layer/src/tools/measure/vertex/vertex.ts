@@ -68,6 +68,18 @@ export function sourceVertex(cloud: MeasuredCloud, source: Vector): Vertex {
 }
 
 /**
+ * A vertex with the data set that it stands on, where that is among those at hand: its place is that set's own, and the
+ * record stays what it was.
+ */
+export function attached(vertex: Vertex, clouds: readonly MeasuredCloud[]): Vertex {
+  const { record, source } = vertex;
+  const name = record?.dataset ?? vertex.cloud?.name;
+  const cloud = clouds.find((one) => one.name === name);
+  if (!cloud || !source || cloud === vertex.cloud) return vertex;
+  return record ? recordVertex(cloud, { ...record, source }) : sourceVertex(cloud, source);
+}
+
+/**
  * A vertex that belongs to no data set.
  * @param longitude of WGS 84, radians, as `latitude`
  * @param height above the ellipsoid, metres

@@ -1,0 +1,185 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { cloudOf, UTM } from "../measure/cloud.fixture.js";
+import { type Measurement, MeasureUnits, type Vertex } from "../measure/index.js";
+import { figuresOf } from "./figures.js";
+import { freshName, History, withVertices } from "./history.js";
+import { placeLabels } from "./labels.js";
+import { isSame, Placing } from "./placing.js";
+import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
+
+const cloud = cloudOf(UTM);
+const [a, b, c, d] = [0, 10, 20, 30].map((x) => cloud.vertex(500000 + x, 5300000 + (x % 20), 1)) as [
+  Vertex,
+  Vertex,
+  Vertex,
+  Vertex,
+];
+const line: Measurement = { id: "1", kind: "polyline", name: "Line 1", vertices: [a, b, c] };
+
+describe("the way back and forth", () => {
+  it("leads through every state, whatever is done in between", () => {
+    fc.assert(
+      fc.property(fc.array(fc.constantFrom("go", "undo", "redo"), { maxLength: 60 }), (steps) => {
+        const history = new History();
+        const known = [history.present];
+        let at = 0;
+        for (const step of steps) {
+          if (step === "go") {
+            const next = { measurements: [], draft: { kind: "area" as const, vertices: [] } };
+            history.go(next);
+            known.splice(at + 1, known.length, next);
+            at++;
+          } else if (step === "undo") {
+            expect(history.undo()).toBe(at > 0);
+            at = Math.max(0, at - 1);
+          } else {
+            expect(history.redo()).toBe(at < known.length - 1);
+            at = Math.min(known.length - 1, at + 1);
+          }
+          expect(history.present).toBe(known[at]);
+          expect([history.canUndo, history.canRedo]).toEqual([at > 0, at < known.length - 1]);
+        }
+      }),
+    );
+  });
+
+  it("has other vertices throughout once a data set is opened anew", () => {
+    const history = new History();
+    history.go({ measurements: [line], draft: undefined });
+    history.go({ measurements: withVertices([line], "1", [a, d]), draft: { kind: "point", vertices: [b] } });
+    history.undo();
+    history.replaceVertices((vertex) => (vertex === a ? c : vertex));
+    expect(history.present.measurements[0].vertices).toEqual([c, b, c]);
+    history.redo();
+    expect(history.present.measurements[0].vertices).toEqual([c, d]);
+    expect(history.present.draft?.vertices).toEqual([b]);
+  });
+
+  it("gives names that are free", () => {
+    expect(freshName([line], "Line")).toBe("Line 2");
+    expect(freshName([line], "Area")).toBe("Area 1");
+  });
+});
+
+describe("labels", () => {
+  const size = { width: 800, height: 600 };
+  const place = fc.record({ x: fc.integer({ min: 150, max: 650 }), y: fc.integer({ min: 100, max: 500 }) });
+
+  it("overlap neither each other nor what is measured, and stay in the view", () => {
+    fc.assert(
+      fc.property(fc.array(place, { maxLength: 6 }), (anchors) => {
+        const wishes = anchors.map((anchor) => ({ anchor, width: 80, height: 24 }));
+        const boxes = placeLabels(wishes, anchors, size);
+        for (const [i, one] of boxes.entries()) {
+          expect(one.x >= 0 && one.y >= 0 && one.x <= 720 && one.y <= 576).toBe(true);
+          for (const { x, y } of anchors) {
+            expect(x > one.x && x < one.x + 80 && y > one.y && y < one.y + 24).toBe(false);
+          }
+          for (const other of boxes.slice(0, i)) {
+            const overlap = Math.abs(one.x - other.x) < 80 && Math.abs(one.y - other.y) < 24;
+            expect(overlap).toBe(false);
+          }
+        }
+      }),
+    );
+  });
+
+  it("stand above what they belong to where nothing is in the way", () => {
+    expect(placeLabels([{ anchor: { x: 400, y: 300 }, width: 80, height: 24 }], [], size)).toEqual([
+      { x: 360, y: 262 },
+    ]);
+  });
+});
+
+/** A view that shows vertices where it is told, and finds points one pick after the other. */
+function viewOf(
+  picks: readonly (Promise<Vertex | undefined> | undefined)[],
+  shown = new Map<Vertex, ScreenPoint>(),
+) {
+  let next = 0;
+  const view: Pick<ViewAdapter, "pick" | "project"> = {
+    pick: async () => picks[next++],
+    project: (vertex) => shown.get(vertex),
+  };
+  return new Placing(view as ViewAdapter, new AbortController().signal);
+}
+
+describe("placing", () => {
+  it("keeps the order of clicks, however long their records take", async () => {
+    let first: (vertex: Vertex) => void = () => undefined;
+    const placing = viewOf([new Promise((resolve) => (first = resolve)), Promise.resolve(b)]);
+    const placed: (Vertex | undefined)[] = [];
+    const both = [1, 2].map((x) => placing.place({ x, y: 0 }, [], (vertex) => placed.push(vertex)));
+    await Promise.resolve();
+    first(a);
+    await Promise.all(both);
+    expect(placed).toEqual([a, b]);
+  });
+
+  it("goes on after one that failed", async () => {
+    const placing = viewOf([Promise.reject(new Error("offline")), Promise.resolve(b)]);
+    const placed: (Vertex | undefined)[] = [];
+    const work = (vertex: Vertex | undefined) => placed.push(vertex);
+    const [first, second] = [
+      placing.place({ x: 0, y: 0 }, [], work),
+      placing.place({ x: 1, y: 0 }, [], work),
+    ];
+    await expect(first).rejects.toThrow("offline");
+    await second;
+    expect(placed).toEqual([b]);
+  });
+
+  it("takes a vertex that is there, and the nearest of several", async () => {
+    const shown = new Map([
+      [a, { x: 100, y: 100 }],
+      [b, { x: 104, y: 100 }],
+    ]);
+    const placing = viewOf([Promise.resolve(d)], shown);
+    expect(await placing.look({ x: 103, y: 100 }, [a, b, c])).toBe(b);
+    expect(await placing.look({ x: 150, y: 100 }, [a, b, c])).toBe(d);
+  });
+
+  it("knows a record again", () => {
+    expect(isSame(a, { ...a })).toBe(true);
+    expect(isSame(a, { ...a, record: { ...a.record!, index: 7 } })).toBe(false);
+  });
+});
+
+describe("figures", () => {
+  const showing = {
+    ...{ edited: undefined, drag: undefined, ahead: undefined, missed: false },
+    ...{ units: new MeasureUnits({ locale: "en" }), worth: { precision: 0.01 } },
+  };
+
+  it("are labelled with their value and worth, or with what keeps them from having one", () => {
+    const bow: Measurement = { id: "2", kind: "area", name: "Area 1", vertices: [a, c, b, d] };
+    const crossed = [a, b, c, d].map((vertex, i) =>
+      cloud.vertex(500000 + [0, 9, 9, 0][i], 5300000 + [0, 9, 0, 9][i], vertex.height),
+    );
+    const [one, other] = figuresOf(
+      { measurements: [line, { ...bow, vertices: crossed }], draft: undefined },
+      showing,
+    );
+    expect(one.label).toMatch(/^\d+\.\d+\sm\n± 0\.0\d+\sm$/);
+    expect(other).toMatchObject({ wrong: true, label: expect.stringContaining("cross") });
+  });
+
+  it("show a vertex that is on its way, and in between where it comes to stand", () => {
+    const drawn = { measurements: [line], draft: undefined };
+    const moved = { grip: { id: "1", vertex: 1, between: false }, vertex: d };
+    expect(figuresOf(drawn, { ...showing, edited: "1", drag: moved })[0].vertices).toEqual([a, d, c]);
+    const added = { grip: { id: "1", vertex: 1, between: true }, vertex: d };
+    expect(figuresOf(drawn, { ...showing, edited: "1", drag: added })[0].vertices).toEqual([a, b, d, c]);
+  });
+
+  it("tell the value to come, and where there is no point", () => {
+    const drawn = { measurements: [], draft: { kind: "distance" as const, vertices: [a] } };
+    expect(figuresOf(drawn, showing)[0].label).toBe("");
+    expect(figuresOf(drawn, { ...showing, ahead: b })[0].label).toContain("m\n± ");
+    expect(figuresOf(drawn, { ...showing, missed: true })[0]).toMatchObject({
+      label: "no point here",
+      wrong: true,
+    });
+  });
+});

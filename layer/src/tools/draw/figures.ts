@@ -1,0 +1,68 @@
+import { MeasureError } from "../../errors/index.js";
+import {
+  MEASUREMENT_KINDS,
+  type MeasurementKind,
+  type MeasureUnits,
+  type Vertex,
+  valuesOf,
+  type WorthOptions,
+  wordsOf,
+} from "../measure/index.js";
+import { type Drag, dragged } from "./grip.js";
+import type { Drawn } from "./history.js";
+import type { ShownFigure } from "./overlay.js";
+
+/** How figures are shown. */
+export interface Showing {
+  /** The measurement whose vertices can be taken hold of. */
+  readonly edited: string | undefined;
+  /** A vertex of it that is on its way. */
+  readonly drag: Drag | undefined;
+  /** Where the figure being drawn would go on. */
+  readonly ahead: Vertex | undefined;
+  /** Whether a vertex was to be placed where there is no point. */
+  readonly missed: boolean;
+  readonly units: MeasureUnits;
+  readonly worth: WorthOptions;
+}
+
+/** All that is drawn, as it is shown: with the vertex that is on its way, and labels. */
+export function figuresOf({ measurements, draft }: Drawn, showing: Showing): ShownFigure[] {
+  const { edited, drag, ahead, missed } = showing;
+  const figures = measurements.map(({ id, kind, name, vertices: placed }): ShownFigure => {
+    const vertices = drag?.grip.id === id ? dragged(placed, drag) : placed;
+    const { shape, most } = MEASUREMENT_KINDS[kind];
+    const grows = most === Number.POSITIVE_INFINITY;
+    return { id, name, vertices, shape, open: id === edited, grows, ...labelOf(kind, vertices, showing) };
+  });
+  if (!draft) return figures;
+  const { kind, vertices } = draft;
+  const { title, shape, most } = MEASUREMENT_KINDS[kind];
+  const next = ahead && !vertices.includes(ahead) && vertices.length < most ? [ahead] : [];
+  return [
+    ...figures,
+    {
+      ...{ id: undefined, name: title, vertices, shape, open: false, grows: false },
+      ...(missed ? NO_POINT : labelOf(kind, [...vertices, ...next], showing)),
+    },
+  ];
+}
+
+const NO_POINT = { label: "no point here", wrong: true };
+
+/** The value that a figure is for, with its worth; or why it has none. */
+function labelOf(
+  kind: MeasurementKind,
+  vertices: readonly Vertex[],
+  { units, worth: known }: Showing,
+): Pick<ShownFigure, "label" | "wrong"> {
+  if (vertices.length < MEASUREMENT_KINDS[kind].least) return { label: "", wrong: false };
+  try {
+    const [first] = valuesOf({ kind, vertices }, known);
+    const { main, worth } = wordsOf(first, units);
+    return { label: worth === "" ? main : `${main}\n${worth}`, wrong: false };
+  } catch (thrown) {
+    if (!(thrown instanceof MeasureError)) throw thrown;
+    return { label: thrown.cause, wrong: true };
+  }
+}

@@ -1,0 +1,89 @@
+import type { Measurement, MeasurementKind, Vertex } from "../measure/index.js";
+
+/** A figure that is being drawn. */
+export interface Draft {
+  readonly kind: MeasurementKind;
+  readonly vertices: readonly Vertex[];
+}
+
+/** All that is drawn. Never changed, only replaced. */
+export interface Drawn {
+  readonly measurements: readonly Measurement[];
+  readonly draft: Draft | undefined;
+}
+
+/** States that are kept to go back to. */
+const KEPT = 500;
+
+/** What is drawn, with the way back and forth. */
+export class History {
+  readonly #past: Drawn[] = [];
+  #present: Drawn = { measurements: [], draft: undefined };
+  #future: Drawn[] = [];
+
+  get present(): Drawn {
+    return this.#present;
+  }
+
+  get canUndo(): boolean {
+    return this.#past.length > 0;
+  }
+
+  get canRedo(): boolean {
+    return this.#future.length > 0;
+  }
+
+  /** Goes on to another state; the way forth ends. */
+  go(next: Drawn): void {
+    this.#past.push(this.#present);
+    if (this.#past.length > KEPT) this.#past.shift();
+    this.#present = next;
+    this.#future = [];
+  }
+
+  /** Has every state, those before and after too, made of other vertices. */
+  replaceVertices(other: (vertex: Vertex) => Vertex): void {
+    const drawn = ({ measurements, draft }: Drawn): Drawn => ({
+      measurements: measurements.map((one) => ({ ...one, vertices: one.vertices.map(other) })),
+      draft: draft && { ...draft, vertices: draft.vertices.map(other) },
+    });
+    this.#past.splice(0, this.#past.length, ...this.#past.map(drawn));
+    this.#future = this.#future.map(drawn);
+    this.#present = drawn(this.#present);
+  }
+
+  /** @returns whether there was anything to go back to */
+  undo(): boolean {
+    const before = this.#past.pop();
+    if (!before) return false;
+    this.#future.push(this.#present);
+    this.#present = before;
+    return true;
+  }
+
+  /** @returns whether anything had been taken back */
+  redo(): boolean {
+    const after = this.#future.pop();
+    if (!after) return false;
+    this.#past.push(this.#present);
+    this.#present = after;
+    return true;
+  }
+}
+
+/** Measurements with other vertices in one of them. */
+export function withVertices(
+  measurements: readonly Measurement[],
+  id: string,
+  vertices: readonly Vertex[],
+): readonly Measurement[] {
+  return measurements.map((one) => (one.id === id ? { ...one, vertices } : one));
+}
+
+/** A name that none of the measurements has: its kind and a number. */
+export function freshName(measurements: readonly Measurement[], title: string): string {
+  const names = new Set(measurements.map(({ name }) => name));
+  let number = 1;
+  while (names.has(`${title} ${number}`)) number++;
+  return `${title} ${number}`;
+}

@@ -1,0 +1,251 @@
+import type { Vertex } from "../measure/index.js";
+import type { Grip } from "./grip.js";
+import { placeLabels } from "./labels.js";
+import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
+
+/** A figure as it is shown. */
+export interface ShownFigure {
+  /** Of the measurement; undefined for the one being drawn. */
+  readonly id: string | undefined;
+  readonly name: string;
+  readonly vertices: readonly Vertex[];
+  readonly shape: "points" | "line" | "ring";
+  /** Whether its vertices can be taken hold of. */
+  readonly open: boolean;
+  /** Whether vertices may come in between. */
+  readonly grows: boolean;
+  readonly label: string;
+  /** Whether the label tells what is wrong. */
+  readonly wrong: boolean;
+}
+
+/** What the overlay tells of grips that are used. */
+export interface OverlayEvents {
+  readonly grabbed: (grip: Grip, event: PointerEvent) => void;
+  readonly key: (grip: Grip, event: KeyboardEvent) => void;
+  readonly chosen: (id: string) => void;
+}
+
+interface Elements {
+  readonly group: SVGGElement;
+  readonly line: SVGPathElement;
+  readonly grips: { readonly element: SVGElement; readonly grip: Grip }[];
+  readonly dots: SVGCircleElement[];
+  readonly label: HTMLElement;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** Figures and labels laid over a view, moved with it. Colours and sizes are those of the class `groma-measure` in CSS. */
+export class Overlay {
+  readonly root = document.createElement("div");
+  /** Where the next vertex would be placed by keyboard. */
+  crosshair: ScreenPoint | undefined;
+  /** Where the figure being drawn leads on to. */
+  pointer: ScreenPoint | undefined;
+
+  readonly #view: ViewAdapter;
+  readonly #events: OverlayEvents;
+  readonly #svg = svgElement("svg");
+  readonly #cross = svgElement("path");
+  readonly #elements = new Map<string, Elements>();
+  readonly #unwatch: () => void;
+  #figures: readonly ShownFigure[] = [];
+  /** What was laid out last; a frame in which nothing has moved changes nothing. */
+  #last = "";
+
+  constructor(view: ViewAdapter, events: OverlayEvents) {
+    this.#view = view;
+    this.#events = events;
+    this.root.className = "groma-measure";
+    this.root.style.cssText = "position:absolute;inset:0;overflow:hidden;pointer-events:none";
+    this.#svg.style.cssText = "position:absolute;inset:0;width:100%;height:100%";
+    this.#cross.classList.add("groma-crosshair");
+    this.#svg.append(this.#cross);
+    this.root.append(this.#svg);
+    view.element.after(this.root);
+    this.#unwatch = view.onFrame(() => this.layout());
+  }
+
+  /** Shows figures; elements of those that stay are kept, and with them the reader's focus. */
+  show(figures: readonly ShownFigure[]): void {
+    this.#figures = figures;
+    const keys = new Set(figures.map(keyOf));
+    for (const [key, { group, label }] of this.#elements) {
+      if (keys.has(key)) continue;
+      group.remove();
+      label.remove();
+      this.#elements.delete(key);
+    }
+    for (const figure of figures) this.#fill(figure);
+    this.#last = "";
+    this.layout();
+  }
+
+  /** Gives the keyboard to a vertex. */
+  focus(id: string, vertex: number): void {
+    const found = this.#elements.get(id)?.grips.find(({ grip }) => !grip.between && grip.vertex === vertex);
+    found?.element.focus();
+  }
+
+  destroy(): void {
+    this.#unwatch();
+    this.root.remove();
+  }
+
+  #fill(figure: ShownFigure): void {
+    const key = keyOf(figure);
+    const elements = this.#elements.get(key) ?? this.#make(figure);
+    this.#elements.set(key, elements);
+    elements.group.classList.toggle("groma-open", figure.open);
+    elements.line.classList.toggle("groma-ring", figure.shape === "ring");
+    elements.label.classList.toggle("groma-wrong", figure.wrong);
+    if (elements.label.textContent !== figure.label) elements.label.textContent = figure.label;
+    const count = figure.vertices.length;
+    while (elements.dots.length > count) elements.dots.pop()?.remove();
+    while (elements.dots.length < count) {
+      const dot = svgElement("circle");
+      dot.setAttribute("r", "3.5");
+      elements.dots.push(dot);
+      elements.group.append(dot);
+    }
+    const wanted = figure.open ? gripsOf(figure) : [];
+    const same =
+      wanted.length === elements.grips.length &&
+      wanted.every(({ vertex, between }, i) => {
+        const { grip } = elements.grips[i];
+        return grip.vertex === vertex && grip.between === between;
+      });
+    if (same) return;
+    const held = elements.grips.find(({ element }) => element === document.activeElement)?.grip.vertex;
+    for (const { element } of elements.grips.splice(0)) element.remove();
+    for (const grip of wanted) elements.grips.push(this.#grip(grip, figure, elements.group));
+    // Who moves vertices by keyboard goes on at the same one, or at the last.
+    if (held === undefined) return;
+    if (figure.open && count > 0) this.focus(key, Math.min(held, count - 1));
+    else this.#view.element.focus({ preventScroll: true });
+  }
+
+  #make(figure: ShownFigure): Elements {
+    const group = svgElement("g");
+    const line = svgElement("path");
+    line.classList.add("groma-line");
+    group.append(line);
+    this.#svg.insertBefore(group, this.#cross);
+    const label = document.createElement("div");
+    label.className = "groma-label";
+    label.style.cssText = "position:absolute;left:0;top:0;white-space:pre";
+    const { id } = figure;
+    if (id !== undefined) {
+      label.style.pointerEvents = "auto";
+      label.addEventListener("click", () => this.#events.chosen(id));
+    }
+    this.root.append(label);
+    return { group, line, grips: [], dots: [], label };
+  }
+
+  #grip(grip: Grip, { name }: ShownFigure, group: SVGGElement): Elements["grips"][number] {
+    const element = svgElement("circle");
+    element.classList.add(grip.between ? "groma-between" : "groma-grip");
+    element.setAttribute("r", grip.between ? "5" : "8");
+    element.setAttribute("role", "button");
+    element.setAttribute(
+      "aria-label",
+      grip.between
+        ? `Add a vertex after ${grip.vertex + 1} of ${name}`
+        : `Vertex ${grip.vertex + 1} of ${name}`,
+    );
+    element.style.cssText = "pointer-events:all;touch-action:none;cursor:move";
+    if (!grip.between) element.tabIndex = 0;
+    element.addEventListener("pointerdown", (event) => this.#events.grabbed(grip, event));
+    element.addEventListener("keydown", (event) => this.#events.key(grip, event));
+    group.append(element);
+    return { element, grip };
+  }
+
+  /** Puts everything where the view shows it now. */
+  layout(): void {
+    const places = this.#figures.map(({ vertices }) => vertices.map((vertex) => this.#view.project(vertex)));
+    const { clientWidth: width, clientHeight: height } = this.root;
+    const state = JSON.stringify([places, this.crosshair, this.pointer, width, height]);
+    if (state === this.#last) return;
+    this.#last = state;
+    const labels: { element: HTMLElement; anchor: ScreenPoint }[] = [];
+    for (const [i, figure] of this.#figures.entries()) {
+      const elements = this.#elements.get(keyOf(figure))!;
+      const anchor = this.#place(figure, elements, places[i]);
+      elements.label.hidden = anchor === undefined || figure.label === "";
+      if (anchor && figure.label !== "") labels.push({ element: elements.label, anchor });
+    }
+    const wishes = labels.map(({ element, anchor }) => ({
+      ...{ anchor, width: element.offsetWidth, height: element.offsetHeight },
+    }));
+    const kept = [...places.flat(), this.pointer, this.crosshair].filter((place) => place !== undefined);
+    for (const [i, { x, y }] of placeLabels(wishes, kept, { width, height }).entries()) {
+      labels[i].element.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
+    }
+    const { crosshair: at } = this;
+    this.#cross.setAttribute("d", at ? `M${at.x - 12} ${at.y}h24M${at.x} ${at.y - 12}v24` : "");
+  }
+
+  /** @returns where its label belongs; undefined where nothing of it is in the view */
+  #place(
+    { id, shape }: ShownFigure,
+    { line, dots, grips }: Elements,
+    places: readonly (ScreenPoint | undefined)[],
+  ): ScreenPoint | undefined {
+    const way: (ScreenPoint | undefined)[] = shape === "points" ? [] : [...places];
+    if (id === undefined && this.pointer && way.length > 0) way.push(this.pointer);
+    if (shape === "ring" && way.length > 2) way.push(places[0]);
+    line.setAttribute("d", pathOf(way));
+    for (const [i, place] of places.entries()) move(dots[i], place);
+    for (const { element, grip } of grips) {
+      const a = places[grip.vertex];
+      const b = places[(grip.vertex + 1) % places.length];
+      move(element, grip.between ? middle([a, b]) : a);
+    }
+    if (id === undefined) return this.crosshair ?? this.pointer ?? middle(places);
+    return middle(shape === "ring" ? places : places.slice(0, 2));
+  }
+}
+
+function keyOf({ id }: ShownFigure): string {
+  return id ?? "";
+}
+
+function gripsOf({ id = "", vertices, shape, grows }: ShownFigure): Grip[] {
+  const edges = shape === "points" ? 0 : vertices.length - (shape === "ring" ? 0 : 1);
+  return [
+    ...(grows ? Array.from({ length: edges }, (_, vertex) => ({ id, vertex, between: true })) : []),
+    ...vertices.map((_, vertex) => ({ id, vertex, between: false })),
+  ];
+}
+
+/** Lines between places that follow each other, with a gap where one is not in the view. */
+function pathOf(places: readonly (ScreenPoint | undefined)[]): string {
+  return places
+    .map(
+      (place, i) =>
+        place && `${i === 0 || !places[i - 1] ? "M" : "L"}${place.x.toFixed(1)} ${place.y.toFixed(1)}`,
+    )
+    .filter((part) => part !== undefined)
+    .join("");
+}
+
+function move(element: SVGElement, place: ScreenPoint | undefined): void {
+  element.setAttribute("visibility", place ? "visible" : "hidden");
+  if (!place) return;
+  element.setAttribute("cx", place.x.toFixed(1));
+  element.setAttribute("cy", place.y.toFixed(1));
+}
+
+function middle(places: readonly (ScreenPoint | undefined)[]): ScreenPoint | undefined {
+  const seen = places.filter((place) => place !== undefined);
+  if (seen.length === 0) return undefined;
+  const sum = seen.reduce((total, { x, y }) => ({ x: total.x + x, y: total.y + y }), { x: 0, y: 0 });
+  return { x: sum.x / seen.length, y: sum.y / seen.length };
+}
+
+function svgElement<Name extends keyof SVGElementTagNameMap>(name: Name): SVGElementTagNameMap[Name] {
+  return document.createElementNS(SVG, name);
+}

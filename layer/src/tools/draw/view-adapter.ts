@@ -1,0 +1,25 @@
+import type { Vertex } from "../measure/index.js";
+
+/** A place of a view, CSS pixels from its upper left. */
+export interface ScreenPoint {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** What drawing needs of a view; one is made for each library of views. */
+export interface ViewAdapter {
+  /** The element that the view is drawn in: pointer and keys are heard there, figures are laid over it. */
+  readonly element: HTMLElement;
+  /**
+   * The record that the view shows nearest to a place, as a vertex.
+   * @param reach pixels around the place in which a point counts
+   * @returns undefined where there is none
+   */
+  pick(at: ScreenPoint, reach: number, signal: AbortSignal): Promise<Vertex | undefined>;
+  /** Where the view shows a vertex; undefined where it does not. */
+  project(vertex: Vertex): ScreenPoint | undefined;
+  /** Calls back after each frame in which figures may have moved. @returns what ends that */
+  onFrame(listener: () => void): () => void;
+  /** Has the view drawn again, where it draws on demand only. */
+  redraw(): void;
+}

@@ -1,0 +1,225 @@
+import { readFileSync } from "node:fs";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { converted } from "../converted.js";
+import { data } from "../project.js";
+import { settle } from "./globe.js";
+import { launch, openPage, screenshot, type View, view } from "./harness.js";
+
+const scan = data("vol_total.laz");
+
+/** A place of the canvas where a point is drawn, with the point. */
+interface Hit {
+  readonly x: number;
+  readonly y: number;
+  readonly integers: readonly number[];
+  readonly ecef: readonly number[];
+}
+
+/** Places beside the panel, far apart, where the layer finds points. */
+async function hits(page: Page): Promise<Hit[]> {
+  return page.evaluate(async () => {
+    const { layer } = window.groma;
+    const found: Hit[] = [];
+    for (const [x, y] of [
+      [420, 300],
+      [700, 330],
+      [620, 420],
+      [560, 250],
+    ]) {
+      for (let step = 0; step < 12; step++) {
+        const at = { x: x! + 9 * step, y: y! };
+        const hit = await layer.pick(at, { window: 15 });
+        if (!hit) continue;
+        const { position } = hit;
+        found.push({ ...at, integers: hit.integers, ecef: [position.x, position.y, position.z] });
+        break;
+      }
+    }
+    return found;
+  });
+}
+
+/** Integers of the records that the vertices of each measurement stand on. */
+function records(page: Page): Promise<(readonly number[] | undefined)[][]> {
+  return page.evaluate(() =>
+    window.groma.measure.measurements.map(({ vertices }) => vertices.map(({ record }) => record?.integers)),
+  );
+}
+
+const entries = (page: Page) => page.locator("#measurements > li");
+
+describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.missing})` : ""}`, () => {
+  let server: View;
+  let browser: Browser;
+
+  beforeAll(async () => {
+    server = await view(converted(scan.path));
+    browser = await launch();
+  }, 240_000);
+
+  afterAll(async () => {
+    await browser?.close();
+    await server?.stop();
+  });
+
+  it("by mouse: draw, drag, undo, save, load again", { timeout: 280_000 }, async () => {
+    const { page, watch } = await openPage(browser, { width: 960, height: 600 });
+    await page.goto(server.address);
+    await settle(page);
+    await page.evaluate(() => {
+      document.querySelectorAll("details").forEach((one) => {
+        one.open = one.id === "measuring";
+      });
+    });
+    const [a, b, c] = await hits(page);
+    await page.click("#measure-tools button:text-is('Distance')");
+    await page.mouse.click(a!.x, a!.y);
+    await page.waitForFunction(() => window.groma.measure.drawn === 1);
+    await page.mouse.move(b!.x - 5, b!.y - 5);
+    await page.mouse.click(b!.x, b!.y);
+    await entries(page).first().waitFor();
+    expect(await records(page)).toEqual([[a!.integers, b!.integers]]);
+    // The record's panel stays closed: clicks were for measuring.
+    expect(await page.locator("#picked").isHidden()).toBe(true);
+    const apart = Math.hypot(...a!.ecef.map((value, axis) => value - b!.ecef[axis]!));
+    const words = (await entries(page).first().locator("dd").first().textContent())!;
+    expect(Number.parseFloat(words.replaceAll(",", ""))).toBeCloseTo(apart, 2);
+    expect(words).toContain("at least ±");
+    expect(await page.locator(".groma-label").first().textContent()).toContain(words.split(" ")[0]);
+
+    // A precision that the reader gives makes the worth whole; feet are feet.
+    await page.fill("#measure-precision", "20");
+    await page.press("#measure-precision", "Tab");
+    await page.selectOption("#measure-units", "US survey feet");
+    const feet = (await entries(page).first().locator("dd").first().textContent())!;
+    expect(feet).toMatch(/ftUS ± 0\.\d\d\sftUS$/);
+    expect(feet).not.toContain("at least");
+    expect(Number.parseFloat(feet.replaceAll(",", ""))).toBeCloseTo((apart * 3937) / 1200, 1);
+
+    await page.click("button[aria-label='Edit Distance 1']");
+    await page.mouse.move(b!.x, b!.y);
+    await page.mouse.down();
+    await page.mouse.move(c!.x - 20, c!.y, { steps: 3 });
+    await page.mouse.move(c!.x, c!.y);
+    await page.mouse.up();
+    await page.waitForFunction(
+      (was) => window.groma.measure.measurements[0]!.vertices[1]!.record?.integers.join() !== was,
+      b!.integers.join(),
+    );
+    const [[, moved] = []] = await records(page);
+    expect(moved).toEqual(c!.integers);
+    await screenshot(page, "measuring-distance");
+    await page.click("#measure-undo");
+    expect(await records(page)).toEqual([[a!.integers, b!.integers]]);
+    await page.click("#measure-redo");
+    expect(await records(page)).toEqual([[a!.integers, c!.integers]]);
+
+    await page.click("#measure-tools button:text-is('Area')");
+    for (const { x, y } of [a!, b!, c!]) {
+      await page.mouse.click(x, y);
+      await page.waitForTimeout(400);
+    }
+    await page.mouse.click(a!.x, a!.y);
+    await page.waitForFunction(() => window.groma.measure.measurements.length === 2);
+    await screenshot(page, "measuring-area");
+    const download = page.waitForEvent("download");
+    await page.click("#measure-save");
+    const path = await (await download).path();
+    const saved = JSON.parse(readFileSync(path, "utf8"));
+    expect(saved.features.map(({ geometry }: { geometry: { type: string } }) => geometry.type)).toEqual([
+      "LineString",
+      "Polygon",
+    ]);
+    const before = await records(page);
+
+    await page.reload();
+    await settle(page);
+    await page.setInputFiles("#measure-file", path);
+    await page.waitForFunction(() => window.groma.measure.measurements.length === 2);
+    expect(await records(page)).toEqual(before);
+    expect(watch.errors).toEqual([]);
+    expect(watch.foreign).toEqual([]);
+    await page.context().close();
+  });
+
+  it("by keyboard alone: draw, move a vertex, give up, undo", { timeout: 280_000 }, async () => {
+    const { page, watch } = await openPage(browser, { width: 960, height: 600 });
+    await page.goto(server.address);
+    await settle(page);
+    await page.evaluate(() => {
+      document.querySelectorAll("details").forEach((one) => {
+        one.open = one.id === "measuring";
+      });
+    });
+    // Places that the crosshair comes to from the middle, in steps of 10 pixels.
+    const ways = await page.evaluate(async () => {
+      const { layer, viewer } = window.groma;
+      const { clientWidth, clientHeight } = viewer.canvas;
+      const found: [number, number][] = [];
+      for (const [right, down] of [
+        [6, 0],
+        [12, 4],
+        [12, 9],
+        [9, 6],
+        [16, 2],
+        [20, 8],
+      ] as [number, number][]) {
+        const at = { x: clientWidth / 2 + 10 * right, y: clientHeight / 2 + 10 * down };
+        if (await layer.pick(at, { window: 15 })) found.push([right, down]);
+      }
+      return found;
+    });
+    expect(ways.length).toBeGreaterThanOrEqual(3);
+    let [across, below] = [0, 0];
+    const go = async (way: [number, number]) => {
+      const [right, down] = [way[0] - across, way[1] - below];
+      [across, below] = way;
+      await press(
+        ...times(right < 0 ? "ArrowLeft" : "ArrowRight", Math.abs(right)),
+        ...times(down < 0 ? "ArrowUp" : "ArrowDown", Math.abs(down)),
+        "Enter",
+      );
+    };
+    const press = async (...keys: string[]) => {
+      for (const key of keys) await page.keyboard.press(key);
+    };
+    const times = (key: string, count: number) => Array.from({ length: count }, () => key);
+    await page.focus("#measure-tools button:text-is('Line')");
+    await press("Enter");
+    await go(ways[0]!);
+    await page.waitForFunction(() => window.groma.measure.drawn === 1);
+    await go(ways[1]!);
+    await page.waitForFunction(() => window.groma.measure.drawn === 2);
+    await go(ways[2]!);
+    await page.waitForFunction(() => window.groma.measure.drawn === 3);
+    await screenshot(page, "measuring-keyboard");
+    // Once more in the same place ends the line.
+    await press("Enter");
+    await page.waitForFunction(() => window.groma.measure.measurements.length === 1);
+    const [before] = await records(page);
+    expect(new Set(before!.map(String)).size).toBe(3);
+
+    await page.focus("button[aria-label='Edit Line 1']");
+    await press("Enter");
+    await page.focus("circle[aria-label='Vertex 2 of Line 1']");
+    await press("ArrowUp");
+    await page.waitForFunction(
+      (was) => window.groma.measure.measurements[0]!.vertices[1]!.record?.integers.join() !== was,
+      before![1]!.join(),
+    );
+    await press("Delete");
+    expect((await records(page))[0]).toEqual([before![0], before![2]]);
+    await press("Control+z", "Control+z");
+    expect((await records(page))[0]).toEqual(before);
+
+    await page.focus("#measure-tools button:text-is('Area')");
+    await press("Enter", "Enter");
+    await page.waitForFunction(() => window.groma.measure.drawn === 1);
+    await press("Escape");
+    expect(await page.evaluate(() => window.groma.measure.drawing)).toBeUndefined();
+    expect(await records(page)).toEqual([before]);
+    expect(watch.errors).toEqual([]);
+    await page.context().close();
+  });
+});
