@@ -32,7 +32,7 @@ export type {
 } from "./crs/crs.js";
 export { epsgLookup, type PackedEpsg, packEpsg } from "./crs/epsg-table.js";
 export { resolveCrs, resolveWithNotes } from "./crs/resolve.js";
-export { sameHeights, samePlane } from "./crs/same.js";
+export { sameHeights, samePlane, sameSize } from "./crs/same.js";
 export { type CurvatureRadii, curvatureRadii, radiusAlong } from "./ellipsoid/curvature.js";
 export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";

@@ -1,3 +1,4 @@
+import { spawnSync } from "node:child_process";
 import { rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -20,7 +21,8 @@ interface Told {
   crs: { code?: string; height: { kind: string; epsg?: number }; verticalUnit: { size: number } };
   crsFrom: string;
   crsNotes: { code: string; text: string }[];
-  operation: { notes: string[] } | null;
+  operation: { notes: string[]; name: string; accuracy: number | null } | null;
+  geodeticBounds: { highest: number } | null;
   records: { userId: string; recordId: number }[];
 }
 
@@ -73,6 +75,7 @@ const JOBS = {
   },
 } satisfies Record<string, Job>;
 
+const projMissing = spawnSync("cct", ["--version"]).error !== undefined;
 const skipped = coreMissing ?? pythonMissing;
 
 describe.skipIf(skipped)(
@@ -123,6 +126,26 @@ describe.skipIf(skipped)(
       expect(output.operation?.notes.join()).toMatch(/NAVD88 height \(ftUS\).*taken from the GeoTIFF keys/);
     });
 
+    it.skipIf(projMissing)("keeps the unit of heights under another reference, and its plane", () => {
+      for (const engine of ["proj", "proj4js"]) {
+        const highest = (...given: string[]) => converted(["feet-by-keys"], "--engine", engine, ...given);
+        const own = highest();
+        const other = highest("--vertical", "EPSG:5703");
+        expect(other.crs).toMatchObject({ code: "EPSG:26918+5703", verticalUnit: { size: 1200 / 3937 } });
+        expect(other.operation?.notes.join()).toMatch(/z stays in US survey foot/);
+        // One zero, NAVD88: whatever it is called, z is as high.
+        expect(other.geodeticBounds!.highest).toBeCloseTo(own.geodeticBounds!.highest, 3);
+
+        const flat = highest("--vertical", "ellipsoidal");
+        expect(flat.geodeticBounds!.highest).toBeCloseTo((530 * 1200) / 3937, 3);
+        expect(flat.crs.code).toBe("EPSG:26918");
+        expect(flat.operation).toMatchObject({
+          accuracy: 4,
+          name: expect.stringMatching(/NAD83|North American/),
+        });
+      }
+    });
+
     it("in four spellings is one system", () => {
       const tiles = ["tile-keys", "tile-wkt", "tile-no-axes", "tile-no-codes"] as const;
       expect(converted(tiles).crs.code).toBe("EPSG:25832");
@@ -160,6 +183,9 @@ describe.skipIf(skipped)(
       expect(warned).toMatchObject([{ code: "CRS_AREA", text: expect.stringContaining("EPSG:28992") }]);
       expect(lines.at(-1)).toMatchObject({ event: "done", centre: { longitude: expect.closeTo(5.895, 2) } });
       const plan = groma([...args, "--dry-run", "--overwrite"]);
+      expect(groma([...args, "--dry-run", "--overwrite", "--vertical", "ellipsoidal"]).stderr).toMatch(
+        /EPSG:28992/,
+      );
       expect(plan.stdout).toMatch(/^centre {3}longitude 5\.89\d\d°, latitude 4\.18\d\d°$/m);
       expect(groma(["info", out]).stdout).toMatch(
         /^centre .*\n(?:note .*\n)*note .*outside of the area of use/m,

@@ -10,6 +10,7 @@ import {
   resolveWithNotes,
   sameHeights,
   samePlane,
+  sameSize,
   similarSystems,
   verticalSystems,
 } from "@groma/georef";
@@ -190,12 +191,16 @@ function isSame(a: Georeferenced, b: Georeferenced): boolean {
 
 function mixed(systems: readonly { readonly one: Georeferenced; readonly files: readonly string[] }[]) {
   const list = systems.map(({ one, files }) => `${inWords(one)} (${listed(files)})`).join("; ");
-  const plane = systems.every(({ one }) => samePlane(one.crs, systems[0]!.one.crs));
+  const first = systems[0]!.one.crs;
+  // A given height reference leaves the units of z as they are.
+  const oneUnit = systems.every(({ one }) => sameSize(one.crs.verticalUnit.size, first.verticalUnit.size));
+  const plane = systems.every(({ one }) => samePlane(one.crs, first));
+  const heights = oneUnit ? "--vertical, or with --crs with its heights" : "--crs with its heights";
   return new CrsError({
     code: "CRS_MIXED",
     file: systems[1]!.files[0]!,
     cause: `the inputs are in ${systems.length} different systems: ${list}`,
-    fix: `convert them separately, or give the one that is right for all with ${plane ? "--vertical, or with --crs with its heights" : "--crs"}`,
+    fix: `convert them separately, or give the one that is right for all with ${plane ? heights : "--crs"}`,
   });
 }
 

@@ -38,6 +38,24 @@ describe("the WKT of an output", () => {
     expect(again.verticalUnit.declared || !georeferenced.crs.verticalUnit.declared).toBe(true);
   });
 
+  it.each([
+    ["WKT 1", { given: "EPSG:2994", givenVertical: "EPSG:5703" }],
+    [
+      "WKT 2",
+      {
+        wkt: WKT2.replaceAll('LENGTHUNIT["metre",1]', 'LENGTHUNIT["foot",0.3048]'),
+        givenVertical: "EPSG:5709",
+      },
+    ],
+  ])("has no code of heights in another unit: %s", (_, sources) => {
+    const georeferenced = settled(sources);
+    const wkt = outputWkt(georeferenced);
+    expect(wkt).not.toMatch(/"EPSG", ?"?57/);
+    const again = resolveCrs({ file: "output.laz", wkt }, epsg);
+    expect(again.verticalUnit).toMatchObject({ size: 0.3048, declared: true });
+    expect(sameHeights(again, georeferenced.crs)).toBe(true);
+  });
+
   it("is the text of the file where that says it all", () => {
     expect(outputWkt(settled({ wkt: AWKWARD }))).toBe(AWKWARD);
   });

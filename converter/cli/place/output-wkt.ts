@@ -51,9 +51,8 @@ function firstPart(wkt: string): string {
 
 /** Vertical part of WKT 1 (OGC 01-009): datum type 2005 above a geoid, 2002 above the ellipsoid. */
 function vertical1({ height, verticalUnit }: Crs): string {
-  const own = height.kind === "geoid" && height.epsg !== undefined ? epsg(height.epsg)?.wkt : undefined;
-  // The unit of the file goes before that of the system it names.
-  if (own?.includes(`UNIT["${verticalUnit.name}",`)) return own;
+  const own = ownVertical({ height, verticalUnit });
+  if (own) return own.wkt;
   const [name, type] =
     height.kind === "geoid"
       ? [quoted(height.model), 2005]
@@ -63,12 +62,26 @@ function vertical1({ height, verticalUnit }: Crs): string {
   return `VERT_CS[${name},VERT_DATUM[${name},${type}],${unitNode(verticalUnit)},AXIS["Up",UP]]`;
 }
 
+/**
+ * Code and text of the height system that is named, unless z is in another unit than it says: the unit of the file goes
+ * before that of the system.
+ */
+function ownVertical({
+  height,
+  verticalUnit,
+}: Pick<Crs, "height" | "verticalUnit">): { code: number; wkt: string } | undefined {
+  const code = height.kind === "geoid" ? height.epsg : undefined;
+  const wkt = code === undefined ? undefined : epsg(code)?.wkt;
+  return code !== undefined && wkt?.includes(`UNIT["${verticalUnit.name}",`) ? { code, wkt } : undefined;
+}
+
 /** A compound of WKT 2 (OGC 18-010r11), which has no heights above the ellipsoid alone. */
 function compound2(plane: string, { name, height, verticalUnit }: Crs): string {
   if (height.kind === "ellipsoidal") return plane;
   const vertical = height.kind === "geoid" ? quoted(height.model) : '"unknown"';
   const unit = `LENGTHUNIT[${quoted(verticalUnit.name)},${verticalUnit.size}]`;
-  const id = height.kind === "geoid" && height.epsg !== undefined ? `,ID["EPSG",${height.epsg}]` : "";
+  const own = ownVertical({ height, verticalUnit });
+  const id = own ? `,ID["EPSG",${own.code}]` : "";
   const axis = `CS[vertical,1],AXIS["gravity-related height (H)",up],${unit}`;
   return `COMPOUNDCRS[${quoted(name)},${plane},VERTCRS[${vertical},VDATUM[${vertical}],${axis}${id}]]`;
 }

@@ -92,10 +92,12 @@ export async function sourceTexts(
 /** The greatest code that EPSG gives out itself; ESRI's software writes its own, greater ones under EPSG's name. */
 const EPSG_MAX = 32767;
 
-function textsOf({ code, wkt, proj4 }: Pick<Crs, "code" | "wkt" | "proj4">): string[] {
+function textsOf({ code, wkt, proj4, height }: Pick<Crs, "code" | "wkt" | "proj4" | "height">): string[] {
   const number = Number(/^EPSG:(\d+)$/.exec(code ?? "")?.[1]);
   const named = number > EPSG_MAX ? `ESRI:${number}` : code;
-  return [named, wkt, proj4].filter((text) => text !== undefined);
+  // Of heights that have no code themselves, such as those of a grid, the code of the plane says nothing.
+  const wordless = height.kind === "geoid" && height.epsg === undefined;
+  return (wordless ? [wkt, named, proj4] : [named, wkt, proj4]).filter((text) => text !== undefined);
 }
 
 /** The first of the texts that PROJ understands. */

@@ -29,7 +29,7 @@ export interface DatumOperation {
  */
 export interface Crs {
   readonly name: string;
-  /** `EPSG:2056`, or `EPSG:2056+5728` with a vertical part; absent when the source names no code. */
+  /** `EPSG:2056`, or `EPSG:2056+5728` where the heights have a code too; absent when the plane has none. */
   readonly code?: string;
   /**
    * Horizontal part as a PROJ string that proj4js and PROJ read alike: ellipsoid by numbers, datum shift
@@ -78,7 +78,8 @@ export interface LasDeclaration {
 
 /** What a user has to know of how a CRS was found. */
 export interface CrsNote {
-  /** CRS_CONTRADICTION, CRS_OTHER_FORM, CRS_HEIGHTS_FROM_OTHER_FORM, CRS_HEIGHTS_KEPT. */
+  /** CRS_CONTRADICTION, CRS_OTHER_FORM, CRS_HEIGHTS_FROM_OTHER_FORM, CRS_HEIGHTS_KEPT,
+   * CRS_HEIGHT_UNIT. */
   readonly code: string;
   readonly text: string;
 }

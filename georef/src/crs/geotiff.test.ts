@@ -84,6 +84,14 @@ describe("GeoTIFF keys", () => {
     expect(crs.horizontalUnit.size).toBe(1200 / 3937);
     expect(crs.proj4).toContain("+x_0=500000");
     expect(crs.proj4).toContain("+units=us-ft");
+    // Whoever looked the code up would take feet for metres.
+    expect([crs.code, crs.name]).toEqual([undefined, "WGS 84 / UTM zone 17N in US survey foot"]);
+    const withHeights = read([1024, 1], [3072, 32617], [3076, 9003], [4096, 5703]);
+    expect(withHeights).toMatchObject({
+      height: { epsg: 5703 },
+      name: expect.stringContaining(" in US survey foot + "),
+    });
+    expect(withHeights.code).toBeUndefined();
   });
 
   it("read vertical codes, old ones included, with the unit of the file", () => {

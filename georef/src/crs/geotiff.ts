@@ -67,14 +67,16 @@ function readHorizontal(values: KeyValues, lookup: EpsgLookup | undefined): CrsM
 
 /**
  * Files in feet that name the CRS of metres are common (State Plane): the stated unit is the one of the
- * coordinates, the false origin keeps its length.
+ * coordinates, the false origin keeps its length. The code is that of metres, and whoever looked it up would take feet
+ * for these: it is gone.
  */
 function withUnit(model: CrsModel, values: KeyValues): CrsModel {
   const unit = linearUnit(values);
   if (!unit || unit.size === model.horizontal.unit.size || model.horizontal.kind !== "projected")
     return model;
-  const horizontal: HorizontalModel = { ...model.horizontal, unit };
-  return { ...model, name: `${model.name} in ${unit.name}`, horizontal };
+  const name = `${model.name} in ${unit.name}`;
+  const horizontal: HorizontalModel = { ...model.horizontal, name, code: undefined, unit };
+  return { ...model, name, code: undefined, horizontal };
 }
 
 function linearUnit(values: KeyValues) {

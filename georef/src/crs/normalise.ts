@@ -42,12 +42,14 @@ export function normalise(model: CrsModel, lookup?: EpsgLookup): Omit<Crs, "wkt"
   };
 }
 
+/** Heights without a code take nothing from what is known of the plane: its code stays. */
 function identity({ name, code, horizontal, vertical }: CrsModel): Pick<Crs, "name" | "code"> {
-  const parts = [horizontal.code, vertical?.code];
-  if (horizontal.code !== undefined && (!vertical || vertical.code !== undefined)) {
-    return { name, code: `EPSG:${parts.filter((part) => part !== undefined).join("+")}` };
+  const plane = horizontal.code;
+  if (plane !== undefined && vertical?.code !== undefined) {
+    return { name, code: `EPSG:${plane}+${vertical.code}` };
   }
-  return code === undefined ? { name } : { name, code: `EPSG:${code}` };
+  const known = vertical ? (code ?? plane) : (plane ?? code);
+  return known === undefined ? { name } : { name, code: `EPSG:${known}` };
 }
 
 /** Unit and reference of z: what is declared, else the horizontal linear unit and "unknown". */

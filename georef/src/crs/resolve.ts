@@ -1,6 +1,7 @@
-import type { Crs, CrsSources, EpsgLookup, ResolvedCrs } from "./crs.js";
+import type { Crs, CrsSources, EpsgLookup, ResolvedCrs, Unit } from "./crs.js";
 import { heightsOf, inWords, readDeclared, withHeights } from "./declared.js";
-import { epsgCodes, readEpsg, readEpsgVertical } from "./epsg.js";
+import { epsgCodes, readEpsg } from "./epsg.js";
+import { withGivenVertical } from "./given-vertical.js";
 import type { CrsModel, VerticalModel } from "./model.js";
 import { normalise } from "./normalise.js";
 import { readProjString } from "./proj-string.js";
@@ -16,7 +17,7 @@ export function resolveCrs(sources: CrsSources, lookup?: EpsgLookup): Crs {
 
 /**
  * The coordinate reference system of a file: what the user gives, else what the file declares.
- * A height reference given by the user replaces the one of the file; the unit of z then is that of the given one. A
+ * A height reference given by the user replaces the one of the file, not its unit of z ({@link withGivenVertical}). A
  * given CRS that says nothing of heights leaves those of the file in force.
  *
  * @param lookup table of EPSG codes; without one, codes are refused as unknown
@@ -32,8 +33,14 @@ export function resolveWithNotes(sources: CrsSources, lookup?: EpsgLookup): Reso
     const { model, basis, notes } =
       given === undefined ? fromFile(own, lookup) : fromUser(given, own, vertical === undefined, lookup);
     const text = basis === "given" ? given : basis === "WKT" ? wkt : undefined;
-    const crs = normalise(withVertical(model, vertical, lookup), lookup);
-    return { crs: text !== undefined && isWkt(text) ? { ...crs, wkt: text } : crs, basis, notes };
+    const unitOfFile = () => declaredUnit(own, lookup);
+    const settled =
+      vertical === undefined ? { model, notes: [] } : withGivenVertical(model, vertical, unitOfFile, lookup);
+    const crs = normalise(settled.model, lookup);
+    return {
+      ...{ crs: text !== undefined && isWkt(text) ? { ...crs, wkt: text } : crs, basis },
+      notes: [...notes, ...settled.notes],
+    };
   } catch (error) {
     if (error instanceof Refusal) throw error.toError(sources.file);
     throw error;
@@ -87,6 +94,14 @@ function heightsOfFile(sources: CrsSources, lookup: EpsgLookup | undefined): Ver
   }
 }
 
+/** The unit of z that a file declares, whatever its heights are measured from. */
+function declaredUnit(sources: CrsSources, lookup: EpsgLookup | undefined): Unit | undefined {
+  const recorded = sources.recordedHeights?.verticalUnit;
+  if (!recorded?.declared) return heightsOfFile(sources, lookup)?.unit;
+  const { declared: _, ...unit } = recorded;
+  return unit;
+}
+
 function isWkt(text: string): boolean {
   return /^[A-Za-z]\w*\s*\[/.test(text);
 }
@@ -100,23 +115,4 @@ function readText(text: string, lookup: EpsgLookup | undefined): CrsModel {
   if (init) return readEpsg(epsgCodes(init[1])!, lookup);
   if (/\+?proj=/.test(text)) return readProjString(text);
   throw unknown(`"${excerpt(text)}" is no EPSG code, PROJ string, WKT or PROJJSON`);
-}
-
-function withVertical(model: CrsModel, given: string | undefined, lookup: EpsgLookup | undefined): CrsModel {
-  if (given === undefined) return model;
-  return withHeights(model, readVerticalText(given, model, lookup));
-}
-
-function readVerticalText(text: string, model: CrsModel, lookup: EpsgLookup | undefined): VerticalModel {
-  if (text.toLowerCase() === "ellipsoidal") {
-    return { name: "ellipsoidal height", reference: "ellipsoidal", unit: model.vertical?.unit };
-  }
-  const codes = epsgCodes(text);
-  if (!codes || codes[1] !== undefined) {
-    throw unknown(
-      `"${excerpt(text)}" is no height reference`,
-      "give a vertical EPSG code such as EPSG:5728, or ellipsoidal",
-    );
-  }
-  return readEpsgVertical(codes[0], lookup);
 }

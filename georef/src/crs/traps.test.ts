@@ -144,7 +144,7 @@ describe("heights", () => {
       kind: "ellipsoidal",
     });
     expect(refusal({ given: "EPSG:2056", givenVertical: "sea level" })).toMatch(
-      /^CRS_UNKNOWN: "sea level" is no height reference/,
+      /^CRS_UNKNOWN: "sea level" is not a known height reference/,
     );
     expect(refusal({ given: "EPSG:2056", givenVertical: "EPSG:2056" })).toMatch(
       /^CRS_UNSUPPORTED: .*is not a height system/,

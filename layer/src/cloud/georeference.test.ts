@@ -170,6 +170,18 @@ describe("georeferenceOf a file with a transformation", () => {
     expect(georeference.operation?.notes.join()).toContain("heights is replaced");
   });
 
+  it("keeps the unit of z that the conversion found declared, and says so", async () => {
+    const verticalUnit = { name: "foot", kind: "linear", size: 0.3048, declared: true } as const;
+    const feet = { ...record, crs: { ...crs, verticalUnit } };
+    for (const file of [withRecords(feet, transformation), withRecords(feet)]) {
+      const { crs: other, accuracy } = await open(file, { vertical: "EPSG:5728" });
+      expect(other).toMatchObject({ height: { epsg: 5728 }, verticalUnit: { size: 0.3048 } });
+      expect(accuracy.parts.map(({ note }) => note).join()).toMatch(
+        /z stays in foot, as declared; LN02 height/,
+      );
+    }
+  });
+
   it("stands as it is where the user gives what it has", async () => {
     const georeference = await open(withRecords(record, transformation), { vertical: "EPSG:9999" });
     expect(georeference).toMatchObject({
@@ -203,8 +215,8 @@ describe("georeferenceOf a file with a transformation", () => {
   it.each([
     ["CRS_UNKNOWN", "EPSG:2056", /EPSG:2056 is not a vertical coordinate system/],
     ["CRS_UNKNOWN", "EPSG:1", /EPSG:1 is not a vertical coordinate system/],
-    ["CRS_UNKNOWN", "NAP", /"NAP" is no height reference/],
-    ["CRS_UNKNOWN", "EPSG:2056+5728", /is no height reference/],
+    ["CRS_UNKNOWN", "NAP", /"NAP" is not a known height reference/],
+    ["CRS_UNKNOWN", "EPSG:2056+5728", /is not a known height reference/],
     ["CRS_UNSUPPORTED", "EPSG:5861", /"LAT depth" counts depths, not heights/],
   ])("%s for %s", async (code, vertical, cause) => {
     for (const file of [withRecords(record, transformation), {}]) {

@@ -88,11 +88,11 @@ export async function georeferenceOf(
   const epsg =
     vertical === undefined ? options.epsg : await lookupFor(vertical, file, options.epsg, heightData);
   if (record && named === undefined && vertical !== undefined) {
-    const crs = crsWithHeights(record, vertical, file, epsg);
+    const { crs, notes } = crsWithHeights(record, vertical, file, epsg);
     const { transformation } = declared;
     if (transformation && sameHeights(crs, record.crs)) return recorded(record, source, options);
-    if (transformation) return withOtherHeights(record, transformation, crs, source, options);
-    return fromCrs(crs, source, options);
+    if (transformation) return withOtherHeights(record, transformation, { crs, notes }, source, options);
+    return fromCrs(crs, source, options, notes);
   }
   const { crs, notes } = await declaredCrs(
     {
@@ -108,7 +108,7 @@ export async function georeferenceOf(
 async function withOtherHeights(
   { engine, operation }: GeoreferenceRecord,
   bytes: Uint8Array,
-  crs: Crs,
+  { crs, notes }: ReturnType<typeof crsWithHeights>,
   source: PointSource,
   { tolerance = 0.001, heightData = packagedHeights }: GeoreferenceOptions,
 ): Promise<Georeference> {
@@ -122,7 +122,7 @@ async function withOtherHeights(
   return {
     ...map,
     ...{ crs, basis: "given", engine, operation: report, tolerance },
-    accuracy: statedAccuracy(remarked(parts, "height", GIVEN)),
+    accuracy: statedAccuracy(remarked(parts, "height", [GIVEN, ...notes.map(({ text }) => text)].join("; "))),
   };
 }
 

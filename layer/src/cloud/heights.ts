@@ -2,6 +2,7 @@ import {
   boundsOfPlaces,
   type Crs,
   CrsError,
+  type CrsNote,
   compileTransformation,
   type Domain,
   deriveTransformation,
@@ -15,7 +16,7 @@ import {
   type Grid,
   type OperationReport,
   PlacementError,
-  resolveCrs,
+  resolveWithNotes,
   spread,
   type Transformation,
   verticalLookup,
@@ -52,8 +53,8 @@ export async function lookupFor(
 }
 
 /**
- * The coordinate system of a record with another height reference. The horizontal part stays as the conversion settled
- * it; the unit of z too, unless the new reference brings its own.
+ * The coordinate system of a record with another height reference, and what has to be known of it. The horizontal part
+ * stays as the conversion settled it, and so does the unit of z as `resolveWithNotes` has it.
  *
  * @param vertical `EPSG:5728` or `ellipsoidal`
  * @throws CrsError CRS_UNKNOWN; CRS_UNSUPPORTED for a data set without a coordinate system
@@ -63,21 +64,23 @@ export function crsWithHeights(
   vertical: string,
   file: string,
   epsg: EpsgLookup | undefined,
-): Crs {
+): { readonly crs: Crs; readonly notes: readonly CrsNote[] } {
   if (similarity) throw placedAsBody(file);
-  const resolved = resolveCrs({ file, given: crs.proj4, givenVertical: vertical }, epsg);
-  const { height } = resolved;
+  const sources = { file, given: crs.proj4, givenVertical: vertical, recordedHeights: crs };
+  const { crs: resolved, notes } = resolveWithNotes(sources, epsg);
+  const { height, verticalUnit } = resolved;
   const { code, wkt: _, ...rest } = crs;
   // Names and codes of compound systems are those of their parts, joined by a plus.
   const [horizontalCode] = code?.split("+") ?? [];
   const [horizontalName] = crs.name.split(" + ");
   const heights = height.kind === "geoid" ? height.model : `${height.kind} height`;
   return {
-    ...rest,
-    ...(horizontalCode !== undefined && { code: horizontalCode }),
-    name: `${horizontalName} + ${heights}`,
-    height,
-    verticalUnit: height.kind === "geoid" ? resolved.verticalUnit : crs.verticalUnit,
+    crs: {
+      ...rest,
+      ...(horizontalCode !== undefined && { code: horizontalCode }),
+      ...{ name: `${horizontalName} + ${heights}`, height, verticalUnit },
+    },
+    notes,
   };
 }
 
