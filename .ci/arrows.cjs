@@ -104,9 +104,11 @@ module.exports = {
     layer("effects/catalogue", ["effects/declaration", "clips", "octree", "options", "errors"]),
     layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "errors"]),
     layer("tools/measure", ["options", "errors"]),
-    layer("tools/profile", ["query", "clips", "options", "errors"]),
-    layer("export", ["query", CONTRACT, "options", "errors"]),
     layer("tools/draw", ["tools/measure", "errors"]),
+    layer("tools/profile", ["tools/exact", "query", "clips", "options", "errors"]),
+    layer("export", ["query", "workers", CONTRACT, "options", "errors"]),
+    layer("tools/exact", []),
+    layer("tools/area", ["tools/exact", "query"]),
     // A view hands out all that every application needs, beside its own.
     layer("cesium", [
       "tools",

@@ -57,6 +57,18 @@ function positive(text: string): number {
   throw new InvalidArgumentError("Expected a number greater than 0");
 }
 
+function boxNumbers(text: string): number[] {
+  const numbers = text.split(",").map((word) => (word.trim() === "" ? Number.NaN : Number(word)));
+  if ((numbers.length === 4 || numbers.length === 6) && numbers.every(Number.isFinite)) return numbers;
+  throw new InvalidArgumentError("Expected four or six numbers separated by commas");
+}
+
+function classNumbers(text: string): number[] {
+  const numbers = text.split(",").map((word) => (/^\s*\d+\s*$/.test(word) ? Number(word) : Number.NaN));
+  if (numbers.every((number) => number <= 255)) return numbers;
+  throw new InvalidArgumentError("Expected whole numbers from 0 to 255 separated by commas");
+}
+
 function threadCount(text: string): number {
   const number = Number(text);
   if (Number.isInteger(number) && number >= 1 && number <= 1024) return number;
@@ -137,28 +149,60 @@ program
   .option("--json", "print JSON")
   .action(async (file: string, options) => (await import("./commands/locate.js")).runLocate(file, options));
 
-program
+/** Coordinates of a line or a polygon that is given. */
+const givenCrs = (flag: string, what: string) =>
+  new Option(`${flag} <CRS>`, `coordinates of the ${what}: longitude and latitude, or those of the scan`)
+    .choices(["EPSG:4326", "source"])
+    .default("EPSG:4326");
+
+/** How a cut is written. */
+const cutting = () => [
+  new Option(
+    "--out <FILE>",
+    "output; its ending says the format: .las, .laz, .csv, .geojson, .dxf",
+  ).makeOptionMandatory(),
+  new Option("--overwrite", "replace an existing output"),
+  progress(),
+];
+
+const profile = program
   .command("profile")
   .description("write all points in a strip along a line, record by record, to a file")
   .argument("<files...>", "COPC files or their addresses")
   .requiredOption("--line <FILE>", "GeoJSON file with one LineString")
-  .addOption(
-    new Option("--line-crs <CRS>", "coordinates of the line: longitude and latitude, or those of the scan")
-      .choices(["EPSG:4326", "source"])
-      .default("EPSG:4326"),
-  )
+  .addOption(givenCrs("--line-crs", "line"))
   .addOption(
     new Option("--width <W>", "width of the strip: metres; with --line-crs source, units of the scan")
       .argParser(positive)
       .makeOptionMandatory(),
   )
-  .requiredOption("--out <FILE>", "output; the ending says the format: .las")
   .option("--chainage", "add chainage and offset along the line to each LAS record, as extra bytes")
-  .option("--overwrite", "replace an existing output")
-  .addOption(progress())
+  .option("--straightened", "lay the points of DXF along the line: x is the chainage, y the height")
   .action(async (files: string[], options) =>
     (await import("./commands/profile.js")).runProfile(files, options),
   );
+
+const clip = program
+  .command("clip")
+  .description("write all points in a polygon or a box, or of some classes, record by record, to a file")
+  .argument("<files...>", "COPC files or their addresses")
+  .addOption(new Option("--polygon <FILE>", "GeoJSON file with one Polygon").conflicts("box"))
+  .addOption(givenCrs("--polygon-crs", "polygon"))
+  .addOption(
+    new Option(
+      "--box <least,greatest>",
+      "x,y,x,y or x,y,z,x,y,z in the coordinates of the scan: least, then greatest",
+    ).argParser(boxNumbers),
+  )
+  .addOption(new Option("--classes <numbers>", "classes that are kept, e.g. 2,9").argParser(classNumbers))
+  .action(async (files: string[], options, command: Command) => {
+    if (!options.polygon && !options.box && !options.classes) {
+      command.error("error: --polygon, --box or --classes is required");
+    }
+    return (await import("./commands/clip.js")).runClip(files, options);
+  });
+
+for (const command of [profile, clip]) for (const option of cutting()) command.addOption(option);
 
 program
   .command("serve")

@@ -4,6 +4,7 @@
 //! The way of the data is a chain of stages whose order the types enforce, see [`pipeline::Pipeline`].
 
 pub mod build;
+pub mod compress;
 pub mod copc;
 pub mod distribute;
 pub mod error;

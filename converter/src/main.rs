@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand};
 use groma_core::build::Rules;
+use groma_core::compress::compress;
 use groma_core::copc::checksums::{self, Stored};
 use groma_core::error::{Error, Result, Wire};
 use groma_core::input::Source;
@@ -37,6 +38,8 @@ enum Command {
     Scan { file: PathBuf },
     /// Read all points of a LAS or LAZ file, hold its chunks against their checksums, and print what was found
     Verify { file: PathBuf },
+    /// Compress a LAS 1.4 file of point format 6, 7 or 8 to LAZ, and print what was done
+    Compress { input: PathBuf, output: PathBuf },
     /// Convert LAS or LAZ files into one COPC file; prints JSON lines
     Convert(Convert),
 }
@@ -107,6 +110,9 @@ fn main() -> ExitCode {
     let outcome = match Cli::try_parse() {
         Ok(Cli { command: Command::Scan { file } }) => scan(&file),
         Ok(Cli { command: Command::Verify { file } }) => verify(&file),
+        Ok(Cli { command: Command::Compress { input, output } }) => {
+            compress(&input, &output).map(|done| JsonLines::print(&done))
+        }
         Ok(Cli { command: Command::Convert(arguments) }) => convert(arguments),
         Err(error) if error.use_stderr() => Err(usage(&error)),
         Err(help) => help.exit(),

@@ -1,9 +1,10 @@
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
-import { data } from "../project.js";
+import { data, projectRoot } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { coreMissing } from "./core.js";
 import { groma } from "./groma.js";
@@ -23,6 +24,7 @@ interface Found {
   readonly users: readonly string[];
 }
 
+const main = join(projectRoot, "converter/dist/main.js");
 let folder = "";
 beforeAll(() => {
   folder = mkdtempSync(join(tmpdir(), "groma-profile-"));
@@ -130,6 +132,81 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
     expect(found.written).toBeGreaterThan(1000);
   });
 
+  it("writes the same points as LAS, LAZ, CSV, DXF and GeoJSON, for programs of others", () => {
+    const scan = converted(road.path);
+    const line = lines["corners of 1° and 179°"]!;
+    const file = join(folder, "formats.geojson");
+    writeFileSync(file, JSON.stringify({ type: "LineString", coordinates: line }));
+    for (const format of ["las", "laz", "csv", "dxf", "geojson"]) {
+      const out = join(folder, `formats-cut.${format}`);
+      const run = groma([
+        "profile",
+        scan,
+        "--line",
+        file,
+        "--line-crs",
+        "source",
+        "--width",
+        "3",
+        "--out",
+        out,
+      ]);
+      expect(run).toMatchObject({ code: 0 });
+    }
+    const found = runPython<Record<string, unknown>>("interop/cut_formats.py", [join(folder, "formats-cut")]);
+    expect(found).toMatchObject({
+      laz: true,
+      compressed: true,
+      crs: true,
+      csv: true,
+      dxf: true,
+      geojson: true,
+    });
+    expect(found).toMatchObject({ vertices: line, layers: ["LINE", "POINTS"] });
+    expect(found.count).toBeGreaterThan(1000);
+    // pyproj shifts the datum at height 0; where a place is to the millimetre, other tests hold.
+    expect(found.metresOff).toBeLessThan(0.05);
+  });
+
+  it("writes LAZ whose records have chainage and offset as those of LAS", () => {
+    const line = lines["a line along the lattice"]!;
+    const out = join(folder, "chainage.laz");
+    const file = join(folder, "chainage.geojson");
+    writeFileSync(file, JSON.stringify({ type: "LineString", coordinates: line }));
+    const scan = converted(road.path);
+    const options = ["--line", file, "--line-crs", "source", "--width", "10", "--chainage", "--out", out];
+    expect(groma(["profile", scan, ...options]).code).toBe(0);
+    const found = runPython<Found>("interop/strip.py", [scan, out, "10", JSON.stringify(line)]);
+    expectExact(found);
+    expect(found.along.chainage![1]).toBeGreaterThan(299);
+  });
+
+  it("reads a file of a server by Range requests, to the same bytes", async () => {
+    const scan = converted(road.path);
+    const server = spawn(process.execPath, [main, "serve", dirname(scan), "--port", "0"]);
+    try {
+      const said = await new Promise<string>((resolve) => {
+        server.stdout.on("data", (chunk) => resolve(String(chunk)));
+      });
+      const address = /http:\S+/.exec(said)![0];
+      const file = join(folder, "served.geojson");
+      writeFileSync(
+        file,
+        JSON.stringify({ type: "LineString", coordinates: lines["a line along the lattice"] }),
+      );
+      const options = ["--line", file, "--line-crs", "source", "--width", "10", "--overwrite"];
+      const outs = [join(folder, "served.las"), join(folder, "local.las")];
+      const url = `${address.replace(/\/$/, "")}/${basename(scan)}`;
+      for (const [index, input] of [url, scan].entries()) {
+        const run = groma(["profile", input, ...options, "--out", outs[index]!]);
+        expect(run.stderr).not.toMatch(/^[A-Z]+_[A-Z]+:/m);
+      }
+      expect(Buffer.compare(readFileSync(outs[0]!), readFileSync(outs[1]!))).toBe(0);
+    } finally {
+      server.kill();
+    }
+  });
+
   it("refuses what it cannot do, by name, and leaves nothing behind", () => {
     const scan = converted(road.path);
     const file = join(folder, "far.geojson");
@@ -179,6 +256,63 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
     expect(groma(["profile", road.path, "--line", "x", "--width", "0", "--out", out]).stderr).toMatch(
       /^OPTION_INVALID/,
     );
+  });
+});
+
+describe.skipIf(REFUSED)("groma clip of a real scan", () => {
+  /** Runs `groma clip` and has GEOS judge what it wrote. */
+  function clip(rings: readonly Line[], classes: readonly number[], options: readonly string[]) {
+    const scan = converted(road.path);
+    const file = join(folder, "polygon.geojson");
+    const out = join(folder, "clip.las");
+    writeFileSync(file, JSON.stringify({ type: "Polygon", coordinates: rings }));
+    const given =
+      rings.length > 0 && options.length === 0 ? ["--polygon", file, "--polygon-crs", "source"] : options;
+    const chosen = classes.length > 0 ? ["--classes", classes.join(",")] : [];
+    const run = groma(["clip", scan, ...given, ...chosen, "--out", out, "--overwrite"]);
+    expect(run.stderr).not.toMatch(/^[A-Z]+_[A-Z]+:/m);
+    return runPython<{ count: number; same: boolean; onEdge: number }>("interop/clipped.py", [
+      ...[scan, out, JSON.stringify(rings), JSON.stringify(classes)],
+    ]);
+  }
+
+  const slanted: Line = [
+    [589600, 231350],
+    [589900, 231330],
+    [589950, 231500],
+    [589750, 231420],
+    [589600, 231350],
+  ];
+  const square: Line = [
+    [589700, 231380],
+    [589740, 231380],
+    [589740, 231400],
+    [589700, 231400],
+    [589700, 231380],
+  ];
+
+  it("takes just the records in a polygon with a hole, those on its edges too", () => {
+    const found = clip([slanted, square], [], []);
+    expect(found.same).toBe(true);
+    expect(found.count).toBeGreaterThan(1000);
+    expect(found.onEdge).toBeGreaterThan(0);
+  });
+
+  it("takes just the records in a box, and those of classes", () => {
+    const found = clip([square], [], ["--box", "589700,231380,589740,231400"]);
+    expect(found.same).toBe(true);
+    expect(found.count).toBeGreaterThan(100);
+    expect(clip([], [0], [])).toMatchObject({ same: true, count: 498868 });
+  });
+
+  it("refuses what it cannot do, by name", () => {
+    const run = (...options: string[]) =>
+      groma(["clip", converted(road.path), ...options, "--out", join(folder, "none.las")]).stderr;
+    expect(run()).toMatch(/^OPTION_INVALID: .*--polygon, --box or --classes/);
+    expect(run("--box", "1,2,3")).toMatch(/^OPTION_INVALID/);
+    expect(run("--box", "3,3,1,1")).toMatch(/^OPTION_BOX/);
+    expect(run("--classes", "300")).toMatch(/^OPTION_INVALID/);
+    expect(run("--classes", "200")).toMatch(/SELECTION_EMPTY/);
   });
 });
 

@@ -155,6 +155,15 @@ export async function verifyFile(file: string, signal?: AbortSignal): Promise<Ve
 }
 
 /**
+ * Compresses a LAS file to LAZ, record by record; everything else is copied.
+ *
+ * @throws CoreError INPUT_*, OUTPUT_WRITE
+ */
+export async function compressFile(input: string, output: string, signal?: AbortSignal): Promise<void> {
+  await runCore(["compress", input, output], () => undefined, signal);
+}
+
+/**
  * Runs a conversion to its end. Where the records cannot be made, the core is stopped and leaves nothing behind.
  *
  * @param args arguments of `groma-core convert`

@@ -111,6 +111,7 @@ describe("LAS from recorded points", () => {
     // Two bytes are described, 300 are not: these have to be, or what follows them is misread.
     const { selection, lasRecords } = selectionOf(3, envelopeOf(302, [extra]));
     const along = {
+      vertices: [],
       locate(x: number, y: number, out: Float64Array) {
         out.set([x, y]);
       },

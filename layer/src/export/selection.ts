@@ -2,6 +2,8 @@ import type { PointBatch, PointOrigin, PointQuery, QueryVolume } from "../query/
 
 /** How points lie along a line: what a profile adds to their records. */
 export interface AlongLine {
+  /** x and y of its vertices, source coordinates. */
+  readonly vertices: readonly (readonly [number, number])[];
   /**
    * @param out receives the chainage (distance along the line) and the signed offset from it, left positive
    */
@@ -19,6 +21,11 @@ export interface PointSelection {
   readonly spacing?: number | undefined;
   /** The line along which the points were cut. */
   readonly along?: AlongLine | undefined;
+  /**
+   * Where source coordinates are, for GeoJSON: longitude and latitude (degrees, WGS 84) and height above the ellipsoid
+   * (metres), written to `out`.
+   */
+  readonly geodetic?: ((x: number, y: number, z: number, out: Float64Array) => void) | undefined;
 }
 
 /** How far an export is. */

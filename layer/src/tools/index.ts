@@ -13,6 +13,8 @@ export type {
 export type { SourceSpace } from "../clips/index.js";
 export { MeasureError } from "../errors/index.js";
 export type { BoxRelation, QueryVolume } from "../query/index.js";
+export { BoxVolume } from "./area/box-volume.js";
+export { PolygonVolume } from "./area/polygon-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
 export * from "./measure/index.js";

@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { isNear } from "../exact/exact.js";
 import { Corridor } from "./corridor.js";
-import { isNear } from "./exact.js";
 
 type Vertex = readonly [number, number];
 

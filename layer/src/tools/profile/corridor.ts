@@ -1,5 +1,5 @@
 import type { BoxRelation, QueryVolume } from "../../query/index.js";
-import { isNear } from "./exact.js";
+import { isNear } from "../exact/exact.js";
 import { SegmentGrid, type Segments } from "./segment-grid.js";
 
 /** Relative error of a float64 operation. */
@@ -15,6 +15,8 @@ const EPSILON = 2 ** -53;
  * decided without any rounding, on the float64 coordinates of the point and of the line.
  */
 export class Corridor implements QueryVolume {
+  /** x and y of the line's vertices, source units, as they were given. */
+  readonly vertices: readonly (readonly [number, number])[];
   /** Half the width, source units. */
   readonly reach: number;
   readonly #segments: Segments;
@@ -42,6 +44,7 @@ export class Corridor implements QueryVolume {
       stations.push(stations[stations.length - 1] + (lengths?.[index - 1] ?? Math.hypot(bx - ax, by - ay)));
     }
     if (ends.length === 0) throw new RangeError("the line has no length");
+    this.vertices = line;
     this.reach = width / 2;
     this.#segments = Float64Array.from(ends);
     this.#stations = Float64Array.from(stations);

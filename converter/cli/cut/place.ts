@@ -1,6 +1,7 @@
-import { pointTransform } from "@groma/georef";
+import { ecefToGeodetic, pointTransform } from "@groma/georef";
+import type { PointSelection } from "@groma/layer/export";
 import type { RecordedPoints } from "@groma/layer/query";
-import { Corridor, sourceLine } from "@groma/layer/tools";
+import { sourceLine } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
 import { placed } from "../place/placed.js";
 import type { Position } from "./geojson.js";
@@ -33,7 +34,7 @@ export async function inSource(
   if (positions.some(([longitude, latitude]) => Math.abs(longitude) > 540 || Math.abs(latitude) > 90)) {
     throw new OptionError({
       ...{ code: "OPTION_CRS", file: given, cause: "its coordinates are no longitudes and latitudes" },
-      fix: "give --line-crs source for the coordinates of the scan",
+      fix: "give --line-crs source or --polygon-crs source for the coordinates of the scan",
     });
   }
   const { crs: named, truth } = await placed(declarationOf(source));
@@ -77,15 +78,20 @@ function declarationOf({ name, boundingBox, scale, crs }: RecordedPoints["source
   };
 }
 
-/** The strip along a line. @throws OptionError OPTION_LINE where the line has no length */
-export function corridor({ positions, unit }: InSource, width: number, given: string): Corridor {
-  try {
-    return new Corridor(positions, width * unit);
-  } catch (error) {
-    if (!(error instanceof RangeError)) throw error;
-    throw new OptionError({
-      ...{ code: "OPTION_LINE", file: given, cause: error.message },
-      fix: "give a line with two or more different vertices",
-    });
-  }
+/**
+ * Where source coordinates of a file are: longitude and latitude in degrees, height above the ellipsoid in metres.
+ * @throws CrsError, RecordError
+ */
+export async function geodeticOf({
+  source,
+}: RecordedPoints): Promise<NonNullable<PointSelection["geodetic"]>> {
+  const { truth } = await placed(declarationOf(source));
+  const transform = pointTransform(truth);
+  const ecef = new Float64Array(3);
+  return (x, y, z, out) => {
+    transform(x, y, z, ecef, 0);
+    ecefToGeodetic(ecef[0]!, ecef[1]!, ecef[2]!, out);
+    out[0]! /= DEGREE;
+    out[1]! /= DEGREE;
+  };
 }

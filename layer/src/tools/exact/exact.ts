@@ -43,3 +43,20 @@ export function isNear(
   const across = ux * vy - uy * vx;
   return across * across <= reach * reach * square;
 }
+
+/** Relative error of a float64 operation. */
+const EPSILON = 2 ** -53;
+
+/**
+ * On which side of the line from a to b a point lies: 1 to the left, -1 to the right, 0 on it; decided without any
+ * rounding where float64 leaves a doubt.
+ */
+export function sideOf(x: number, y: number, ax: number, ay: number, bx: number, by: number): -1 | 0 | 1 {
+  const first = (bx - ax) * (y - ay);
+  const second = (by - ay) * (x - ax);
+  const across = first - second;
+  if (Math.abs(across) > 8 * EPSILON * (Math.abs(first) + Math.abs(second))) return across > 0 ? 1 : -1;
+  const [px, py, ix, iy, jx, jy] = integers([x, y, ax, ay, bx, by]);
+  const exact = (jx - ix) * (py - iy) - (jy - iy) * (px - ix);
+  return exact === 0n ? 0 : exact > 0n ? 1 : -1;
+}

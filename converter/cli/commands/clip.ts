@@ -1,0 +1,34 @@
+import { readPolygon } from "../cut/geojson.js";
+import { type GivenCrs, inSource } from "../cut/place.js";
+import { box, polygon } from "../cut/volumes.js";
+import type { CutOptions } from "../cut/writers.js";
+import type { ProgressKind } from "../given/choices.js";
+import { tellCut } from "./cut.js";
+
+export interface ClipCommandOptions extends CutOptions {
+  /** GeoJSON file with the polygon. */
+  readonly polygon?: string;
+  readonly polygonCrs: GivenCrs;
+  /** Least, then greatest coordinates, source units: four or six numbers. */
+  readonly box?: readonly number[];
+  /** Classes that are kept. */
+  readonly classes?: readonly number[];
+  readonly progress?: ProgressKind;
+}
+
+/** The `clip` command: all points in a polygon or a box, or of some classes, as one file. */
+export async function runClip(files: readonly string[], options: ClipCommandOptions): Promise<void> {
+  const { polygon: file, polygonCrs } = options;
+  const rings = file === undefined ? undefined : await readPolygon(file);
+  const upright = options.box && box(options.box);
+  const classes = options.classes && new Set(options.classes);
+  await tellCut("clip", files, options, async (origin) => {
+    if (!rings || file === undefined) return { origin, volume: upright, classes };
+    const inPlane = await Promise.all(rings.map((ring) => inSource(ring, polygonCrs, origin, file)));
+    const volume = polygon(
+      inPlane.map(({ positions }) => positions),
+      file,
+    );
+    return { origin, volume, classes };
+  });
+}

@@ -1,0 +1,39 @@
+import { BoxVolume, Corridor, PolygonVolume } from "@groma/layer/tools";
+import { OptionError } from "../given/option-error.js";
+import type { InSource } from "./place.js";
+
+type Positions = InSource["positions"];
+
+/** Makes a volume of what was given. @throws OptionError with the code, where that is none */
+function made<T>(make: () => T, code: string, file: string, fix: string): T {
+  try {
+    return make();
+  } catch (error) {
+    if (!(error instanceof RangeError)) throw error;
+    throw new OptionError({ code, file, cause: error.message, fix });
+  }
+}
+
+/** The strip along a line. @throws OptionError OPTION_LINE where the line has no length */
+export function corridor({ positions, unit }: InSource, width: number, given: string): Corridor {
+  const fix = "give a line with two or more different vertices";
+  return made(() => new Corridor(positions, width * unit), "OPTION_LINE", given, fix);
+}
+
+/** All that stands on a polygon. @throws OptionError OPTION_POLYGON where a ring has no area */
+export function polygon(rings: readonly Positions[], given: string): PolygonVolume {
+  return made(() => new PolygonVolume(rings), "OPTION_POLYGON", given, "give rings of three or more corners");
+}
+
+/**
+ * An upright box, `minX,minY,maxX,maxY` or `minX,minY,minZ,maxX,maxY,maxZ`.
+ * @throws OptionError OPTION_BOX where it is none
+ */
+export function box(numbers: readonly number[]): BoxVolume {
+  const half = numbers.length / 2;
+  const corner = (from: number, open: number) =>
+    [numbers[from]!, numbers[from + 1]!, half === 3 ? numbers[from + 2]! : open] as const;
+  const [min, max] = [corner(0, Number.NEGATIVE_INFINITY), corner(half, Number.POSITIVE_INFINITY)];
+  const fix = "give the least coordinates, then the greatest";
+  return made(() => new BoxVolume(min, max), "OPTION_BOX", "--box", fix);
+}

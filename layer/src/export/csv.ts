@@ -1,0 +1,70 @@
+import type { ByteSink } from "./byte-sink.js";
+import { attributeColumns, CoordinateText, SLICE, type TextColumn } from "./columns.js";
+import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { TextSink } from "./text-sink.js";
+
+/** Digits of chainage and offset: a hundredth of a millimetre in metres. */
+const ALONG_DIGITS = 5;
+
+/**
+ * Writes points as CSV (RFC 4180, UTF-8, lines end in CR LF): x, y and z with every digit of the record, chainage and
+ * offset where the selection has a line, then all attributes in full, by their names. Of several data sets the columns
+ * are those of the first with points; what another does not have stays empty.
+ *
+ * @returns number of points
+ * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what the sink throws
+ */
+export async function exportCsv(
+  selections: readonly PointSelection[],
+  sink: ByteSink,
+  options: ExportOptions = {},
+): Promise<number> {
+  const text = new TextSink(sink);
+  const withLine = selections.some(({ along }) => along !== undefined);
+  const place = new Float64Array(2);
+  let names: readonly string[] | undefined;
+  const count = await eachBatch(selections, options, async (batch, wanted, { origin, along }) => {
+    const found = attributeColumns(batch);
+    if (!names) {
+      names = found.map(({ name }) => name);
+      const line = withLine ? ["chainage", "offset"] : [];
+      text.add(`${["x", "y", "z", ...line, ...names].map(quoted).join(",")}\r\n`);
+    }
+    const columns = names.map((name) => found.find((column) => column.name === name));
+    const coordinates = new CoordinateText(origin);
+    const { xyz } = batch.records;
+    for (const [index, point] of wanted.entries()) {
+      const at = 3 * point;
+      let row = `${coordinates.of(xyz[at], 0)},${coordinates.of(xyz[at + 1], 1)},${coordinates.of(xyz[at + 2], 2)}`;
+      if (withLine) {
+        place.fill(Number.NaN);
+        along?.locate(coordinates.value(xyz[at], 0), coordinates.value(xyz[at + 1], 1), place);
+        row += `,${alongText(place[0])},${alongText(place[1])}`;
+      }
+      text.add(`${row}${valuesText(columns, batch, point)}\r\n`);
+      if (index % SLICE === 0) await text.rest();
+    }
+  });
+  await text.end();
+  return count;
+}
+
+function valuesText(
+  columns: readonly (TextColumn | undefined)[],
+  batch: Parameters<TextColumn["of"]>[0],
+  point: number,
+): string {
+  let values = "";
+  for (const column of columns) values += `,${column?.of(batch, point) ?? ""}`;
+  return values;
+}
+
+function alongText(value: number): string {
+  return Number.isNaN(value) ? "" : value.toFixed(ALONG_DIGITS);
+}
+
+/** A name that a table program takes as text, whatever a file calls its attributes. */
+function quoted(name: string): string {
+  const safe = /^[=+\-@\t\r]/.test(name) ? `'${name}` : name;
+  return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+}

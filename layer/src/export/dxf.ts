@@ -1,0 +1,99 @@
+import type { ByteSink } from "./byte-sink.js";
+import { CoordinateText, SLICE } from "./columns.js";
+import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { TextSink } from "./text-sink.js";
+
+/** How DXF is written. */
+export interface DxfOptions extends ExportOptions {
+  /**
+   * Whether points stand where they are (`space`) or are laid along the straightened line (`straightened`: x is the
+   * chainage, y the height, z the offset from the line). Default: `space`.
+   */
+  readonly layout?: "space" | "straightened" | undefined;
+}
+
+/** Layers by what stands on them, and their colours (AutoCAD colour index). */
+const LAYERS = [
+  ["POINTS", 7],
+  ["LINE", 1],
+] as const;
+
+/** Digits of numbers that do not come from records. */
+const DIGITS = 5;
+
+/**
+ * Writes points as DXF, the ASCII form of AutoCAD R12 (AC1009), which every program reads: a POINT for each, in real
+ * size and with every digit of the record, on a layer of their own; the line as a 3D POLYLINE.
+ *
+ * @returns number of points
+ * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what the sink throws
+ */
+export async function exportDxf(
+  selections: readonly PointSelection[],
+  sink: ByteSink,
+  options: DxfOptions = {},
+): Promise<number> {
+  const { layout = "space" } = options;
+  const text = new TextSink(sink);
+  text.add(front());
+  text.add(polyline(selections.find(({ along }) => along)?.along?.vertices ?? [], layout));
+  const place = new Float64Array(2);
+  const count = await eachBatch(selections, options, async (batch, wanted, { origin, along }) => {
+    const coordinates = new CoordinateText(origin);
+    const { xyz } = batch.records;
+    for (const [index, point] of wanted.entries()) {
+      const at = 3 * point;
+      const [x, y, z] = [0, 1, 2].map((axis) => coordinates.of(xyz[at + axis], axis));
+      if (layout === "straightened" && along) {
+        along.locate(coordinates.value(xyz[at], 0), coordinates.value(xyz[at + 1], 1), place);
+        text.add(pointText(place[0].toFixed(DIGITS), z, place[1].toFixed(DIGITS)));
+      } else {
+        text.add(pointText(x, y, z));
+      }
+      if (index % SLICE === 0) await text.rest();
+    }
+  });
+  text.add(groups([0, "ENDSEC"], [0, "EOF"]));
+  await text.end();
+  return count;
+}
+
+/** Group codes and their values, each on a line. */
+function groups(...pairs: readonly (readonly [code: number, value: string | number])[]): string {
+  return pairs.map(([code, value]) => `${code}\n${value}\n`).join("");
+}
+
+function front(): string {
+  const layers = LAYERS.map(([name, colour]) =>
+    groups([0, "LAYER"], [2, name], [70, 0], [62, colour], [6, "CONTINUOUS"]),
+  );
+  return [
+    groups([0, "SECTION"], [2, "HEADER"], [9, "$ACADVER"], [1, "AC1009"], [0, "ENDSEC"]),
+    groups([0, "SECTION"], [2, "TABLES"]),
+    groups([0, "TABLE"], [2, "LTYPE"], [70, 1]),
+    groups([0, "LTYPE"], [2, "CONTINUOUS"], [70, 0], [3, "Solid line"], [72, 65], [73, 0], [40, 0]),
+    groups([0, "ENDTAB"], [0, "TABLE"], [2, "LAYER"], [70, LAYERS.length]),
+    ...layers,
+    groups([0, "ENDTAB"], [0, "ENDSEC"], [0, "SECTION"], [2, "ENTITIES"]),
+  ].join("");
+}
+
+function pointText(x: string, y: string, z: string): string {
+  return `0\nPOINT\n8\nPOINTS\n10\n${x}\n20\n${y}\n30\n${z}\n`;
+}
+
+/** The line at height 0: as it runs, or straightened. */
+function polyline(line: readonly (readonly [number, number])[], layout: DxfOptions["layout"]): string {
+  if (line.length < 2) return "";
+  let chainage = 0;
+  const vertices = line.map(([x, y], index) => {
+    if (index > 0) chainage += Math.hypot(x - line[index - 1][0], y - line[index - 1][1]);
+    const [u, v] = layout === "straightened" ? [chainage, 0] : [x, y];
+    return groups([0, "VERTEX"], [8, "LINE"], [10, u], [20, v], [30, 0], [70, 32]);
+  });
+  return [
+    groups([0, "POLYLINE"], [8, "LINE"], [66, 1], [10, 0], [20, 0], [30, 0], [70, 8]),
+    ...vertices,
+    groups([0, "SEQEND"], [8, "LINE"]),
+  ].join("");
+}
