@@ -16,9 +16,8 @@ export function shaderText(target: ShaderTarget, source: ShaderSource): string {
   const functions = [...new Set(source.functions.map((text) => text.trim()))];
   const main = `void main() {\n${source.statements.map((line) => `  ${line}\n`).join("")}}\n`;
   const body = [...functions, main].join("\n").replace(/\$([A-Za-z]+)/g, (_, word: ShaderWord) => {
-    const expression = target.words[word];
-    if (expression === undefined) throw new Error(`shaders know no word $${word}`);
-    return expression;
+    if (!Object.hasOwn(target.words, word)) throw new Error(`shaders know no word $${word}`);
+    return target.words[word];
   });
   const uniforms = readBy(body, [...source.uniforms, ...target.uniforms]);
   const head = [...source.declarations, ...uniforms.map(uniformLine)].map((line) => `${line}\n`).join("");
