@@ -98,6 +98,7 @@ export {
   LocalExecutor,
   type NodeExecutor,
   type NodeJob,
+  type NodeOnGlobe,
   type NodeRecords,
   type NodeVertices,
   type PointDecoder,

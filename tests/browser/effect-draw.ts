@@ -49,6 +49,7 @@ export const PERSPECTIVE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1001 / 999, -1, 0, 0,
 /** Uniforms of that view. */
 export const VIEW = {
   u_modelView: IDENTITY,
+  u_onGlobe: IDENTITY,
   u_projection: PERSPECTIVE,
   u_viewport: [0, 0, SIZE, SIZE],
   u_pixelRatio: 1,

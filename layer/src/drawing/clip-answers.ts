@@ -219,7 +219,7 @@ export class ClipAnswers {
   #formInSteps(answers: Answers, node: NodeVertices, allowance: FrameAllowance): boolean {
     while (allowance.grants()) {
       if (this.#forming?.answers !== answers || this.#forming.node !== node) {
-        this.#forming = { answers, node, steps: answers.volumes!.forNodeInSteps(node) };
+        this.#forming = { answers, node, steps: answers.volumes!.forNodeInSteps(node.onGlobe ?? node) };
       }
       const { done, value } = this.#forming.steps.next();
       if (!done) continue;

@@ -26,7 +26,12 @@ export type {
   UniformType,
   UniformValues,
 } from "./declaration/shader.js";
-export { encodeVisibleOctree, type VisibleNode, type VisibleOctree } from "./declaration/visible-octree.js";
+export {
+  columnMajor,
+  encodeVisibleOctree,
+  type VisibleNode,
+  type VisibleOctree,
+} from "./declaration/visible-octree.js";
 export {
   type EffectPlan,
   type LedgerRow,

@@ -26,17 +26,22 @@ export class LayerDrawing {
   #style: PointCloudStyle | undefined;
   #filter: PointFilter | undefined;
   #forced: Forced = {};
+  readonly #changed: () => void;
   #clips = new ClipSet();
+  /** Stops listening to the volumes. */
+  #unwatch: () => void = () => undefined;
   #maximumScreenSpaceError = 2;
   #pointBudget: number;
   #budget: SharedBudget | undefined;
 
-  constructor(options: DrawingOptions) {
+  /** @param changed called when a volume comes, goes or is another */
+  constructor(options: DrawingOptions, changed: () => void) {
+    this.#changed = changed;
     const { style, filter, forced, clips, maximumScreenSpaceError = 2, pointBudget, budget } = options;
     if (style) this.#parts.push(style);
     this.#filter = filter;
     this.#forced = forced ?? {};
-    this.#clips = clips ?? this.#clips;
+    this.clips = clips;
     this.#maximumScreenSpaceError = maximumScreenSpaceError;
     this.#budget = budget;
     this.#pointBudget = pointBudget ?? (budget ? Number.POSITIVE_INFINITY : 1_000_000);
@@ -105,6 +110,8 @@ export class LayerDrawing {
 
   set clips(clips: ClipSet | undefined) {
     this.#clips = clips === undefined ? new ClipSet() : checkDrawingOption("clips", clips);
+    this.#unwatch();
+    this.#unwatch = this.#clips.onChange(this.#changed);
     this.revision++;
   }
 
@@ -133,5 +140,10 @@ export class LayerDrawing {
   set budget(budget: SharedBudget | undefined) {
     this.#budget = budget === undefined ? undefined : checkDrawingOption("budget", budget);
     this.revision++;
+  }
+
+  /** Listens to volumes no more. */
+  destroy(): void {
+    this.#unwatch();
   }
 }

@@ -1,7 +1,10 @@
 import type { DrawnNode } from "../drawing/drawn-node.js";
+import type { Gpu } from "../drawing/gpu.js";
 import { NodeBuffers } from "../drawing/node-buffers.js";
 import type { UploadedNode } from "../drawing/node-uploads.js";
 import type { AttributeSet } from "../drawing/vertex-attributes.js";
+import { columnMajor } from "../effects/index.js";
+import type { NodeVertices } from "../workers/index.js";
 import type { GlTypes } from "./engine/gl-objects.js";
 
 /** What a map draws with. */
@@ -12,8 +15,19 @@ export interface MapView extends GlTypes {
 /** A node as a frame shows it on a map. */
 export type MapNode = DrawnNode<MapView>;
 
+/** Places as they are: 3 rows of 4. */
+const STAYS = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
+
 /** A node on the GPU. */
 export class NodeDrawable extends NodeBuffers<GlTypes> implements UploadedNode {
+  /** Node frame → its frame on the globe, column-major. */
+  readonly onGlobe: readonly number[];
+
+  constructor(gpu: Gpu<GlTypes>, vertices: NodeVertices) {
+    super(gpu, vertices);
+    this.onGlobe = columnMajor(vertices.onGlobe?.fromMap ?? STAYS);
+  }
+
   /** From above, a height that all points are lifted by does not show. */
   lift(): void {}
 

@@ -51,7 +51,7 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
   constructor(options: PointCloudLayerOptions = {}) {
     const { drawing, layer } = drawingOptions(options);
     super(layer);
-    this.#drawing = new LayerDrawing(drawing);
+    this.#drawing = new LayerDrawing(drawing, () => this.changed());
   }
 
   /** How points are drawn; undefined until the data set is open. Assigning some of the properties leaves the others. */
@@ -174,6 +174,11 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
     return new MapRenderer(this, this.#drawing, (error) =>
       this.dispatchEvent(new PointCloudErrorEvent(error)),
     );
+  }
+
+  override disposeInternal(): void {
+    this.#drawing.destroy();
+    super.disposeInternal();
   }
 
   override unrender(): void {

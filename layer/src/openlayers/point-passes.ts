@@ -40,6 +40,7 @@ export function drawPoints(
     const { program, reads } = programOf(node);
     if (program !== used) program.use(node.uniforms);
     used = program;
+    node.uniforms.set({ u_onGlobe: node.uploaded.onGlobe });
     for (const world of camera.worlds) {
       node.uniforms.set({ u_modelView: camera.modelView(node.uploaded.vertices.frame.origin, world) });
       program.useNode(node.uniforms);

@@ -17,9 +17,10 @@ const PIXEL_SHARE = 0.1;
  */
 export function projectionOfMap(projection: Projection, finest: number, file: string): MapProjection {
   const code = projection.getCode();
-  const definition: object | undefined = proj4.defs(code);
-  const metresPerUnit = projection.getMetersPerUnit();
-  if (!definition || !metresPerUnit) throw notRegistered(code, file);
+  const definition: { readonly to_meter?: number } | undefined = proj4.defs(code);
+  if (!definition) throw notRegistered(code, file);
+  // OpenLayers knows of no unit where the definition names none: metres, then.
+  const metresPerUnit = projection.getMetersPerUnit() ?? definition.to_meter ?? 1;
   const tolerance = Math.max(FINEST, PIXEL_SHARE * finest * metresPerUnit);
   return { code, definition, metresPerUnit, wraps: projection.canWrapX(), tolerance };
 }

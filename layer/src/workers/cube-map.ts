@@ -30,7 +30,7 @@ export function cubeMap(
   const low = [domain.minX, domain.minY, domain.minZ];
   const high = [domain.maxX, domain.maxY, domain.maxZ];
   const middle = low.map((from, axis) => (from + high[axis]) / 2);
-  const step = low.map((from, axis) => Math.max((high[axis] - from) / 2, LEAST_STEP * size));
+  const step = stepsOver(low, high, size);
   // Columns: metres of the node frame per edge of the cube along x, y and z.
   const columns = [0, 1, 2].map((axis) => {
     const at = (sign: number) =>
@@ -95,7 +95,7 @@ function roundingOf(toCube: Float32Array, box: Float32Array): number {
 }
 
 /** A place in the node frame, metres, float64. */
-function localOf(placement: Placement, [x, y, z]: readonly number[]): number[] {
+export function localOf(placement: Placement, [x, y, z]: readonly number[]): number[] {
   const ecef = new Float64Array(3);
   place(placement, x, y, z, ecef);
   const { origin, rotation } = placement.frame;
@@ -105,8 +105,13 @@ function localOf(placement: Placement, [x, y, z]: readonly number[]): number[] {
   );
 }
 
+/** Least half extents of the box that a map is sampled over. */
+export function stepsOver(low: readonly number[], high: readonly number[], size: number): number[] {
+  return low.map((from, axis) => Math.max((high[axis] - from) / 2, LEAST_STEP * size));
+}
+
 /** Inverse of a 3 × 3 matrix given by its columns, by its rows; zeros where it has none. */
-function invert([a, b, c]: readonly (readonly number[])[]): number[][] {
+export function invert([a, b, c]: readonly (readonly number[])[]): number[][] {
   const rows = [cross(b, c), cross(c, a), cross(a, b)];
   const determinant = a[0] * rows[0][0] + a[1] * rows[0][1] + a[2] * rows[0][2];
   return rows.map((row) => row.map((value) => (determinant === 0 ? 0 : value / determinant)));

@@ -14,6 +14,7 @@ export type {
   DataSetSpec,
   NodeExecutor,
   NodeJob,
+  NodeOnGlobe,
   NodeRecords,
   NodeVertices,
   RecordedNode,

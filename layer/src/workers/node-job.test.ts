@@ -1,4 +1,4 @@
-import { ecefToGeodetic, placePoint, resolveCrs } from "@groma/georef";
+import { ecefToGeodetic, placePoint, pointIn, resolveCrs } from "@groma/georef";
 import { beforeAll, describe, expect, it } from "vitest";
 import { recordFields } from "../sources/las/record-fields.js";
 import type { Decoders } from "./decoders.js";
@@ -240,5 +240,59 @@ describe("runNodeJob", () => {
     expect(() => prepareDataSet({ ...plain, transformation: transformation.slice(0, 99) })).toThrow(
       expect.objectContaining({ code: "RECORD_TRUNCATED" }),
     );
+  });
+});
+
+describe("a node job for a map", () => {
+  const plane = {
+    ...{
+      code: "EPSG:3857",
+      definition: "+proj=merc +a=6378137 +b=6378137 +nadgrids=@null",
+      metresPerUnit: 1,
+    },
+    ...{ wraps: true, middle: (9 * Math.PI) / 180, own: false },
+  };
+
+  it("places in its plane, to the bound, with heights above the ellipsoid", async () => {
+    const dataSet = prepareDataSet({ ...plain, plane });
+    const vertices = await runNodeJob(dataSet, job, decoders);
+    const { frame, positions, columns, bound } = vertices;
+    expect(bound).toBeLessThanOrEqual(0.001);
+    for (let point = 0; point < vertices.count; point++) {
+      const want = placeOf(dataSet, vertices, point);
+      const got = [0, 1, 2].map((axis) => frame.origin[axis] + positions[3 * point + axis]);
+      expect(Math.hypot(...got.map((value, axis) => value - want[axis]))).toBeLessThanOrEqual(bound);
+      const { data, offset, bound: off } = columns.get("ellipsoidalHeight")!;
+      expect(Math.abs(data[point] + offset - want[2])).toBeLessThanOrEqual(off);
+    }
+    // Web Mercator is 1.5 times as wide here, and begins at the equator.
+    expect(frame.origin[1]).toBeGreaterThan(6.3e6);
+    expect([...frame.rotation]).toEqual([1, 0, 0, 0, 1, 0, 0, 0, 1]);
+  });
+
+  it("tells where it lies on the globe, for volumes, to the error that it states", async () => {
+    const dataSet = prepareDataSet({ ...plain, plane });
+    const vertices = await runNodeJob(dataSet, job, decoders);
+    const { frame, box, fromMap, error } = vertices.onGlobe!;
+    const globe = prepareDataSet(plain);
+    let worst = 0;
+    for (let point = 0; point < vertices.count; point++) {
+      const [x, y, z] = placeOf(globe, vertices, point);
+      const want = pointIn(frame, x, y, z);
+      const at = vertices.positions.subarray(3 * point, 3 * point + 3);
+      const got = [0, 4, 8].map((row) =>
+        at.reduce((sum, value, k) => sum + fromMap[row + k] * value, fromMap[row + 3]),
+      );
+      worst = Math.max(worst, Math.hypot(...got.map((value, axis) => value - want[axis])));
+      for (let axis = 0; axis < 3; axis++) {
+        expect(want[axis]).toBeGreaterThanOrEqual(box[axis]);
+        expect(want[axis]).toBeLessThanOrEqual(box[axis + 3]);
+      }
+    }
+    expect(worst).toBeLessThanOrEqual(error + 0.001);
+    // A kilometre bends away by some centimetres; a wrong turn or scale would cost metres.
+    expect(error).toBeGreaterThan(0.005);
+    expect(error).toBeLessThan(0.2);
+    expect((await runNodeJob(globe, job, decoders)).onGlobe).toBeUndefined();
   });
 });

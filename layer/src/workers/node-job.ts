@@ -3,7 +3,9 @@ import {
   eastNorthUp,
   fitPlacement,
   levelFrame,
+  type PointTransform,
   placeIntegers,
+  pointTransform,
   type Truth,
   truthOf,
   truthOnMap,
@@ -12,6 +14,7 @@ import { badChunk } from "./chunk-layout.js";
 import { cubeMap } from "./cube-map.js";
 import { type Decoders, decode } from "./decoders.js";
 import { drawingOrder } from "./drawing-order.js";
+import { onGlobe } from "./globe-map.js";
 import { cellGrid } from "./morton-sort.js";
 import { makeArrays } from "./node-columns.js";
 import { checkNodeSize } from "./node-size.js";
@@ -30,6 +33,8 @@ import { integerBox, positionBox } from "./records.js";
 export interface PreparedDataSet {
   readonly spec: DataSetSpec;
   readonly truth: Truth;
+  /** Source coordinates → ECEF, of a data set that is placed on a map. */
+  readonly globe?: PointTransform;
 }
 
 /** Makes the map of a data set. @throws CrsError, RecordError */
@@ -37,7 +42,9 @@ export function prepareDataSet(spec: DataSetSpec): PreparedDataSet {
   const { plane, heights, file, crs } = spec;
   const middle = (heights[0] + heights[1]) / 2;
   const truth = truthOf(spec, middle, file);
-  return { spec, truth: plane ? truthOnMap(truth, plane, middle, crs.verticalUnit.size, file) : truth };
+  if (!plane) return { spec, truth };
+  const onMap = truthOnMap(truth, plane, middle, crs.verticalUnit.size, file);
+  return { spec, truth: onMap, globe: pointTransform(truth) };
 }
 
 /**
@@ -45,7 +52,7 @@ export function prepareDataSet(spec: DataSetSpec): PreparedDataSet {
  * @throws DecodeError, PlacementError
  */
 export async function runNodeJob(
-  { spec, truth }: PreparedDataSet,
+  { spec, truth, globe }: PreparedDataSet,
   job: NodeJob,
   decoders: Decoders,
 ): Promise<NodeVertices> {
@@ -69,6 +76,7 @@ export async function runNodeJob(
     ...{ count, frame, bound, scheme, box: local, bytes: arrays.buffer.byteLength },
     extent: Float64Array.of(minX, minY, minZ, maxX, maxY, maxZ),
     ...cubeMap(placement, job.cube, spec, { xyz, order }, arrays.positions, local),
+    ...(globe && { onGlobe: onGlobe(globe, placement, domain, job.cube[3]) }),
   };
 }
 

@@ -86,8 +86,20 @@ export interface Column {
   readonly bound: number;
 }
 
+/** Where a node that is placed on a map lies on the globe: what volumes, which stand there, are held against. */
+export interface NodeOnGlobe {
+  /** East-north-up at the middle of the node's points: local metres → ECEF. */
+  readonly frame: Frame;
+  /** Box in that frame that the points lie in: min x, y, z, max x, y, z, metres. */
+  readonly box: Float32Array;
+  /** Affine map, 3 rows of 4: node frame on the map → that frame, metres. */
+  readonly fromMap: Float32Array;
+  /** Greatest distance of a place from its exact one, metres, as far as was looked. */
+  readonly error: number;
+}
+
 /**
- * A node ready to be drawn. All typed arrays but `box`, `extent`, `toCube` and the frame's are views of one {@link buffer},
+ * A node ready to be drawn. All typed arrays but `box`, `extent`, `toCube`, those of `onGlobe` and the frame's are views of one {@link buffer},
  * which is transferred.
  */
 export interface NodeVertices {
@@ -119,6 +131,8 @@ export interface NodeVertices {
   readonly toCube: Float32Array;
   /** Greatest distance of a point's place in the cube from its exact one, per axis, as share of the cube. */
   readonly toCubeError: number;
+  /** Of a node that is placed on a map; undefined where it has no place on the globe. */
+  readonly onGlobe?: NodeOnGlobe | undefined;
   /** What the node's own points look like; only where the job gave no appearance. */
   readonly seen: Appearance | undefined;
   /** Bytes of {@link buffer}. */

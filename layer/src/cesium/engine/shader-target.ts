@@ -54,6 +54,7 @@ export const CESIUM: ShaderTarget = {
     projection: "czm_projection",
     viewport: "czm_viewport",
     pixelRatio: "czm_pixelRatio",
+    onGlobe: "a_position",
   },
   uniforms: [
     { name: "u_pickColor", type: "vec4", scope: "view" },

@@ -9,6 +9,6 @@ export const CLIP_READING = {
     { name: "u_clipRecords", type: "vec2", scope: "node" },
   ] satisfies UniformDeclaration[],
   functions: CLIP_ROLES,
-  locate: "ivec4 roles = clipRoles(a_position);",
+  locate: "ivec4 roles = clipRoles($onGlobe);",
   values: ({ clips }: DrawnNode): UniformValues => ({ u_clipRecords: clips }),
 } as const;

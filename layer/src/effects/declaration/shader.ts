@@ -14,8 +14,11 @@ export interface UniformDeclaration {
 /** Values of uniforms by name; matrices are column-major. */
 export type UniformValues = Readonly<Record<string, number | readonly number[]>>;
 
-/** What shaders say as `$word`: the matrices node frame → eye → clip, the viewport and pixels per CSS pixel. */
-export type ShaderWord = "modelView" | "projection" | "viewport" | "pixelRatio";
+/**
+ * What shaders say as `$word`: the matrices node frame → eye → clip, the viewport, pixels per CSS pixel, and the point's
+ * place in the frame that its node has on the globe.
+ */
+export type ShaderWord = "modelView" | "projection" | "viewport" | "pixelRatio" | "onGlobe";
 
 /** The GLSL of a view: what a shader calls by another name in each, and what a view adds to it. */
 export interface ShaderTarget {

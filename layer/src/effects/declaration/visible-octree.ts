@@ -57,7 +57,7 @@ export const OCTREE_READING = {
 } as const;
 
 /** A 3 × 4 matrix, row by row, as 4 × 4, column by column. */
-function columnMajor(rows: ArrayLike<number>): number[] {
+export function columnMajor(rows: ArrayLike<number>): number[] {
   return [
     ...[rows[0], rows[4], rows[8], 0],
     ...[rows[1], rows[5], rows[9], 0],

@@ -93,7 +93,7 @@ export class GlProgram implements Destroyable {
 
 /** Matrices of a node change with it, although the view fills them. */
 function isOfNode({ scope, name }: UniformDeclaration): boolean {
-  return scope === "node" || name === "u_modelView";
+  return scope === "node" || name === "u_modelView" || name === "u_onGlobe";
 }
 
 function compile(gl: WebGL2RenderingContext, type: number, text: string): WebGLShader {
