@@ -84,7 +84,7 @@ it("a LAZ that lacks points is truncated, as a LAS is; what is there can be had"
   bytes.writeBigUInt64LE(4980n, 247);
   if (bytes.readUInt32LE(107) > 0) bytes.writeUInt32LE(4980, 107);
   put("short.copc.laz", bytes);
-  const lost = /4980 points are announced, the chunk table leads to 4970; .* 10 are not in the file/;
+  const lost = /the chunk table covers 4970 of 4980 points; .* 10 are not in the file/;
   const made = await groma("convert", "short.copc.laz", "rest.copc.laz", "--progress", "json");
   expect(last(made)).toMatchObject({ event: "done", points: 4970 });
   expect(made.stdout).toMatch(lost);
@@ -134,6 +134,6 @@ describe("groma info --verify", () => {
 
   it("decodes the points of a file without checksums", async () => {
     const { stdout } = await groma("info", "good.las", "--verify");
-    expect(stdout).toMatch(/^checksums +none stored; 1 part with 4,970 points decode$/m);
+    expect(stdout).toMatch(/^checksums +none stored; 1 chunk with 4,970 points decode$/m);
   });
 });

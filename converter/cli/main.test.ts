@@ -319,6 +319,16 @@ describe("the command line", () => {
     ]);
   });
 
+  it("helps where no command is given, and names the command whose options are wrong", async () => {
+    const bare = await groma();
+    expect([bare.code, bare.stdout]).toEqual([1, ""]);
+    expect(bare.stderr).toMatch(/^Usage: groma .*\n[\s\S]*convert .*<paths\.\.\.>/);
+    const { stderr } = await groma("convert", "--colour", "a.las", "b.copc.laz");
+    expect(stderr).toMatch(
+      /^OPTION_INVALID: groma: unknown option '--colour'.*Run groma convert --help\.\n$/,
+    );
+  });
+
   it("helps with exit code 0", async () => {
     const { code, stdout } = await groma("--help");
     expect(code).toBe(0);

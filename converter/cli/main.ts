@@ -1,4 +1,3 @@
-#!/usr/bin/env node
 // What a command needs is loaded when it is run, so that help and refused options come at once.
 import { Command, CommanderError, InvalidArgumentError, Option } from "commander";
 import { PROGRESS_KINDS, SAMPLINGS } from "./given/choices.js";
@@ -135,7 +134,7 @@ program
   .description("show contents, location and accuracy of a LAS, LAZ or COPC file")
   .argument("<file>")
   .option("--json", "print JSON")
-  .option("--verify", "read all points and hold them against their checksums")
+  .option("--verify", "read all points and verify their checksums")
   .action(async (file: string, options) => (await import("./commands/info.js")).runInfo(file, options));
 
 program
@@ -237,7 +236,10 @@ try {
   await program.parseAsync();
 } catch (error) {
   if (!(error instanceof CommanderError)) fail(error);
-  else if (error.exitCode !== 0) {
+  else if (error.code === "commander.help") {
+    process.exitCode = 1;
+    complain(program.helpInformation().trimEnd().split("\n"));
+  } else if (error.exitCode !== 0) {
     const cause = error.message
       .replace(/^error: /, "")
       .replace(/\.$/, "")
@@ -249,5 +251,7 @@ try {
 /** An error like all others, told without what they need. */
 function refuse(cause: string): void {
   process.exitCode = 1;
-  complain([`OPTION_INVALID: groma: ${cause}. Run groma --help.`]);
+  const [given] = process.argv.slice(2);
+  const command = program.commands.find((one) => one.name() === given);
+  complain([`OPTION_INVALID: groma: ${cause}. Run groma ${command ? `${command.name()} ` : ""}--help.`]);
 }

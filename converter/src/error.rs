@@ -36,6 +36,7 @@ pub enum Error {
     Mixed(Detail),
     /// The output is there already, and overwriting was not asked for.
     OutputExists(Detail),
+    OutputInput(Detail),
     /// The output's name says that it is something else than LAZ.
     OutputName(Detail),
     /// The output cannot be written.
@@ -72,6 +73,7 @@ constructors! {
     format => Format,
     mixed => Mixed,
     output_exists => OutputExists,
+    output_input => OutputInput,
     output_name => OutputName,
     output_write => OutputWrite,
     temp_space => TempSpace,
@@ -122,6 +124,7 @@ impl Error {
             Self::Format(_) => "INPUT_FORMAT".into(),
             Self::Mixed(_) => "INPUT_MIXED".into(),
             Self::OutputExists(_) => "OUTPUT_EXISTS".into(),
+            Self::OutputInput(_) => "OUTPUT_INPUT".into(),
             Self::OutputName(_) => "OUTPUT_NAME".into(),
             Self::OutputWrite(_) => "OUTPUT_WRITE".into(),
             Self::TempSpace(_) => "TEMP_SPACE".into(),
@@ -143,6 +146,7 @@ impl Error {
             | Self::Format(d)
             | Self::Mixed(d)
             | Self::OutputExists(d)
+            | Self::OutputInput(d)
             | Self::OutputName(d)
             | Self::OutputWrite(d)
             | Self::TempSpace(d)
@@ -174,12 +178,13 @@ impl Error {
             Self::Format(_) => "Write the file as LAS 1.0 to 1.4 with a point format from 0 to 10",
             Self::Mixed(_) => "Convert the files one by one, or bring them to one form first",
             Self::OutputExists(_) => "Choose another name or pass --overwrite",
+            Self::OutputInput(_) => "Choose another name for the output",
             Self::OutputName(_) => "Give the output a name that ends in .copc.laz",
             Self::OutputWrite(_) => "Check that the folder is there, writable and has room",
             Self::TempSpace(_) => "Make room, choose another folder with --temp-dir, or allow more --memory",
             Self::TempFile(_) => "Check the folder for scratch files, or choose another with --temp-dir",
-            Self::Option("MEMORY", _) => "Give --memory a larger value",
-            Self::Option(..) => "See groma-core convert --help",
+            Self::Option("MEMORY", _) => "Give --memory a larger size, such as 512MB or 2GB",
+            Self::Option(..) => "See groma convert --help",
             Self::Interrupted(_) => "Run the command again",
             Self::Internal(_) => "Report it with the input: it is a fault of this program",
         }

@@ -138,7 +138,7 @@ pub fn parse_size(text: &str) -> Result<u64> {
         "m" | "mb" | "mib" => MIB,
         "g" | "gb" | "gib" => 1 << 30,
         "t" | "tb" | "tib" => 1u64 << 40,
-        _ => return Err(Error::option("MEMORY", format!("`{text}` has an unknown unit"))),
+        _ => return Err(Error::option("MEMORY", format!("`{text}` is not a size"))),
     };
     match number.parse::<f64>() {
         Ok(value) if value > 0.0 && value * (factor as f64) < u64::MAX as f64 => {

@@ -3,7 +3,7 @@ import { statedAccuracy } from "@groma/georef";
 import { pdalInWords } from "../pdal/report.js";
 import { accuracyInWords, placeInWords, remarks } from "../place/describe.js";
 import { centreRow } from "../place/whereabouts.js";
-import { count, counted, labelled, length, size, skippedRow } from "../terminal/output.js";
+import { count, counted, labelled, length, rounded, size, skippedRow } from "../terminal/output.js";
 import type { Converted } from "./convert.js";
 
 /** What a conversion made, for machines: the last of its JSON lines. */
@@ -27,7 +27,7 @@ export function summaryForMachines({ georeferenced, whereabouts, records, ...sum
 /** What a conversion made, for people. */
 export function summaryInWords(converted: Converted): string[] {
   const { output, points, nodes, bytes, seconds } = converted;
-  const each = `${(bytes / points).toPrecision(2)} bytes per point`;
+  const each = `${rounded(bytes / points, 2)} bytes per point`;
   const rate = seconds > 0 ? `, ${count(Math.round(points / seconds))} points/s` : "";
   const first = `${basename(output)}  ${counted(points, "point")} in ${counted(nodes, "node")}  ${size(bytes)} (${each})  ${seconds.toFixed(1)} s${rate}`;
   return [first, ...placeSummary(converted)];

@@ -115,4 +115,15 @@ describe.skipIf(missing)(`what is told of a file${missing}`, () => {
     expect(inspection.octree).toBeUndefined();
     expect(report(inspection).join("\n")).toMatch(/^octree +FORMAT_HIERARCHY: /m);
   });
+
+  it("tells of a file that holds fewer points than it declares", async () => {
+    const whole = readFileSync(join(data, "las-variants/las__simple.las"));
+    const short = join(folder, "short.las");
+    writeFileSync(short, whole.subarray(0, whole.length - 100));
+    const { scan } = await inspect(short);
+    expect(scan.warnings).toContainEqual(
+      expect.stringMatching(/^the header declares [\d,]+ points, the file holds [\d,]+: it is incomplete$/),
+    );
+    expect((await inspect(join(data, "las-variants/las__simple.las"))).scan.warnings).toEqual([]);
+  });
 });

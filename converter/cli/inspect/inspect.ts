@@ -4,6 +4,7 @@ import { FileSource } from "../files/file-source.js";
 import { type GeodeticBounds, geodeticBounds } from "../place/describe.js";
 import { type Placed, placed } from "../place/placed.js";
 import { type Whereabouts, whereabouts } from "../place/whereabouts.js";
+import { count, counted } from "../terminal/output.js";
 import { type GpsSpan, gpsSpan } from "./gps-time.js";
 import { type HeaderDetails, headerDetails } from "./header.js";
 import type { Octree } from "./octree.js";
@@ -46,7 +47,7 @@ export async function inspect(file: string, verify = false): Promise<Inspection>
   try {
     const header = await headerDetails(source);
     const { octree, octreeProblem } = declared.copc ? await octreeOf(source) : noOctree;
-    const scan = checked(declared, octree);
+    const scan = checked(declared, header, octree);
     const whole = scan.groma?.["2"];
     const taken = whole ? undefined : await sample(source, scan, header, octree);
     const statistics = whole ?? taken?.statistics;
@@ -63,8 +64,13 @@ export async function inspect(file: string, verify = false): Promise<Inspection>
 
 const nowhere: Whereabouts = { centre: undefined, notes: [] };
 
-/** The scan as its header declares it, but for what the octree proves wrong. */
-function checked(scan: Scan, octree: Octree | undefined): Scan {
+/** The scan as its header declares it, but for what the octree proves wrong, and what is not in the file. */
+function checked(declared: Scan, { pointsOffset }: HeaderDetails, octree: Octree | undefined): Scan {
+  const { compressed, points, fileSize, recordLength } = declared;
+  const there = Math.max(0, Math.floor((fileSize - pointsOffset) / recordLength));
+  const short = `the header declares ${counted(points, "point")}, the file holds ${count(there)}: it is incomplete`;
+  const isShort = !compressed && there < points;
+  const scan = isShort ? { ...declared, warnings: [...declared.warnings, short] } : declared;
   if (!octree || octree.source.warnings.length === 0) return scan;
   const { boundingBox, warnings } = octree.source;
   const { min, max } = boundingBox;

@@ -8,7 +8,7 @@ import {
   remarks,
 } from "../place/describe.js";
 import { centreRow } from "../place/whereabouts.js";
-import { count, counted, labelled, length, size } from "../terminal/output.js";
+import { atMost, count, counted, fixed, labelled, length, rounded, size } from "../terminal/output.js";
 import { className } from "./classes.js";
 import { gpsSpanInWords } from "./gps-time.js";
 import type { HeaderDetails } from "./header.js";
@@ -43,7 +43,7 @@ function headed(label: string, texts: readonly string[]): Row[] {
 
 function fileRows(scan: Scan): Row[] {
   const kind = scan.copc ? "COPC" : scan.compressed ? "LAZ" : "LAS";
-  const each = scan.points > 0 ? `, ${(scan.fileSize / scan.points).toPrecision(3)} bytes per point` : "";
+  const each = scan.points > 0 ? `, ${rounded(scan.fileSize / scan.points, 3)} bytes per point` : "";
   const written = [scan.generatingSoftware, scan.systemIdentifier, scan.creation].filter(Boolean).join(", ");
   return [
     ["file", `${scan.file}  ${size(scan.fileSize)}${each}`],
@@ -73,7 +73,7 @@ function placeRows({ place, problem, whereabouts, accuracy }: Inspection): Row[]
     ["height", heightInWords(crs, place.geoids)],
     ["accuracy", accuracyInWords(accuracy, crs)],
     ...accuracy.map(({ name, metres, note }): Row => {
-      const worth = metres === null ? "unknown" : length(metres);
+      const worth = metres === null ? "unknown" : atMost(metres);
       return [`  ${name}`, `${worth}${note ? `  ${note}` : ""}`];
     }),
   ];
@@ -84,7 +84,7 @@ const axes = ["x", "y", "z"] as const;
 function boundsRows({ scan, place, bounds }: Inspection): Row[] {
   const perArea = place && density(scan, place.crs);
   const range = (axis: number) =>
-    [scan.min, scan.max].map((corner) => rounded(corner[axis]!, scan.scale[axis]!)).join(" … ");
+    [scan.min, scan.max].map((corner) => toStep(corner[axis]!, scan.scale[axis]!)).join(" … ");
   return [
     ["bounds", axes.map((name, axis) => `${name} ${range(axis)}`).join("   ")],
     ...(place
@@ -96,7 +96,7 @@ function boundsRows({ scan, place, bounds }: Inspection): Row[] {
       : [
           [
             "density",
-            `${perArea.toPrecision(3)} points per m², ${length(1 / Math.sqrt(perArea))} apart, over the rectangle of the bounds`,
+            `${rounded(perArea, 3)} points per m², ${length(1 / Math.sqrt(perArea))} apart, over the rectangle of the bounds`,
           ] as const,
         ]),
   ];
@@ -110,12 +110,12 @@ function unitOf(axis: number, place: Inspection["place"]): string {
 
 function onEarth({ west, east, south, north, lowest, highest }: GeodeticBounds): string {
   const range = (from: number, to: number) => `${from.toFixed(6)} … ${to.toFixed(6)}°`;
-  const height = `${lowest.toFixed(2)} … ${highest.toFixed(2)} m`;
+  const height = `${fixed(lowest, 2)} … ${fixed(highest, 2)} m`;
   return `longitude ${range(west, east)}   latitude ${range(south, north)}   height ${height}`;
 }
 
 /** A coordinate with the digits that its step has: more of them are noise of binary fractions. */
-function rounded(value: number, step: number): string {
+function toStep(value: number, step: number): string {
   const digits = Math.min(12, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)));
   return Number.isFinite(value) && Number.isFinite(digits) ? value.toFixed(digits) : String(value);
 }
@@ -184,8 +184,8 @@ function countsInWords(counts: readonly (readonly [number, number])[]): string {
 function checksumsInWords({ scan, verified }: Inspection): string {
   if (!verified)
     return scan.checksums ? `${scan.checksums} of each node; --verify checks them` : "none stored";
-  const what = `${counted(verified.parts, "part")} with ${counted(verified.points, "point")}`;
-  return verified.checksums ? `${what}, each as its checksum says` : `none stored; ${what} decode`;
+  const what = `${counted(verified.parts, "chunk")} with ${counted(verified.points, "point")}`;
+  return verified.checksums ? `${what} verified, all checksums match` : `none stored; ${what} decode`;
 }
 
 /** @param unit of x and y, in which the spacing is */

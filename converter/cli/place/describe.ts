@@ -10,7 +10,7 @@ import {
 } from "@groma/georef";
 import type { Scan } from "../core/core.js";
 import { howToGet } from "../proj/grids/current-names.js";
-import { length } from "../terminal/output.js";
+import { atMost } from "../terminal/output.js";
 import type { Placed } from "./placed.js";
 
 const DEGREE = Math.PI / 180;
@@ -95,24 +95,24 @@ export function placeInWords(
     return `${whole} → ECEF by a similarity transformation${residualsInWords(accuracy)}`;
   const grids = operation?.grids ?? [];
   const by = `${engine.name} ${engine.version}${grids.length > 0 ? ` (${grids.map(stem).join(", ")})` : ""}`;
-  const fit = fitBound === undefined ? "" : `, fit ≤ ${length(fitBound)}`;
+  const fit = fitBound === undefined ? "" : `, fit ≤ ${atMost(fitBound)}`;
   return `${whole} → ECEF by ${by}${fit}${operation ? `, operation ${operationInWords(operation)}` : ""}`;
 }
 
 function operationInWords({ accuracy, ballpark }: OperationReport): string {
   if (ballpark) return "without a datum shift";
-  return accuracy === null ? "of unknown accuracy" : length(accuracy);
+  return accuracy === null ? "of unknown accuracy" : atMost(accuracy);
 }
 
 function residualsInWords(accuracy: readonly AccuracyPart[]): string {
   const worst = accuracy.find(({ name }) => name === "control points")?.metres;
-  return typeof worst === "number" ? `, residuals ≤ ${length(worst)}` : "";
+  return typeof worst === "number" ? `, residuals ≤ ${atMost(worst)}` : "";
 }
 
 /** The total of an accuracy, or why it is unknown. */
 export function accuracyInWords(parts: readonly AccuracyPart[], crs: Pick<Crs, "height">): string {
   const { total } = statedAccuracy(parts);
-  return total === null ? unknownTotal(parts, crs) : `${length(total)} in total`;
+  return total === null ? unknownTotal(parts, crs) : `${atMost(total)} in total`;
 }
 
 /** Why the accuracies of the parts do not add up: `total accuracy unknown: height reference not declared`. */
@@ -130,7 +130,7 @@ function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "hei
 export function remarks(operation: OperationReport | undefined): string[] {
   if (!operation) return [];
   const lacking = operation.lacking.map(({ name, accuracy, grids }) => {
-    const worth = accuracy === null ? "" : ` (${length(accuracy)})`;
+    const worth = accuracy === null ? "" : ` (${atMost(accuracy)})`;
     return `more accurate with ${grids.join(", ")}: ${name}${worth}`;
   });
   const missing = [...new Set(operation.lacking.flatMap(({ grids }) => grids))];

@@ -85,13 +85,39 @@ export function counted(value: number, noun: string): string {
   return `${count(value)} ${noun}${value === 1 ? "" : "s"}`;
 }
 
+/** A number rounded to so many digits: `14,300`, `0.135`. */
+export function rounded(value: number, digits: number): string {
+  return Number(value.toPrecision(digits)).toLocaleString("en-US", { maximumSignificantDigits: digits });
+}
+
+/** A number with so many digits behind the point, and never `-0.00`. */
+export function fixed(value: number, digits: number): string {
+  return (Number(value.toFixed(digits)) + 0).toFixed(digits);
+}
+
+const upwards = new Intl.NumberFormat("en-US", {
+  maximumSignificantDigits: 2,
+  roundingMode: "ceil",
+  useGrouping: false,
+} as Intl.NumberFormatOptions);
+
+/** An accuracy in metres as people say it, rounded up: what is stated is never less than what is known. */
+export function atMost(metres: number): string {
+  // Units are exact powers of ten; what their product is off by is no accuracy.
+  return inUnit(metres, (value) => upwards.format(Number(value.toPrecision(12))));
+}
+
 /** Metres as people say them: `0.02 mm`, `4.3 cm`, `1.25 m`, `23.4 km`. */
 export function length(metres: number): string {
+  return inUnit(metres, (value) => String(Number(value.toPrecision(3))));
+}
+
+function inUnit(metres: number, inWords: (value: number) => string): string {
   const size = Math.abs(metres);
   if (size === 0) return "0 m";
   const [factor, unit] =
     size < 0.01 ? [1000, "mm"] : size < 1 ? [100, "cm"] : size < 1000 ? [1, "m"] : [0.001, "km"];
-  return `${Number((metres * factor).toPrecision(3))} ${unit}`;
+  return `${inWords(metres * factor)} ${unit}`;
 }
 
 /** Bytes as people say them, powers of ten. */

@@ -1,5 +1,5 @@
 //! Checksums of the nodes' chunks: user id `groma`, record id 4 (docs/record.md). LAZ has none of its own, so that a
-//! damaged chunk may decode to points that nobody has measured.
+//! damaged chunk may decode to wrong points.
 //!
 //! They are CRC-32C (Castagnoli's polynomial, RFC 3720, appendix B.4): four bytes a node, no error within 32 bits in a
 //! row goes unseen, of others one in 2^32, and processors have an instruction for it.

@@ -115,7 +115,7 @@ pub fn chunks(scan: &Scan, vlr: &LazVlr) -> Result<Option<Chunks>> {
         std::cmp::Ordering::Less => rescue(&mut file, scan, vlr, blocks, first..table_at).map(Some),
         std::cmp::Ordering::Greater => Err(Error::corrupt(
             path,
-            format!("{} points are announced, the chunks hold {found}", scan.points),
+            format!("the header declares {} points, the chunks hold {found}", scan.points),
         )),
     }
 }
@@ -132,7 +132,7 @@ fn rescue(
 ) -> Result<Chunks> {
     let known: u64 = listed.iter().map(|block| block.points).sum();
     let end_of = |blocks: &[Block]| blocks.last().map_or(0, |block| block.at + block.bytes);
-    let short = format!("{} points are announced, the chunk table leads to {known}", scan.points);
+    let short = format!("the chunk table covers {known} of {} points", scan.points);
     if is_layered(vlr) {
         let blocks = by_heads(file, vlr, area, scan.points).map_err(|e| Error::reading(&scan.path, &e))?;
         let found: u64 = blocks.iter().map(|block| block.points).sum();
@@ -141,8 +141,8 @@ fn rescue(
         }
         let lost = scan.points - found;
         let rest = match lost {
-            0 => "the chunks themselves tell where all of them are".to_string(),
-            _ => format!("the chunks themselves tell where {found} are, and {lost} are not in the file"),
+            0 => "all were recovered from the chunks".to_string(),
+            _ => format!("{found} were recovered from the chunks, {lost} are not in the file"),
         };
         return Ok(Chunks { blocks, rescued: Some(Rescued { text: format!("{short}; {rest}"), lost }) });
     }
@@ -159,7 +159,7 @@ fn rescue(
     Ok(Chunks {
         blocks: listed,
         rescued: Some(Rescued {
-            text: format!("{short}; the others are taken to be the chunk behind the last one that it lists"),
+            text: format!("{short}; the others are taken from the chunk behind the last one that it lists"),
             lost: 0,
         }),
     })
@@ -225,7 +225,7 @@ fn walk(file: &mut (impl Read + Seek), scan: &Scan, vlr: &LazVlr) -> Result<Vec<
         }
         found += points;
         if points == 0 || found > scan.points {
-            let cause = format!("{} points are announced, the chunks hold {found}", scan.points);
+            let cause = format!("the header declares {} points, the chunks hold {found}", scan.points);
             return Err(Error::corrupt(path, cause));
         }
         blocks.push(Block { at, bytes, points, expected: None });

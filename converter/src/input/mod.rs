@@ -282,7 +282,7 @@ fn plain_blocks(scan: &Scan) -> Result<Vec<Block>> {
     let start = u64::from(scan.header.offset_to_point_data);
     let there = (scan.file_size - start) / length;
     if there < scan.points {
-        let cause = format!("{} points are announced, {there} whole records are there", scan.points);
+        let cause = format!("the header declares {} points, the file holds {there}", scan.points);
         return Err(Error::truncated(&scan.path, cause));
     }
     let blocks = (0..scan.points.div_ceil(BLOCK_POINTS)).map(|index| {

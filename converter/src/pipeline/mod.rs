@@ -88,7 +88,7 @@ impl<'a> Pipeline<'a, Scanned> {
     /// Reads the headers of all inputs. Refuses first an output that must not be written.
     pub fn scan(options: &'a Options, progress: &'a dyn Progress) -> Result<Self> {
         if options.inputs.iter().any(|input| is_same_file(input, &options.output)) {
-            return Err(Error::output_exists(&options.output, "the output is one of the inputs"));
+            return Err(Error::output_input(&options.output, "the output is one of the inputs"));
         }
         output::check_target(&options.output, options.overwrite)?;
         let scans = options.inputs.iter().map(|path| Scan::read(path)).collect::<Result<_>>()?;

@@ -1,7 +1,7 @@
 //! A maximal Poisson-disk sample of the candidates (Schütz 2016, 3.3.1), with the flaws named there (3.3.2)
 //! mended: points are taken in the order of their seeds, which leaves no trace of the input's order, and
-//! keep their distance from the neighbours' points too. Neighbours that choose later are thought along: where their
-//! candidates are known these are rivals as if they were the node's own, so that borders leave no trace; at other faces
+//! keep their distance from the neighbours' points too. Neighbours that are processed later are taken into account: where their
+//! candidates are known these compete as if they were the node's own, so that borders leave no trace; at other faces
 //! stand-ins keep the density even.
 
 use super::{Around, Cell, Scratch};

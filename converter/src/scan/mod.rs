@@ -101,7 +101,7 @@ fn check_signature(reader: &mut BufReader<File>, file_size: u64, path: &Path) ->
     let mut signature = Vec::new();
     reader.by_ref().take(4).read_to_end(&mut signature).map_err(|e| Error::reading(path, &e))?;
     if signature.is_empty() {
-        return Err(Error::magic(path, "the file has no byte"));
+        return Err(Error::magic(path, "the file is empty"));
     }
     if !b"LASF".starts_with(&signature) {
         return Err(Error::magic(path, "the file does not begin with `LASF`"));
@@ -164,8 +164,9 @@ fn warn_of_more(header: &Header, points: u64, file_size: u64, warnings: &mut Vec
     let end = after.into_iter().flatten().filter(|at| *at > start).fold(file_size, u64::min);
     let room = (end - start) / u64::from(header.point_data_record_length.max(1));
     if room > points {
-        warnings
-            .push(format!("{points} points are announced, and {room} have room; the others are passed over"));
+        warnings.push(format!(
+            "the header declares {points} points, the file has room for {room}; the rest is skipped"
+        ));
     }
 }
 

@@ -46,7 +46,7 @@ fn a_short_chunk_table_loses_no_point() {
         });
         bench.put("in.laz", &short);
         let told = warnings(&bench, "INPUT_CORRUPT");
-        assert!(told.contains("2700 points are announced, the chunk table leads to"), "{told}");
+        assert!(told.contains("of 2700 points"), "{told}");
         let whole = bench.put("whole.laz", &laz);
         let found = sorted(records(&bench.path("out.copc.laz")));
         assert!(found == sorted(records(&whole)), "format {format}, {lost}");

@@ -262,6 +262,7 @@ describe("options", () => {
     [{ timeout: "5" }, "options.timeout cannot be"],
     [{ timeout: Number.POSITIVE_INFINITY }, "options.timeout cannot be Infinity"],
     [{ tolerance: Number.NaN }, "options.tolerance cannot be NaN"],
+    [{ tolerance: 0 }, "options.tolerance cannot be 0. Use a number greater than 0"],
     [{ crs: 2056 }, "options.crs cannot be 2056. Use a string"],
     [{ credentials: "included" }, 'Did you mean "include"'],
     [{ retry: { attemps: 2 } }, 'options.retry has no "attemps"'],
@@ -273,6 +274,26 @@ describe("options", () => {
   ])("%o is refused for a data set", async (options, text) => {
     await expect(PointCloud.fromUrl(new Blob(), options)).rejects.toEqual(refused(text));
     await expect(PointCloudLayer.fromUrl(new Blob(), options)).rejects.toEqual(refused(text));
+  });
+
+  it.each([{}, undefined, "site.copc.laz"])("%o is no data set to make a layer of", (cloud) => {
+    expect(() => PointCloudLayer.fromCloud(cloud as never)).toThrow(refused("Use a PointCloud"));
+  });
+
+  it.each([
+    [undefined, "undefined: there is no address"],
+    [5, "5: there is no address"],
+    ["  ", "there is no address"],
+    ["javascript:alert(1)", "addresses with javascript: cannot be read"],
+    ["C:\\scans\\a.laz", "addresses with c: cannot be read"],
+    [new URL("ftp://example.org/a.laz"), "addresses with ftp: cannot be read"],
+  ])("%o is refused as an address, before any request", async (from, text) => {
+    const fetching = vi.spyOn(globalThis, "fetch");
+    await expect(PointCloud.fromUrl(from as never)).rejects.toThrow(
+      expect.objectContaining({ code: "SOURCE_ADDRESS", message: expect.stringContaining(text) }),
+    );
+    expect(fetching).not.toHaveBeenCalled();
+    fetching.mockRestore();
   });
 
   it.each(["show", "maximumScreenSpaceError", "pointBudget", "budget", "clips"] as const)(

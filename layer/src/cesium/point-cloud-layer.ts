@@ -1,6 +1,6 @@
 import { BoundingSphere, Cartesian3, DeveloperError, Event, SceneMode } from "cesium";
 import { ClipSet } from "../clips/index.js";
-import { PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
+import { POINT_CLOUD, PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
 import { LayerFrames } from "../drawing/frame.js";
 import { checkHeightOffset, liftOf } from "../drawing/height-offset.js";
 import {
@@ -15,6 +15,7 @@ import {
   type StyleParts,
 } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
+import { optionPlace } from "../options/index.js";
 import type { FrameState } from "./engine/cesium-private.js";
 import { ContextWatch } from "./engine/context-watch.js";
 import { cameraOfFrame } from "./frame-camera.js";
@@ -128,6 +129,7 @@ export class PointCloudLayer {
    * @throws StyleError
    */
   static fromCloud(cloud: PointCloud, options: PointCloudLayerOptions = {}): PointCloudLayer {
+    POINT_CLOUD.read(cloud, optionPlace("cloud", "PointCloudLayer.fromCloud"));
     return new PointCloudLayer(cloud, checkLayerOptions(options, cloud.name), false);
   }
 

@@ -1,5 +1,6 @@
 import { BUDGET_OPTION, type SharedBudget } from "../octree/index.js";
 import {
+  above,
   type Kind,
   type Kinds,
   kindOf,
@@ -42,7 +43,7 @@ export const CLOUD_OPTIONS: Kinds<PointCloudOptions> = {
   epsg: callback,
   epsgTable: callback,
   heightData: withMethods<HeightData>("an object with the methods systems and egm96", "systems", "egm96"),
-  tolerance: number(0),
+  tolerance: above(0),
   headers: kindOf(
     "an object of headers, or a function that gives them",
     (given): given is NonNullable<PointCloudOptions["headers"]> =>

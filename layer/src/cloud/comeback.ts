@@ -2,7 +2,7 @@ import type { SourceError } from "../errors/index.js";
 import type { OctreeNode } from "../octree/index.js";
 import type { ServerWait } from "../sources/contract/point-source.js";
 
-/** What is known of a node that could not be had for now. */
+/** What is known of a node that is temporarily unavailable. */
 interface Missing {
   readonly fault: SourceError;
   /** Failures so far. */
@@ -49,7 +49,7 @@ export class Comeback {
   }
 
   /**
-   * A node could not be had for now.
+   * A node is temporarily unavailable.
    * @param earliest `Date.now()` before which its server is not to be asked
    * @returns false where it has failed too often while its server served others: it is given up
    */

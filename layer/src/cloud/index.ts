@@ -5,4 +5,4 @@ export { guessHeights, type HeightData } from "./height-data.js";
 export type { MapProjection } from "./map-octrees.js";
 export { NodeStream, type StreamLimits, type StreamListener, type StreamProgress } from "./node-stream.js";
 export type { PlacedOctree } from "./placed-octree.js";
-export { PointCloud } from "./point-cloud.js";
+export { POINT_CLOUD, PointCloud } from "./point-cloud.js";

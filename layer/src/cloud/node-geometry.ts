@@ -40,7 +40,7 @@ export class NodeGeometry {
     this.#unit = kind === "angular" ? size * LEAST_RADIUS_OF_CURVATURE : size;
   }
 
-  /** Goes by another box from now on. */
+  /** Replaces the bounding box. */
   widen(boundingBox: PointSource["boundingBox"]): void {
     this.#source = { cube: this.#source.cube, spacing: this.#source.spacing, boundingBox };
     this.#maps.clear();

@@ -8,10 +8,10 @@ import {
   type StatedAccuracy,
   type Truth,
 } from "@groma/georef";
+import { FormatError } from "../errors/index.js";
 import { type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
-import { checkSignal } from "../options/index.js";
+import { checkSignal, type Kind, SHARED, shared } from "../options/index.js";
 import {
-  noNode,
   type PointOrigin,
   PointQuery,
   pointBox,
@@ -45,8 +45,16 @@ import type { NodeStream } from "./node-stream.js";
 import { type OctreeParts, PlacedOctree, sharedReads } from "./placed-octree.js";
 import { pointRecord } from "./point-record.js";
 
+/** Name of the class, and version of what is internal here (see {@link SHARED}). */
+const MARK = "PointCloud 1";
+
+/** A data set as the sources and layers of all views take it. @internal */
+export const POINT_CLOUD: Kind<PointCloud> = shared(MARK);
+
 /** A data set, opened once, whatever number of views draw it. Knows no view and no library of views. */
 export class PointCloud implements PointOrigin {
+  /** @internal */
+  readonly [SHARED] = MARK;
   /** File name without the path. */
   readonly name: string;
   readonly pointCount: number;
@@ -260,7 +268,13 @@ export class PointCloud implements PointOrigin {
     });
     const index = typeof point === "number" ? records.order[point] : point.record;
     if (index === undefined || !(index in records.order)) {
-      throw noNode(`${name} with point ${typeof point === "number" ? point : index}`, this.#source.name);
+      const asked = typeof point === "number" ? point : point.record;
+      throw new FormatError({
+        code: "FORMAT_NODE",
+        file: this.#source.name,
+        cause: `node ${name} has no point ${asked}`,
+        fix: `Ask for a point from 0 to ${records.order.length - 1}`,
+      });
     }
     return pointRecord(name, index, records, this.#source);
   }

@@ -22,7 +22,7 @@ interface Answers {
  * A change of the volumes shows all at once: until the new ones are compiled, and have been held against all nodes that
  * are drawn, the former ones hold for the whole picture. A node that comes anew is not drawn before the volumes that
  * hold were held against it, so no point is ever drawn that they cut. Before the first volumes hold, nothing is drawn.
- * While volumes are being prepared others wait: of one that is dragged, each picture shows some place that it was at.
+ * While volumes are being prepared others wait: while a volume is dragged, each frame shows one of its recent positions.
  * Volumes that cannot be prepared are passed over: the former ones go on holding, and {@link takeFailure} tells why.
  */
 export class ClipAnswers {

@@ -32,7 +32,7 @@ interface Entry {
 
 /**
  * What effects cost, from frames with and without them that drew about as many points: a clip that leaves half of them
- * out is held against frames of half as many, and not against all that it spared. Each set of effects has its
+ * out is compared with frames of half as many, and not with frames of all points. Each set of effects has its
  * milliseconds per frame, and an effect costs what its set takes more than the same set without it, or with one other in
  * its place.
  */

@@ -26,8 +26,8 @@ export class FrameAllowance {
   }
 
   /**
-   * Begins a frame that follows one of so many milliseconds: a machine that draws slowly would else prepare as slowly, a
-   * step a frame.
+   * Begins a frame that follows one of so many milliseconds: otherwise a slow machine would prepare only one step per
+   * frame.
    */
   static after(frame: number): FrameAllowance {
     return new FrameAllowance(undefined, Math.min(MOST, Math.max(MILLISECONDS, SHARE * frame)));

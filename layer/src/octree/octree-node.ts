@@ -27,7 +27,7 @@ export class OctreeNode {
   pointCount = 0;
   /**
    * Where the source finds its points, or its page while the state is `page` or `opening`: handed back to the source,
-   * looked into by nobody else. Undefined where there is neither.
+   * opaque to everyone else. Undefined where there is neither.
    */
   address: unknown;
   /** The page that lists it; while the state is `page` or `opening` the one that refers to its page. */

@@ -1,6 +1,7 @@
 export { checkSignal } from "./check-signal.js";
 export { frozen } from "./frozen.js";
 export {
+  above,
   colour,
   either,
   entriesOf,

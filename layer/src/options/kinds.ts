@@ -43,6 +43,15 @@ export function number(least: number, greatest = Number.POSITIVE_INFINITY): Kind
   );
 }
 
+/** A finite number greater than another one. */
+export function above(least: number): Kind<number> {
+  return kindOf(
+    `a number greater than ${least}`,
+    (given): given is number =>
+      typeof given === "number" && given > least && given < Number.POSITIVE_INFINITY,
+  );
+}
+
 /** A whole number within bounds, both included. */
 export function whole(least: number, greatest = Number.POSITIVE_INFINITY): Kind<number> {
   return kindOf(

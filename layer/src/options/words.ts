@@ -14,7 +14,7 @@ export function shown(value: unknown): string {
     );
   }
   if (typeof value === "function") return "a function";
-  if (Array.isArray(value)) return value.length === 1 ? "an array of 1" : `an array of ${value.length}`;
+  if (Array.isArray(value)) return value.length === 0 ? "an empty array" : `an array of ${value.length}`;
   return typeof value === "object" && value !== null ? "an object" : String(value);
 }
 
