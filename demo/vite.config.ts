@@ -6,7 +6,7 @@ export default defineConfig({
   // Relative, so that the built page works under any path of any static server.
   base: "./",
   plugins: [cesiumFiles()],
-  resolve: { dedupe: ["cesium", "proj4"] },
+  resolve: { dedupe: ["cesium", "ol", "proj4"] },
   worker: { format: "es" },
   build: {
     outDir: "dist",

@@ -21,12 +21,14 @@ export interface PageOptions {
   readonly vertical?: string;
   /** Whether the camera flies to the cloud rather than being there at once. */
   readonly fly: boolean;
+  /** Whether the map beside the globe is shown from the beginning. */
+  readonly map?: boolean;
 }
 
 const MOST_POINTS = 100_000_000;
 
 /**
- * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `fly`. Others are
+ * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `fly`, `map`. Others are
  * left alone.
  * @param page the page's whole address
  * @throws PageError PAGE_ADDRESS, PAGE_OPTION
@@ -46,6 +48,7 @@ export function readPageOptions(page: string): PageOptions {
     ...(color && { color }),
     ...(crs && { crs }),
     ...(vertical && { vertical }),
+    ...(word(query, "map", ["0", "1"]) === "1" && { map: true }),
     fly: word(query, "fly", ["0", "1"]) !== "0",
   };
 }

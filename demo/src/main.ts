@@ -4,6 +4,7 @@ import { CrsError } from "@groma/georef";
 import type { PointCloudLayer, ServerWait } from "@groma/layer/cesium";
 import type { Viewer } from "cesium";
 import { cloudAddress, PageError, type PageOptions, readPageOptions } from "./address.js";
+import { Beside } from "./map/beside.js";
 import { CloudSlot, type OpenOptions } from "./open.js";
 import type { Groma } from "./page-global.js";
 import { Chooser } from "./panel/chooser.js";
@@ -49,7 +50,8 @@ function start(viewer: Viewer): void {
     ({ vertices }) => goToPlaces(viewer, vertices, way("fly")),
     (thrown) => message.show(thrown),
   );
-  const groma: Groma = { viewer, measure: measuring.tool, layer: undefined };
+  const beside = new Beside(viewer, (thrown) => message.show(thrown));
+  const groma: Groma = { viewer, measure: measuring.tool, beside, layer: undefined };
   window.groma = groma;
   const progress = new Progress();
   const controls = new Controls((aspect) => {
@@ -93,6 +95,7 @@ function start(viewer: Viewer): void {
     message.show(thrown);
     return;
   }
+  if (options.map) beside.show(true);
   openNamed();
 
   /** Opens the cloud that the page's address names. */
@@ -185,6 +188,7 @@ function start(viewer: Viewer): void {
     ledger.attach(layer);
     picking.clear();
     measuring.tool.attach([layer.cloud]);
+    beside.attach(layer);
     progress.follow(layer);
     tellFailures(layer);
     if (wanted !== "stay") {

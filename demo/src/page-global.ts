@@ -1,11 +1,14 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import type { MeasureTool } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
+import type { Beside } from "./map/beside.js";
 
 /** What the page offers to the browser's console and to tests. */
 export interface Groma {
   readonly viewer: Viewer;
   readonly measure: MeasureTool;
+  /** The map beside the globe. */
+  readonly beside: Beside;
   /** The cloud, from when the camera stands before it. */
   layer: PointCloudLayer | undefined;
 }

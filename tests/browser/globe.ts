@@ -2,11 +2,13 @@ import { geodeticToEcef } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import type { MeasureTool } from "@groma/layer/tools";
 import type { Cartesian3, Viewer } from "cesium";
+import type OlMap from "ol/Map.js";
 import type { Page } from "playwright-core";
 
 /** What the page offers to tests once a cloud is open: `window.groma` of demo/src/page-global.ts. */
 export interface Groma {
   readonly viewer: Viewer;
+  readonly beside: { readonly view: Promise<{ readonly map: OlMap }> | undefined };
   readonly layer: PointCloudLayer;
   readonly measure: MeasureTool;
 }

@@ -1,0 +1,93 @@
+import "ol/ol.css";
+import type { PointCloudLayer } from "@groma/layer/cesium";
+import { PointCloudLayer as MapLayer, PointCloudSource } from "@groma/layer/openlayers";
+import { buildModuleUrl, type Viewer } from "cesium";
+import TileLayer from "ol/layer/Tile.js";
+import OlMap from "ol/Map.js";
+import { get as projectionOf } from "ol/proj.js";
+import TileImage from "ol/source/TileImage.js";
+import TileGrid from "ol/tilegrid/TileGrid.js";
+import View from "ol/View.js";
+
+/** Levels of the Natural Earth map that comes with Cesium, degrees per pixel. */
+const RESOLUTIONS = [180 / 256, 90 / 256, 45 / 256];
+
+/** A map beside the globe that shows the same cloud from above, drawn as the layer on the globe is. */
+export class MapView {
+  readonly map: OlMap;
+  readonly #failed: (thrown: unknown) => void;
+  #layer: MapLayer | undefined;
+  #source: PointCloudSource | undefined;
+  #shown: PointCloudLayer | undefined;
+  /** What of the layer on the globe the map has taken over. */
+  #followed: readonly unknown[] = [];
+
+  /** @param failed told of what the map cannot draw */
+  constructor(target: HTMLElement, viewer: Viewer, failed: (thrown: unknown) => void) {
+    this.#failed = failed;
+    this.map = new OlMap({
+      target,
+      layers: [baseMap()],
+      view: new View({ center: [0, 0], zoom: 1, maxZoom: 26 }),
+    });
+    viewer.scene.postRender.addEventListener(() => this.#follow());
+  }
+
+  /** Shows a cloud in place of the one that is there. */
+  attach(layer: PointCloudLayer): void {
+    this.#leave();
+    const source = new PointCloudSource({ cloud: layer.cloud });
+    const { style, filter, clips, maximumScreenSpaceError, pointBudget } = layer;
+    const shown = new MapLayer({ source, style, filter, clips, maximumScreenSpaceError, pointBudget });
+    shown.addEventListener("error", (event) => this.#failed((event as unknown as { error: Error }).error));
+    this.#layer = shown;
+    this.#source = source;
+    this.#shown = layer;
+    this.#followed = partsOf(layer);
+    this.map.addLayer(shown);
+    this.map.updateSize();
+    const extent = source.getExtent();
+    if (extent && this.map.getSize()) this.map.getView().fit(extent, { padding: [24, 24, 24, 24] });
+  }
+
+  /** Takes over what has changed of the layer on the globe. */
+  #follow(): void {
+    const [map, globe] = [this.#layer, this.#shown];
+    if (!map || !globe || globe.isDestroyed()) return;
+    const parts = partsOf(globe);
+    if (parts.every((part, at) => part === this.#followed[at])) return;
+    this.#followed = parts;
+    map.style = globe.style;
+    map.filter = globe.filter;
+    map.clips = globe.clips;
+    map.maximumScreenSpaceError = globe.maximumScreenSpaceError;
+    map.pointBudget = globe.pointBudget;
+    map.setVisible(globe.show);
+  }
+
+  #leave(): void {
+    if (this.#layer) this.map.removeLayer(this.#layer);
+    this.#layer?.dispose();
+    this.#source?.dispose();
+    this.#layer = undefined;
+    this.#source = undefined;
+  }
+}
+
+function partsOf(layer: PointCloudLayer): unknown[] {
+  const { style, filter, clips, maximumScreenSpaceError, pointBudget, show } = layer;
+  return [style, filter, clips, maximumScreenSpaceError, pointBudget, show];
+}
+
+/** The Natural Earth map that comes with Cesium, whose rows are counted from the south. */
+function baseMap(): TileLayer {
+  const folder = buildModuleUrl("Assets/Textures/NaturalEarthII");
+  const source = new TileImage({
+    projection: projectionOf("EPSG:4326") ?? "EPSG:4326",
+    tileGrid: new TileGrid({ origin: [-180, 90], resolutions: RESOLUTIONS, extent: [-180, -90, 180, 90] }),
+    tileUrlFunction: ([z, x, y]) => `${folder}/${z}/${x}/${2 ** z - 1 - y}.jpg`,
+    attributions: "Natural Earth",
+    wrapX: true,
+  });
+  return new TileLayer({ source, className: "base" });
+}

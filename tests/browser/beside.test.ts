@@ -1,0 +1,101 @@
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { converted } from "../converted.js";
+import { data } from "../project.js";
+import { settle } from "./globe.js";
+import { launch, openPage, screenshot, type View, view } from "./harness.js";
+
+const scan = data("autzen.laz");
+
+describe.skipIf(scan.missing)(
+  `a map beside the globe${scan.missing ? ` (skipped: ${scan.missing})` : ""}`,
+  () => {
+    let server: View;
+    let browser: Browser;
+    beforeAll(async () => {
+      server = await view(converted(scan.path));
+      browser = await launch();
+    }, 240_000);
+    afterAll(async () => {
+      await browser?.close();
+      await server?.stop();
+    });
+
+    it("shows the same cloud in the same style, and reads no byte twice", { timeout: 240_000 }, async () => {
+      const { page, watch } = await openPage(browser, { width: 1200, height: 600 });
+      const ranges: string[] = [];
+      page.on("request", (request) => {
+        const range = request.headers().range;
+        if (range) ranges.push(range);
+      });
+      await page.goto(`${server.address}&map=1&fly=0&budget=300000`);
+      await settle(page);
+      const complete = () =>
+        page.evaluate(async () => {
+          const { map } = (await window.groma.beside.view)!;
+          await new Promise<void>((resolve) => {
+            map.once("rendercomplete", () => resolve());
+            map.render();
+          });
+        });
+      await complete();
+      await screenshot(page, "beside");
+      const lit = () =>
+        page.evaluate(() => {
+          const canvas = document.querySelector<HTMLCanvasElement>("#map .ol-layer canvas")!;
+          const copy = new OffscreenCanvas(canvas.width, canvas.height);
+          const context = copy.getContext("2d")!;
+          context.drawImage(canvas, 0, 0);
+          const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+          let [count, red] = [0, 0];
+          for (let at = 0; at < data.length; at += 4) {
+            if (data[at + 3]! > 0) count++;
+            if (data[at]! > 200 && data[at + 1]! < 60 && data[at + 2]! < 60) red++;
+          }
+          return { count, red };
+        });
+      const shown = await lit();
+      expect(shown.count).toBeGreaterThan(20_000);
+      expect(shown.red).toBeLessThan(100);
+      expect(ranges.length).toBeGreaterThan(10);
+      expect(ranges.filter((range, at) => ranges.indexOf(range) !== at)).toEqual([]);
+      // What is chosen for the globe holds for the map.
+      await page.evaluate(() => {
+        const { layer, viewer } = window.groma;
+        layer.style = {
+          color: "elevation",
+          gradient: [
+            { at: 0, color: [1, 0, 0] },
+            { at: 1, color: [1, 0, 0] },
+          ],
+        };
+        viewer.scene.requestRender();
+      });
+      await settle(page);
+      await complete();
+      const recoloured = await lit();
+      expect(recoloured.red).toBeGreaterThan(0.9 * recoloured.count);
+      await page.click("#beside");
+      expect(await page.isVisible("#map")).toBe(false);
+      expect(watch.errors).toEqual([]);
+      expect(watch.foreign).toEqual([]);
+      await page.context().close();
+    });
+
+    it("stands below the globe on a phone", { timeout: 240_000 }, async () => {
+      const { page } = await openPage(browser, { width: 400, height: 700 });
+      await page.goto(`${server.address}&map=1&fly=0&budget=50000`);
+      await settle(page);
+      const [globe, map] = await page.evaluate(() =>
+        ["globe", "map"].map((id) => document.getElementById(id)!.getBoundingClientRect().toJSON()),
+      );
+      expect([globe.width, map.width]).toEqual([400, 400]);
+      expect([globe.bottom, map.top, map.bottom]).toEqual([350, 350, 700]);
+      await page.focus("#split");
+      await page.keyboard.press("ArrowUp");
+      const top = await page.evaluate(() => document.getElementById("map")!.getBoundingClientRect().top);
+      expect(top).toBeCloseTo(0.45 * 700, 3);
+      await page.context().close();
+    });
+  },
+);
