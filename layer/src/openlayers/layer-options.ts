@@ -1,9 +1,9 @@
 import type { Options as LayerOptions } from "ol/layer/Layer.js";
-import { ClipSet } from "../clips/index.js";
+import { CLIPS_OPTION, type ClipSet } from "../clips/index.js";
 import { CLOUD_OPTIONS } from "../cloud/index.js";
 import type { Forced, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
-import { type Kinds, kindOf, number, optionPlace, some } from "../options/index.js";
+import { type Kinds, number, optionPlace, some } from "../options/index.js";
 import type { PointCloudSource } from "./point-cloud-source.js";
 
 /** How a layer draws; all but the options of OpenLayers' own layers can be changed by assigning to the layer. */
@@ -33,7 +33,7 @@ export interface PointCloudLayerOptions
 
 /** What numbers and objects of a layer may be; style, filter and effects are held against the data set. */
 const KINDS: Kinds<Pick<DrawingOptions, "clips" | "maximumScreenSpaceError" | "pointBudget" | "budget">> = {
-  clips: kindOf("a ClipSet", (given): given is ClipSet => given instanceof ClipSet),
+  clips: CLIPS_OPTION,
   maximumScreenSpaceError: number(0),
   pointBudget: number(0),
   budget: CLOUD_OPTIONS.budget,
