@@ -124,7 +124,7 @@ describe("groma convert", () => {
     const { accuracy, crs } = JSON.parse((await groma("info", "--json", "unknown.copc.laz")).stdout);
     expect(crs.height.kind).toBe("unknown");
     const height = accuracy.parts.find((part: { name: string }) => part.name === "height");
-    expect(height).toMatchObject({ metres: null, note: expect.stringMatching(/belong \d+\.\d m higher/) });
+    expect(height).toMatchObject({ metres: null, note: expect.stringMatching(/should be \d+\.\d m higher/) });
     expect(accuracy.total).toBeNull();
   });
 
@@ -244,7 +244,8 @@ describe("groma locate", () => {
     );
     expect(points).toHaveLength(2);
     expect(points[0].source).toEqual([x, y, z]);
-    expect(points[1].source[2]).toBe(0);
+    // Without a height it is in the middle.
+    expect(points[1].source[2]).toBeCloseTo(z, 9);
     expect(points[0].geodetic[0]).toBeCloseTo((info.geodeticBounds.west + info.geodeticBounds.east) / 2, 3);
     // The geoid is 50 m above the ellipsoid there.
     expect(points[0].geodetic[2] - z).toBeGreaterThan(40);
@@ -252,6 +253,14 @@ describe("groma locate", () => {
     expect(engine.name).toBe(byDefault);
     const bare = await groma("locate", sample, "--points", "points.txt");
     expect(bare.stdout).toMatch(/^# .* by proj4js .*, derived here from the file's WKT\n/);
+    for (const [axis, name] of ["x", "y", "z"].entries()) {
+      const far = [x, y, z].map((value, i) => (i === axis ? value + info.max[i] - info.min[i] : value));
+      writeFileSync(join(folder, `far-${name}.txt`), `${x} ${y} ${z}\n${far.join(" ")}\n`);
+      for (const file of ["located.copc.laz", sample]) {
+        const { stderr } = await groma("locate", file, "--points", `far-${name}.txt`);
+        expect(stderr).toMatch(/^PLACE_DOMAIN: .*: line 2: .* lies outside of the bounds of the data set/);
+      }
+    }
     const outside = await groma("locate", "located.copc.laz", "--points", "far.txt");
     expect(outside.stderr).toMatch(/^POINTS_NOT_FOUND: far\.txt: /);
   });

@@ -50,6 +50,7 @@ export {
   type TruthSources,
   truthOf,
 } from "./engines/truth.js";
+export { boundsInWords, coordinate } from "./errors/coordinates.js";
 export {
   ControlError,
   CrsError,

@@ -146,6 +146,18 @@ describe.skipIf(skipped)(
       }
     });
 
+    it("says that its heights were given", () => {
+      const plan = groma([
+        "convert",
+        file("tile-keys"),
+        join(folder, "p.laz"),
+        "--dry-run",
+        "--vertical",
+        "EPSG:7837",
+      ]);
+      expect(plan.stdout).toMatch(/^place .* \(GeoTIFF keys; height given\)$/m);
+    });
+
     it("in four spellings is one system", () => {
       const tiles = ["tile-keys", "tile-wkt", "tile-no-axes", "tile-no-codes"] as const;
       expect(converted(tiles).crs.code).toBe("EPSG:25832");

@@ -1,5 +1,13 @@
-import { ecefToGeodetic, GromaError, PlacementError, placePoint, statedAccuracy } from "@groma/georef";
-import { scanFile } from "../core/core.js";
+import {
+  boundsInWords,
+  coordinate,
+  ecefToGeodetic,
+  GromaError,
+  PlacementError,
+  placePoint,
+  statedAccuracy,
+} from "@groma/georef";
+import { type Scan, scanFile } from "../core/core.js";
 import { type Row, readRows } from "../given/rows.js";
 import { placeInWords } from "../place/describe.js";
 import { type Placed, placed } from "../place/placed.js";
@@ -15,7 +23,7 @@ export interface LocateOptions {
 
 /** Where one point is. */
 export interface Located {
-  /** Source coordinates as they were asked for; z is 0 where none was given. */
+  /** Source coordinates as they were asked for; z is the middle of the bounds where none was given. */
   readonly source: readonly [number, number, number];
   /** EPSG:4978, metres. */
   readonly ecef: readonly [number, number, number];
@@ -28,14 +36,18 @@ export interface Located {
 /**
  * Places points as a page that shows the file does, from the file's own records.
  *
- * @param file for error messages
- * @throws PlacementError PLACE_DOMAIN with the line of the first point that has no place
+ * @param scan whose bounds, and one step around, the points must lie in: what is known of a place holds there; a rigid
+ *   body goes on as it is
+ * @throws PlacementError PLACE_DOMAIN with the line of the first point that lies outside or has no place
  */
-export function locate({ truth, accuracy }: Placed, rows: readonly Row[], file: string): Located[] {
+export function locate({ truth, accuracy, engine }: Placed, rows: readonly Row[], scan: Scan): Located[] {
+  const { file } = scan;
+  const middle = (scan.min[2] + scan.max[2]) / 2;
   const { total } = statedAccuracy(accuracy);
   const ecef = new Float64Array(3);
   const geodetic = new Float64Array(3);
-  return rows.map(({ line, values: [x = 0, y = 0, z = 0] }) => {
+  return rows.map(({ line, values: [x = 0, y = 0, z = middle] }) => {
+    if (engine.name !== "similarity") refuseOutside([x, y, z], line, scan);
     try {
       if (typeof truth === "function") placePoint(truth, x, y, z, ecef, file);
       else truth.forward(x, y, z, ecef);
@@ -53,6 +65,24 @@ export function locate({ truth, accuracy }: Placed, rows: readonly Row[], file: 
   });
 }
 
+/** @throws PlacementError PLACE_DOMAIN */
+function refuseOutside(point: readonly number[], line: number, { min, max, scale, file }: Scan): void {
+  const inside = point.every((value, axis) => {
+    // The bounds are numbers in binary: a hundredth of a step is none.
+    const step = 1.01 * scale[axis]!;
+    return value >= min[axis]! - step && value <= max[axis]! + step;
+  });
+  if (inside) return;
+  const [minX, minY, minZ] = min;
+  const [maxX, maxY, maxZ] = max;
+  const bounds = boundsInWords({ minX, minY, minZ, maxX, maxY, maxZ });
+  throw new PlacementError({
+    ...{ code: "PLACE_DOMAIN", file },
+    cause: `line ${line}: (${point.map(coordinate).join(", ")}) lies outside of the bounds of the data set (${bounds})`,
+    fix: "check the coordinates and their order, easting or longitude first, and the unit of z",
+  });
+}
+
 /**
  * The `locate` command.
  *
@@ -62,8 +92,9 @@ export function locate({ truth, accuracy }: Placed, rows: readonly Row[], file: 
  */
 export async function runLocate(file: string, { points, json = false }: LocateOptions): Promise<void> {
   const rows = await readRows(points, { kind: "POINTS", columns: "x y z", fewest: 2, most: 3 });
-  const place = await placed(await scanFile(file));
-  const located = locate(place, rows, file);
+  const scan = await scanFile(file);
+  const place = await placed(scan);
+  const located = locate(place, rows, scan);
   if (json) printJson(locatedJson(place, located));
   else print(locatedLines(place, located));
 }

@@ -91,12 +91,12 @@ export function planForMachines({ georeferenced, whereabouts, core, ...rest }: D
 /** The plan, a line for each thing. */
 export function planInWords(plan: DryRun): string[] {
   const { output, inputs, skipped, points, georeferenced, whereabouts, core, pdal, pdalTemp } = plan;
-  const { crs, basis, notes } = georeferenced;
+  const { crs, basis, notes, heightGiven } = georeferenced;
   const rows: [string, string][] = [
     ["inputs", `${count(inputs)}, ${count(points)} points`],
     ...skipped.map(skippedRow),
     ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
-    ["place", `${crsInWords(crs)} (${basis})`],
+    ["place", `${crsInWords(crs)} (${basis}${heightGiven ? "; height given" : ""})`],
     ["height", heightInWords(crs)],
     ...centreRow(whereabouts),
     ...[...notes, ...whereabouts.notes].map(({ text }): [string, string] => ["note", text]),

@@ -96,12 +96,12 @@ export function placeInWords(
   const grids = operation?.grids ?? [];
   const by = `${engine.name} ${engine.version}${grids.length > 0 ? ` (${grids.map(stem).join(", ")})` : ""}`;
   const fit = fitBound === undefined ? "" : `, fit ≤ ${atMost(fitBound)}`;
-  return `${whole} → ECEF by ${by}${fit}${operation ? `, operation ${operationInWords(operation)}` : ""}`;
+  return `${whole} → ECEF by ${by}${fit}${operation ? `, ${operationInWords(operation)}` : ""}`;
 }
 
 function operationInWords({ accuracy, ballpark }: OperationReport): string {
-  if (ballpark) return "without a datum shift";
-  return accuracy === null ? "of unknown accuracy" : atMost(accuracy);
+  if (ballpark) return "no datum transformation available";
+  return `operation ${accuracy === null ? "of unknown accuracy" : atMost(accuracy)}`;
 }
 
 function residualsInWords(accuracy: readonly AccuracyPart[]): string {
@@ -118,7 +118,7 @@ export function accuracyInWords(parts: readonly AccuracyPart[], crs: Pick<Crs, "
 /** Why the accuracies of the parts do not add up: `total accuracy unknown: height reference not declared`. */
 function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "height">): string {
   const lacks: ReadonlyMap<string, string> = new Map([
-    ["height", height.kind === "unknown" ? "height reference not declared" : "geoid not applied"],
+    ["height", height.kind === "unknown" ? "height reference not declared" : unknownHeight(parts)],
     ["datum operation", "accuracy of the datum operation not stated"],
     ["anchor", "accuracy of the anchor not stated"],
   ]);
@@ -126,12 +126,25 @@ function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "hei
   return `total accuracy unknown: ${unknown.join(", ")}`;
 }
 
+/** Why heights above a geoid are of unknown worth. */
+function unknownHeight(parts: readonly AccuracyPart[]): string {
+  const note = parts.find(({ name }) => name === "height")?.note ?? "";
+  return /not in use at this place/.test(note)
+    ? "height system not in use at this place"
+    : "geoid not applied";
+}
+
 /** What a reader has to know of the way that was chosen, one sentence each. */
 export function remarks(operation: OperationReport | undefined): string[] {
   if (!operation) return [];
+  const geoid = operation.grids.includes(EGM96)
+    ? "the country's own geoid"
+    : "the operation that PROJ prefers";
   const lacking = operation.lacking.map(({ name, accuracy, grids }) => {
-    const worth = accuracy === null ? "" : ` (${atMost(accuracy)})`;
-    return `more accurate with ${grids.join(", ")}: ${name}${worth}`;
+    const files = grids.join(", ");
+    // What nobody has stated is not promised.
+    if (accuracy === null) return `with ${files}, ${geoid} is used; its accuracy is not published: ${name}`;
+    return `more accurate with ${files}: ${name} (${atMost(accuracy)})`;
   });
   const missing = [...new Set(operation.lacking.flatMap(({ grids }) => grids))];
   const way = missing.length === 0 ? [] : [`missing grids: ${howToGet(missing)}`];

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { epsg } from "./epsg.js";
-import { commonGeoreference, georeference, type Named } from "./georeference.js";
+import { commonGeoreference, type Given, georeference, type Named } from "./georeference.js";
 
 const tile = (file: string, more: Partial<Named> = {}): Named => ({
   ...{
@@ -38,6 +38,23 @@ describe("--vertical in words", () => {
     expect(await fixFor("DHHN2016", unplaced)).toMatch(/EPSG:7837/);
     expect(await fixFor("sea level", unplaced)).toMatch(/such as EPSG:5728/);
   });
+});
+
+it("--vertical is no word for a scan that an anchor or control points place", async () => {
+  const refusal = (given: Given) => georeference(tile("scan.las"), { vertical: "EPSG:5709", ...given });
+  await expect(refusal({ anchor: "5,52,0,0", crs: "none" })).rejects.toMatchObject({
+    ...{ code: "CRS_TWICE", cause: expect.stringMatching(/^--vertical cannot be used with --anchor,/) },
+  });
+  await expect(refusal({ control: "points.txt" })).rejects.toMatchObject({
+    cause: expect.stringMatching(/^--vertical cannot be used with --control,/),
+  });
+});
+
+it("a height reference that is given beside what the file declares is told as such", async () => {
+  const given = async (more: Given) => (await georeference(tile("scan.las"), more)).heightGiven;
+  expect(await given({ vertical: "EPSG:5709" })).toBe(true);
+  expect(await given({ vertical: "EPSG:5709", crs: "EPSG:28992" })).toBe(false);
+  expect(await given({})).toBe(false);
 });
 
 describe("several inputs", () => {

@@ -32,6 +32,8 @@ export interface Georeferenced {
   readonly basis: "given" | "WKT" | "GeoTIFF keys" | LocalPlace["basis"];
   /** For a data set without a coordinate reference system: where it is put. */
   readonly local?: LocalPlace;
+  /** Whether the user named the height reference apart from a plane that the file declares. */
+  readonly heightGiven?: boolean;
   /** What has to be known of how it was found. */
   readonly notes: readonly CrsNote[];
 }
@@ -91,7 +93,8 @@ function named(scan: Named, given: Given, record: GeoreferenceRecord | undefined
   const recordedHeights = record?.similarity ? undefined : record?.crs;
   const declared = { file, wkt: wktOnEarth(scan), geoTiff, las, recordedHeights };
   try {
-    return resolveWithNotes({ ...declared, given: given.crs, givenVertical: given.vertical }, epsg);
+    const found = resolveWithNotes({ ...declared, given: given.crs, givenVertical: given.vertical }, epsg);
+    return { ...found, heightGiven: given.vertical !== undefined && found.basis !== "given" };
   } catch (error) {
     if (error instanceof CrsError && isNoHeightReference(given.vertical)) {
       throw withSuggestions(error, given.vertical, placeOf(scan, { ...given, vertical: undefined }));
@@ -143,13 +146,22 @@ function missing(file: string, cause: string): CrsError {
   });
 }
 
-function refuseSecondPlace(scan: Named, { crs, vertical }: Given): void {
+function refuseSecondPlace(scan: Named, given: Given): void {
+  const { crs, vertical } = given;
   const file = scan.file;
   const fix = "omit one of them; --crs none ignores the file's CRS";
   const cause = "already places the scan, and --anchor or --control places it elsewhere";
-  const second =
-    vertical !== undefined ? "--vertical" : crs !== undefined && crs !== NONE ? "--crs" : undefined;
-  if (second) throw new CrsError({ code: "CRS_TWICE", file, cause: `what ${second} names ${cause}`, fix });
+  const way = given.control === undefined ? "--anchor" : "--control";
+  if (vertical !== undefined) {
+    throw new CrsError({
+      ...{ code: "CRS_TWICE", file },
+      cause: `--vertical cannot be used with ${way}, whose heights are above the WGS 84 ellipsoid`,
+      fix: `leave --vertical out, or ${way}`,
+    });
+  }
+  if (crs !== undefined && crs !== NONE) {
+    throw new CrsError({ code: "CRS_TWICE", file, cause: `what --crs names ${cause}`, fix });
+  }
   if (crs === undefined && (wktOnEarth(scan) || scan.geoTiff)) {
     throw new CrsError({ code: "CRS_TWICE", file, cause: `its coordinate reference system ${cause}`, fix });
   }

@@ -27,6 +27,8 @@ export interface LocalPlace {
   readonly basis: "anchor" | "control points" | "Groma's record";
   readonly crs: Crs;
   readonly similarity: Similarity;
+  /** The point of the source that stands at the anchor. */
+  readonly at?: readonly [number, number, number];
   /** How well the control points fit. */
   readonly fitted?: FittedSimilarity;
   /** As an earlier conversion stated it. */
@@ -46,24 +48,28 @@ export function isPlaced({ anchor, anchorAt, control }: GivenPlace): boolean {
  */
 export async function localPlace({ anchor, anchorAt, control }: GivenPlace): Promise<LocalPlace> {
   if (control !== undefined) return controlled(control);
-  if (anchor === undefined) throw wrong("anchor", "it is not given, and --anchor-at is");
+  if (anchor === undefined) throw wrong("anchor", "--anchor-at requires --anchor");
   return anchored(anchor, anchorAt);
 }
 
 function anchored(text: string, atText: string | undefined): LocalPlace {
   const [longitude, latitude, height, heading, scale = 1] = numbers("anchor", text, 4, 5);
   const [x, y, z] = atText === undefined ? [0, 0, 0] : numbers("anchor-at", atText, 3, 3);
-  if (!(Math.abs(longitude) <= 360 && Math.abs(latitude) <= 90)) {
-    throw wrong("anchor", `longitude ${longitude}, latitude ${latitude} is no place on earth`);
+  if (!(Math.abs(latitude) <= 90)) {
+    throw wrong("anchor", `latitude must be between −90 and 90, and is ${latitude}`);
+  }
+  if (!(Math.abs(longitude) <= 360)) {
+    throw wrong("anchor", `longitude must be between −360 and 360, and is ${longitude}`);
   }
   // As far as units are units for the georeference record.
-  if (!(scale > 1e-9 && scale < 3e8)) throw wrong("anchor", `${scale} is no scale`);
+  if (!(scale > 0)) throw wrong("anchor", `the scale must be greater than 0, and is ${scale}`);
+  if (!(scale > 1e-9 && scale < 3e8)) throw wrong("anchor", `${scale} metres per unit is no unit of a scan`);
   const similarity = anchorSimilarity({
     ...{ longitude: longitude * DEGREE, latitude: latitude * DEGREE, height },
     ...{ heading: heading * DEGREE, scale, at: [x, y, z] },
   });
   const name = `local coordinates, anchored at longitude ${longitude}°, latitude ${latitude}°`;
-  return { basis: "anchor", crs: localCrs(name, scale), similarity };
+  return { basis: "anchor", crs: localCrs(name, scale), similarity, at: [x, y, z] };
 }
 
 async function controlled(file: string): Promise<LocalPlace> {

@@ -22,7 +22,8 @@ import { type EngineChoice, type EngineSurroundings, engineTransformation } from
 import { epsgRows } from "./epsg.js";
 import { geoidsOf } from "./geoids.js";
 import type { Georeferenced } from "./georeference.js";
-import { countriesOf } from "./whereabouts.js";
+import { withKnownShift } from "./known-shift.js";
+import { countriesOf, heightSystemAbroad } from "./whereabouts.js";
 
 /** Bound on the drawn position that the page keeps by default, metres. */
 export const TOLERANCE = 0.001;
@@ -65,13 +66,15 @@ export async function makeRecords(
   }
   const domain = domainOf(min, max, scale);
   const { minZ, maxZ } = domain;
-  const { transformation, report } = await engineTransformation(crs, domain, choice, surroundings);
+  const { transformation, report: own } = await engineTransformation(crs, domain, choice, surroundings);
   const bytes = encodeTransformation(transformation);
   const truth = truthOf({ crs, transformation: bytes }, (minZ + maxZ) / 2, surroundings.file);
+  const report = withKnownShift(own, crs, truth, domain);
   const guess = crs.height.kind === "unknown" ? await guessFor(crs, truth, domain) : undefined;
   const operation = operationReport(report, guess, notes);
   const accuracy = accuracyParts(crs, scale, TOLERANCE + report.fitBound, {
     ...{ operation, geoids: geoidsOf(truth), guess },
+    outsideOf: heightSystemAbroad(crs, truth, { min, max }),
   });
   const georeference = { version: 1, crs, engine: report.engine, operation, accuracy } as const;
   return { ...encoded(georeference), transformation: bytes, fitBound: report.fitBound };

@@ -1,8 +1,9 @@
-import { resolveCrs } from "@groma/georef";
+import { resolveCrs, truthOf } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import { epsg, epsgRows } from "./epsg.js";
 import { likelyCrs } from "./likely-crs.js";
-import { expectedWhereabouts } from "./whereabouts.js";
+import { localPlace } from "./local.js";
+import { expectedWhereabouts, heightSystemAbroad } from "./whereabouts.js";
 
 const around = (x: number, y: number) =>
   ({ min: [x - 100, y - 100, 0], max: [x + 100, y + 100, 10] }) as const;
@@ -26,7 +27,7 @@ describe("where a data set lies", () => {
     expect(notes).toMatchObject([{ code: "CRS_AREA" }]);
     const { text } = notes[0]!;
     expect(text).toMatch(
-      /lies 3840 km outside .* EPSG:25832 .*would fit EPSG:28992 \(Amersfoort \/ RD New\).*not applied/,
+      /lies 3840 km outside .* EPSG:25832 .*would fit EPSG:28992 \(Amersfoort \/ RD New\).*use --crs to apply one/,
     );
   });
 
@@ -49,6 +50,29 @@ describe("where a data set lies", () => {
         text: expect.stringMatching(/NAVD88 height .*in use there: EPSG:5709 \(NAP height\)/),
       },
     ]);
+  });
+
+  it("has a height system that is in use elsewhere", () => {
+    const abroad = (given: string) => {
+      const crs = resolveCrs({ file: "scan.las", given }, epsg);
+      return heightSystemAbroad(crs, truthOf({ crs }, 0, "scan.las"), around(...DUTCH));
+    };
+    expect(["EPSG:28992+5728", "EPSG:28992+5709", "EPSG:28992"].map(abroad)).toEqual([
+      ...["LN02 height", undefined, undefined],
+    ]);
+  });
+
+  it("is far from its anchor: coordinates of a map whose origin stands there", async () => {
+    const notes = async (anchorAt?: string) =>
+      expectedWhereabouts(await anchored(anchorAt), around(85_532, 446_210)).notes;
+    const anchored = async (anchorAt?: string) => {
+      const local = await localPlace({ anchor: "4.4,52,0,0", anchorAt });
+      return { crs: local.crs, local };
+    };
+    expect(await notes()).toEqual([
+      { code: "ANCHOR_FAR", text: expect.stringMatching(/lies 454 km from the origin .*--anchor-at x,y,z/) },
+    ]);
+    expect(await notes("85500,446200,0")).toEqual([]);
   });
 
   it("is not known where the projection has no place", () => {

@@ -11,7 +11,6 @@ import {
   type Place,
   PlacementError,
   pointTransform,
-  type Similarity,
   type Truth,
   truthOf,
   verticalSystems,
@@ -20,10 +19,13 @@ import type { PointBounds } from "../core/core.js";
 import { length } from "../terminal/output.js";
 import { epsg, epsgRows } from "./epsg.js";
 import { likelyCrs } from "./likely-crs.js";
+import type { LocalPlace } from "./local.js";
 
 const DEGREE = Math.PI / 180;
 /** Metres outside of its area from which a system is taken for a mistake: neighbours of a zone often use it. */
 const NEIGHBOURHOOD = 300_000;
+/** Metres from its anchor at which a rigid body departs from the ground by 8 m, and is no scan of one place any more. */
+const ANCHOR_REACH = 10_000;
 /** Letters of an area of use that a message shows. */
 const SHOWN = 80;
 
@@ -46,17 +48,31 @@ export function whereabouts(crs: Crs, truth: Truth, bounds: PointBounds): Wherea
 
 /** As {@link whereabouts} before an engine has placed anything: by proj4js, to some metres. */
 export function expectedWhereabouts(
-  { crs, local }: { readonly crs: Crs; readonly local?: { readonly similarity: Similarity } },
+  { crs, local }: { readonly crs: Crs; readonly local?: Pick<LocalPlace, "similarity" | "at"> },
   bounds: PointBounds,
 ): Whereabouts {
   try {
     const truth = truthOf({ crs, similarity: local?.similarity }, middleOf(bounds)[2], crs.name);
-    return whereabouts(crs, truth, bounds);
+    const found = whereabouts(crs, truth, bounds);
+    return { ...found, notes: [...found.notes, ...anchorNote(crs, local?.at, bounds)] };
   } catch (error) {
     // Whoever converts says why; PROJ may know a way.
     if (error instanceof CrsError || error instanceof PlacementError) return { centre: undefined, notes: [] };
     throw error;
   }
+}
+
+/**
+ * `ANCHOR_FAR`: a scan that lies far from the point of its coordinates that stands at the anchor: most often, coordinates
+ * of a map whose origin was taken for that of the scan.
+ */
+function anchorNote({ horizontalUnit }: Crs, at: LocalPlace["at"], bounds: PointBounds): CrsNote[] {
+  if (!at) return [];
+  const far = horizontalUnit.size * Math.hypot(...middleOf(bounds).map((value, axis) => value - at[axis]!));
+  if (far < ANCHOR_REACH) return [];
+  const point = at.some((value) => value !== 0) ? `the point ${at.join(", ")}` : "the origin";
+  const text = `the middle of the data set lies ${length(far)} from ${point} of its coordinates, which stands at the anchor; name the point of the scan that stands there with --anchor-at x,y,z`;
+  return [{ code: "ANCHOR_FAR", text }];
 }
 
 /** `CRS_AREA`: how far outside of the area of use of its system the data set lies, and what its numbers would fit. */
@@ -73,9 +89,18 @@ function areaNote(crs: Crs, centre: Place, bounds: PointBounds): CrsNote[] | und
   const search = Math.max(far, abroad) > NEIGHBOURHOOD;
   const likely = search ? likelyCrs(epsgRows(), [x, y], region, crs.horizontalUnit.size) : [];
   const hint =
-    likely.length === 0 ? "" : `; the coordinates would fit ${named(likely)} (likely, not applied)`;
+    likely.length === 0
+      ? ""
+      : `; the coordinates would fit ${named(likely)} (candidates; use --crs to apply one)`;
   const where = `the middle of the data set (${pointInWords(centre)}) lies ${length(far)} outside of the area of use`;
   return [{ code: "CRS_AREA", text: `${where} of EPSG:${code} (${shown(plane)})${hint}` }];
+}
+
+/** Name of the height system of a data set whose middle lies outside of its area of use; undefined within it. */
+export function heightSystemAbroad(crs: Crs, truth: Truth, bounds: PointBounds): string | undefined {
+  const system = heightSystem(crs);
+  const centre = centreOf(truth, bounds);
+  return system && centre && distance(system, centre) > 0 ? system.name : undefined;
 }
 
 /** `CRS_HEIGHT_AREA`: the same for its height system. */

@@ -1,5 +1,6 @@
 import {
   type Bounds,
+  boundsInWords,
   boundsOfPlaces,
   type Crs,
   CrsError,
@@ -112,12 +113,11 @@ async function boxOf(
   const places = await runToRadians(proj, pipeline.slice(0, projection), spread(domain), signal);
   const bounds = boundsOfPlaces(places);
   if (bounds) return degreeBox(bounds);
-  const { minX, minY, maxX, maxY } = domain;
   throw new PlacementError({
     code: "PLACE_DOMAIN",
     file,
-    cause: `the data set lies where its projection has no place (x ${minX} … ${maxX}, y ${minY} … ${maxY})`,
-    fix: "check that the coordinate reference system is the one the scan was made in, and that no point is a stray",
+    cause: `the data set lies where its projection has no place (${boundsInWords(domain)})`,
+    fix: "check that the coordinate reference system is the one the scan was made in, and that no point is an outlier",
   });
 }
 

@@ -74,7 +74,7 @@ describe("a cloud in words", () => {
 
   it("passes on what the conversion guessed, once", () => {
     const said = (remark: string) => heightWords(crs({ kind: "unknown" }), { geoids: [], remark }).note;
-    const guess = "shown as ellipsoidal; if the heights are above sea level, the points belong 22 m lower";
+    const guess = "shown as ellipsoidal; if the heights are above sea level, the points should be 22 m lower";
     expect(said(`unknown: ${guess}`)).toBe(guess);
     expect(said("reference unknown, drawn as ellipsoidal")).toBe("drawn as ellipsoidal");
     const operation = { ...report, notes: [`height unknown: ${guess}`, "another"] };

@@ -114,5 +114,6 @@ function readText(text: string, lookup: EpsgLookup | undefined): CrsModel {
   const init = /\+init=(epsg:\d+)\b/i.exec(text);
   if (init) return readEpsg(epsgCodes(init[1])!, lookup);
   if (/\+?proj=/.test(text)) return readProjString(text);
-  throw unknown(`"${excerpt(text)}" is no EPSG code, PROJ string, WKT or PROJJSON`);
+  const cause = `"${excerpt(text)}" is no EPSG code, PROJ string, WKT or PROJJSON`;
+  throw /^\d{4,6}(\+\d{4,6})?$/.test(text) ? unknown(cause, `give EPSG:${text}`) : unknown(cause);
 }

@@ -196,6 +196,15 @@ describe("texts that say nothing usable", () => {
     expect(refusal(sources)).toMatch(pattern);
   });
 
+  it("takes a bare number for the code that it may be, and says how to give it", () => {
+    for (const given of ["2056", "2056+5728"]) {
+      expect(() => read({ given })).toThrow(expect.objectContaining({ fix: `give EPSG:${given}` }));
+    }
+    expect(() => read({ given: "12" })).toThrow(
+      expect.objectContaining({ fix: expect.not.stringContaining("EPSG:12") }),
+    );
+  });
+
   it("names file, cause and fix in its message", () => {
     expect(() => resolveCrs({ file: "scan.laz" })).toThrow(
       "CRS_MISSING: scan.laz: it does not say which coordinate reference system it is in. Give the coordinate reference system yourself: the option crs of the layer, --crs on the command line.",

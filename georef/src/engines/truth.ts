@@ -1,4 +1,5 @@
 import type { Crs } from "../crs/crs.js";
+import { coordinate } from "../errors/coordinates.js";
 import { PlacementError } from "../errors/errors.js";
 import { decodeTransformation } from "../transformation/decode.js";
 import {
@@ -92,7 +93,7 @@ export function placePoint(
     ...{
       code: "PLACE_DOMAIN",
       file,
-      cause: `(${x}, ${y}, ${z}) is no place of this data set's georeference`,
+      cause: `(${[x, y, z].map(coordinate).join(", ")}) cannot be transformed with this data set's CRS`,
     },
     fix: "check the coordinates and their order, easting or longitude first",
   });

@@ -2,6 +2,7 @@ import { CHEBYSHEV_NODES, chebyshevCoefficients, NODES } from "../approximation/
 import type { Domain } from "../cartesian/domain.js";
 import { eastNorthUp, type Frame } from "../ellipsoid/frame.js";
 import type { ExactTransform } from "../engines/exact.js";
+import { boundsInWords } from "../errors/coordinates.js";
 import { PlacementError } from "../errors/errors.js";
 
 /** Centre and half extents of a domain, source units; extents are never zero. */
@@ -64,11 +65,7 @@ export function expand(
   const evaluate = (u: number, v: number) => {
     exact(box.x + box.halfX * u, box.y + box.halfY * v, sample, 0);
     if (!sample.every(Number.isFinite)) {
-      throw outside(
-        file,
-        "part of the points lies where its coordinate reference system has no place",
-        domain,
-      );
+      throw outside(file, "some points lie outside the domain of the CRS", domain);
     }
   };
   for (const [u, v] of [
@@ -130,12 +127,11 @@ function isBox({ minX, minY, minZ, maxX, maxY, maxZ }: Domain): boolean {
   return finite && minX <= maxX && minY <= maxY && minZ <= maxZ;
 }
 
-function outside(file: string, cause: string, d: Domain): PlacementError {
-  const bounds = `x ${d.minX} … ${d.maxX}, y ${d.minY} … ${d.maxY}, z ${d.minZ} … ${d.maxZ}`;
+function outside(file: string, cause: string, domain: Domain): PlacementError {
   return new PlacementError({
     code: "PLACE_DOMAIN",
     file,
-    cause: `${cause} (${bounds})`,
-    fix: "check that the coordinate reference system is the one the scan was made in, and that no point is a stray",
+    cause: `${cause} (${boundsInWords(domain)})`,
+    fix: "check that the coordinate reference system is the one the scan was made in, and that no point is an outlier",
   });
 }

@@ -26,8 +26,17 @@ describe("accuracy by an engine", () => {
     expect(part(parts, "height")?.metres).toBe(EGM96_ACCURACY);
   });
 
+  it("does not know what heights are worth where their system is not in use", () => {
+    const placing = { operation, geoids: [EGM96], outsideOf: "NAP height" };
+    const parts = accuracyParts(geoid, scale, 0.001, placing);
+    expect(part(parts, "height")).toMatchObject({
+      metres: null,
+      note: "NAP height: not in use at this place",
+    });
+  });
+
   it("carries the guess of an unknown height, and stays unknown", () => {
-    const guess = "if the heights are above sea level, the points belong 22 m lower";
+    const guess = "if the heights are above sea level, the points should be 22 m lower";
     const parts = accuracyParts(crs({ kind: "unknown" }), scale, 0.001, { operation, geoids: [], guess });
     expect(part(parts, "height")).toEqual({ name: "height", metres: null, note: guess });
     expect(statedAccuracy(parts).total).toBeNull();

@@ -31,6 +31,8 @@ export interface Placing {
   readonly geoids: readonly string[];
   /** For heights of unknown reference: what they may be, and how far off the points then are. */
   readonly guess?: string | undefined;
+  /** The height system of a data set that lies outside of its area of use: nobody states what it is worth there. */
+  readonly outsideOf?: string | undefined;
 }
 
 /**
@@ -42,8 +44,8 @@ export const EGM96_ACCURACY = 4;
 
 /** Said of heights by EGM96 in a country's height system. */
 export const EGM96_NOTE =
-  `height by the geoid model ${EGM96} instead of the country's own: expect some decimetres, in mountains up to about ` +
-  `${EGM96_ACCURACY} m`;
+  `height by the geoid model ${EGM96} instead of the country's own: expect errors of some decimetres, up to about ` +
+  `${EGM96_ACCURACY} m in mountains`;
 
 /** Heights above EGM96 itself (EPSG:5773) lose the rounding of its nodes to a centimetre alone, metres (5.3 mm met). */
 const EGM96_ROUNDING = 0.006;
@@ -126,6 +128,9 @@ function heightPart(height: Crs["height"], placing: Placing | undefined): Accura
     return { name, metres: null, note: placing?.guess ?? "reference unknown, drawn as ellipsoidal" };
   }
   if (!placing) return { name, metres: null, note: `${height.model}: drawn without its geoid` };
+  if (placing.outsideOf !== undefined) {
+    return { name, metres: null, note: `${height.model}: not in use at this place` };
+  }
   if (placing.geoids.includes(EGM96) && height.epsg === EGM96_HEIGHT) {
     return { name, metres: EGM96_ROUNDING, note: `${height.model}: nodes rounded to a centimetre` };
   }

@@ -1,4 +1,5 @@
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
+import { boundsInWords } from "../errors/coordinates.js";
 import { PlacementError } from "../errors/errors.js";
 import { fitPatch, type Refusal, SAMPLES_PER_PATCH, samplePlaces } from "./patch.js";
 import type { Rectangle } from "./rectangle.js";
@@ -95,15 +96,10 @@ function halves({ minX, minY, maxX, maxY }: Rectangle, split: "x" | "y" | "both"
   return columns.flatMap(([x0, x1]) => rows.map(([y0, y1]) => ({ minX: x0, minY: y0, maxX: x1, maxY: y1 })));
 }
 
-function refused(
-  why: Refusal,
-  { minX, minY, maxX, maxY }: Rectangle,
-  file: string,
-  tolerance: number,
-): PlacementError {
-  const bounds = `x ${minX} … ${maxX}, y ${minY} … ${maxY}`;
+function refused(why: Refusal, rectangle: Rectangle, file: string, tolerance: number): PlacementError {
+  const bounds = boundsInWords(rectangle);
   const check =
-    "check that the coordinate reference system is the one the scan was made in, and that no point is a stray";
+    "check that the coordinate reference system is the one the scan was made in, and that no point is an outlier";
   const smaller =
     "cut the data set into parts that do not contain it, or transform it to another projection first";
   const [code, cause, fix] = {

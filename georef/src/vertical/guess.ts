@@ -41,6 +41,6 @@ export function guessHeight(
   const [first] = likely;
   const such = first ? `, such as ${first.name} (EPSG:${first.code})` : "";
   const way = `${Math.abs(undulation).toFixed(1)} m ${undulation < 0 ? "lower" : "higher"}`;
-  const note = `shown as ellipsoidal; if the heights are above sea level${such}, the points belong ${way}`;
+  const note = `shown as ellipsoidal; if the heights are above sea level${such}, the points should be ${way}`;
   return { undulation, systems: likely, note };
 }

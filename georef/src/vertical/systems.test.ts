@@ -128,7 +128,7 @@ describe("guessHeight", () => {
     );
     expect(guess.undulation).toBeCloseTo(-22.4, 6);
     expect(guess.note).toBe(
-      "shown as ellipsoidal; if the heights are above sea level, such as NAVD88 height (ft) (EPSG:8228), the points belong 22.4 m lower",
+      "shown as ellipsoidal; if the heights are above sea level, such as NAVD88 height (ft) (EPSG:8228), the points should be 22.4 m lower",
     );
   });
 });

@@ -226,6 +226,18 @@ describe("georeferenceOf a file with a transformation", () => {
     }
   });
 
+  it("suggests the system that a name may mean", async () => {
+    for (const file of [withRecords(record, transformation), {}]) {
+      const opened = open(file, { vertical: "LN02", ...(!("records" in file) && { crs: UTM }) });
+      await expect(opened).rejects.toThrow(
+        expect.objectContaining({
+          code: "CRS_UNKNOWN",
+          fix: "give its EPSG code: EPSG:5728 (LN02 height); or ellipsoidal",
+        }),
+      );
+    }
+  });
+
   it("SOURCE_HEIGHTS where the data of height systems cannot be loaded", async () => {
     const options = { vertical: "EPSG:5728", heightData: noHeightData };
     await expect(open(withRecords(record, transformation), options)).rejects.toThrow(

@@ -17,6 +17,7 @@ import {
   type OperationReport,
   PlacementError,
   resolveWithNotes,
+  similarSystems,
   spread,
   type Transformation,
   verticalLookup,
@@ -41,7 +42,11 @@ export async function lookupFor(
   data: HeightData,
 ): Promise<EpsgLookup | undefined> {
   const code = Number(CODE.exec(vertical)?.[1] ?? Number.NaN);
-  if (Number.isNaN(code) || epsg?.(code)) return epsg;
+  if (Number.isNaN(code)) {
+    if (!/^\s*ellipsoidal\s*$/i.test(vertical)) await refuseWithSuggestions(vertical, file, data);
+    return epsg;
+  }
+  if (epsg?.(code)) return epsg;
   const own = verticalLookup(await data.systems());
   if (own(code)) return (asked) => epsg?.(asked) ?? own(asked);
   throw new CrsError({
@@ -49,6 +54,18 @@ export async function lookupFor(
     file,
     cause: `EPSG:${code} is not a vertical coordinate system of EPSG`,
     fix: "give the code of a vertical coordinate system, such as EPSG:5728, or ellipsoidal",
+  });
+}
+
+/** Names the systems that a height reference in words may mean; silent where none is like it or the table cannot be had. */
+async function refuseWithSuggestions(vertical: string, file: string, data: HeightData): Promise<void> {
+  const systems = await data.systems().catch(() => []);
+  const similar = similarSystems(systems, vertical, undefined);
+  if (similar.length === 0) return;
+  const names = similar.map(({ code, name }) => `EPSG:${code} (${name})`).join(", ");
+  throw new CrsError({
+    ...{ code: "CRS_UNKNOWN", file, cause: `"${vertical}" is not a known height reference` },
+    fix: `give its EPSG code: ${names}; or ellipsoidal`,
   });
 }
 

@@ -39,7 +39,10 @@ describe("grids under their publisher's name", () => {
 
 it("missing grids are told with the way to get them", () => {
   expect(howToGet(["de_bkg_gcg2016.tif"])).toBe(
-    "projsync --file de_bkg_gcg2016.tif; or give the folder that holds it with --grids DIR",
+    "get it with `projsync --file de_bkg_gcg2016.tif`, or give its folder with --grids",
   );
-  expect(howToGet(["own.gsb"])).toBe("give the folder that holds it with --grids DIR");
+  expect(howToGet(["own.gsb"])).toBe("give its folder with --grids");
+  expect(howToGet(["a.tif", "b.tif"])).toBe(
+    "get them with `projsync --file a.tif`, `projsync --file b.tif`, or give their folder with --grids",
+  );
 });

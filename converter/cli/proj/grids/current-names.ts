@@ -56,7 +56,8 @@ async function isThere(name: string, directories: readonly string[]): Promise<bo
 
 /** How missing grids are had: what PROJ-data has is fetched by PROJ's own program. */
 export function howToGet(grids: readonly string[]): string {
-  const commands = grids.filter((grid) => /\.tif$/i.test(grid)).map((grid) => `projsync --file ${grid}`);
-  const folder = "give the folder that holds it with --grids DIR";
-  return commands.length === 0 ? folder : `${commands.join("; ")}; or ${folder}`;
+  const commands = grids.filter((grid) => /\.tif$/i.test(grid)).map((grid) => `\`projsync --file ${grid}\``);
+  const [them, their] = grids.length === 1 ? ["it", "its"] : ["them", "their"];
+  const folder = `give ${their} folder with --grids`;
+  return commands.length === 0 ? folder : `get ${them} with ${commands.join(", ")}, or ${folder}`;
 }
