@@ -1,6 +1,7 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import {
+  checkSignal,
   colour,
   either,
   flag,
@@ -14,6 +15,7 @@ import {
   parts,
   text,
   whole,
+  withMethods,
 } from "./index.js";
 
 const place: Place = {
@@ -68,6 +70,66 @@ describe("kinds of values", () => {
     for (const value of valid) expect(read(kind, value)).toEqual(value);
     for (const value of invalid)
       expect(() => read(kind, value), String(value)).toThrow(/^light.* cannot .*; (did|use)/);
+  });
+
+  it("refuse pairs and colours that are numbers in part only", () => {
+    for (const empty of [true, false]) {
+      const kind = interval({ empty });
+      for (const value of [
+        ["0", 1],
+        [0, "1"],
+        [null, 1],
+        [0, [1]],
+        [0, true],
+      ]) {
+        expect(() => read(kind, value), String(value)).toThrow(
+          "light cannot be an array of 2; use two numbers",
+        );
+      }
+    }
+    for (const value of [
+      [-Infinity, 0],
+      [-Infinity, Infinity],
+      [0, Number.POSITIVE_INFINITY],
+    ]) {
+      expect(() => read(interval({ empty: false }), value)).toThrow("cannot run from");
+    }
+    expect(read(interval({ empty: false }), [-5, -2])).toEqual([-5, -2]);
+    for (const value of [
+      ["0", 0, 0],
+      [0, 0, "1"],
+      [0, true, 0],
+      [0, [0.5], 0],
+      [-0.1, 0, 0],
+      [0, 0, 1.1],
+    ]) {
+      expect(() => read(colour, value), String(value)).toThrow("light cannot be an array of 3");
+    }
+  });
+
+  it("say what is valid, with one bound or two", () => {
+    expect([number(-1, 2).valid, number(0).valid]).toEqual(["a number from -1 to 2", "a number from 0 on"]);
+    expect([whole(1, 9).valid, whole(1).valid]).toEqual([
+      ...["a whole number from 1 to 9", "a whole number from 1 on"],
+    ]);
+  });
+
+  it("tell objects by their methods, own or inherited", () => {
+    const kind = withMethods<{ read(): void; size(): void }>("a source", "read", "size");
+    const size = () => undefined;
+    class Source {
+      read() {}
+      size = size;
+    }
+    for (const source of [new Source(), { read: size, size }]) expect(read(kind, source)).toBe(source);
+    const others = [{ read: size }, { size }, { read: 1, size }, {}, [], null, undefined, "read", size];
+    for (const other of others) expect(() => read(kind, other)).toThrow(/light cannot be .*; use a source/);
+  });
+
+  it("complete an array in place of a plain value by what stands", () => {
+    const kind = either(oneOf("none"), list(number(0)));
+    expect(read(kind, [1, 2], "none" as never)).toEqual([1, 2]);
+    expect(() => read(kind, [-1])).toThrow("light[0] cannot be -1");
   });
 
   it("copy what they read", () => {
@@ -131,7 +193,32 @@ describe("objects in parts", () => {
   });
 });
 
+describe("what stops a call", () => {
+  it("is the signal given, else one that is never aborted", () => {
+    const { signal } = new AbortController();
+    expect(checkSignal({ signal }, "scan")).toBe(signal);
+    for (const none of [{}, { signal: undefined }]) {
+      expect(checkSignal(none, "scan")).toBeInstanceOf(AbortSignal);
+      expect(checkSignal(none, "scan").aborted).toBe(false);
+    }
+    for (const wrong of [{ signal: {} }, { singal: signal }, null, 5, { signal: new AbortController() }]) {
+      expect(() => checkSignal(wrong as never, "scan")).toThrow("STYLE_OPTION: scan: options");
+    }
+  });
+});
+
 describe("frozen", () => {
+  it("leaves what is frozen as it is, and what cannot be", () => {
+    const inner = { open: true };
+    const outer = Object.freeze({ inner });
+    expect(frozen(outer)).toBe(outer);
+    expect(Object.isFrozen(inner)).toBe(false);
+    const method = Object.assign(() => 1, { part: {} });
+    expect(frozen({ method }).method).toBe(method);
+    expect([Object.isFrozen(method), Object.isFrozen(method.part)]).toEqual([false, false]);
+    for (const plain of [null, undefined, 5, "a", true]) expect(frozen(plain)).toBe(plain);
+  });
+
   it("is what is in it too, whatever its depth", () => {
     fc.assert(
       fc.property(fc.jsonValue(), (value) => {

@@ -38,6 +38,26 @@ describe("the closest valid word", () => {
     );
   });
 
+  it("is as near as letters are wrong: swapped neighbours count once, others twice", () => {
+    // A third of the letters may be wrong: one of three to five, two of six to eight.
+    const near = (word: string, valid: string) => closest(word, [valid]) !== undefined;
+    expect([near("abc", "bac"), near("abc", "cba"), near("abc", "bca")]).toEqual([true, false, false]);
+    expect([near("abcdef", "badcef"), near("abcdef", "badcfe")]).toEqual([true, false]);
+    expect([near("abcdef", "defabc"), near("abcdef", "abdcfe")]).toEqual([false, true]);
+    expect([near("abcd", "abdc"), near("abcd", "adcb"), near("ab", "ba"), near("ab", "bc")]).toEqual([
+      ...[true, false, true, false],
+    ]);
+  });
+
+  it("is the first of several that are as near, and none for words beyond forty letters", () => {
+    expect(closest("cat", ["bat", "rat"])).toBe("bat");
+    const long = "a".repeat(40);
+    expect(closest(long, [`${long.slice(1)}b`])).toBe(`${long.slice(1)}b`);
+    expect(closest(`${long}a`, [long])).toBeUndefined();
+    expect([shown(long), shown(`${long}b`)]).toEqual([`"${long}"`, `"${long}…"`]);
+    expect([shown([]), shown([1])]).toEqual(["an empty array", "an array of 1"]);
+  });
+
   it("stands before all that are valid", () => {
     expect(instead("colour", ["color", "size"])).toBe('did you mean "color"? Otherwise use color or size');
     expect(instead("heat", ["color", "size", "shape"])).toBe("use color, size or shape");
