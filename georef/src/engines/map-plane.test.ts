@@ -159,6 +159,34 @@ describe("placing in the plane of a map", () => {
     expect(degrees({ ...beyond, wraps: false }, -179.9)).toBeCloseTo(-179.9, 9);
   });
 
+  it("places a node across 180° in one piece, and in two where the map ends there", () => {
+    // 2 km around the antimeridian, on the edge of UTM zones 60 and 1.
+    const crs = resolveCrs({ file: "utm", given: "EPSG:32760" }, lookup);
+    const out = new Float64Array(2);
+    const utm = proj4(crs.proj4).forward([180, -17]);
+    const domain = {
+      minX: utm[0] - 1000,
+      minY: utm[1] - 1000,
+      minZ: 0,
+      maxX: utm[0] + 1000,
+      maxY: utm[1] + 1000,
+      maxZ: 9,
+    };
+    const plane = planeOf("EPSG:3857", 179.995, { wraps: true });
+    const truth = truthOnMap(exactTransform(crs, 5), plane, 5, 1, "utm");
+    const placed = fitPlacement(truth, domain, 0.001, "node", levelFrame);
+    expect([placed.scheme, placed.bound < 0.001]).toEqual(["quadratic", true]);
+    const { off, bound } = worst(truth, domain, (x, y) => {
+      const [longitude, latitude] = proj4(crs.proj4).inverse([x, y]);
+      planeTransform(plane)(longitude * DEGREE, latitude * DEGREE, out, 0);
+      return [...out];
+    });
+    expect(off).toBeLessThanOrEqual(bound);
+    // Where the map does not go on, the far half would lie a world away: no scheme can hold that.
+    const ends = truthOnMap(exactTransform(crs, 5), { ...plane, wraps: false }, 5, 1, "utm");
+    expect(fitPlacement(ends, domain, 0.001, "node", levelFrame).scheme).toBe("exact");
+  });
+
   it("has no place at the pole of Mercator's map, and refuses what is no projection", () => {
     const out = new Float64Array(2);
     planeTransform(planeOf("EPSG:3857", 0))(0, Math.PI / 2, out, 0);
