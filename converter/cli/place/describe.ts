@@ -119,7 +119,7 @@ export function accuracyInWords(parts: readonly AccuracyPart[], crs: Pick<Crs, "
 function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "height">): string {
   const lacks: ReadonlyMap<string, string> = new Map([
     ["height", height.kind === "unknown" ? "height reference not declared" : unknownHeight(parts)],
-    ["datum operation", "accuracy of the datum operation not stated"],
+    ["datum operation", "accuracy of the datum operation not published"],
     ["anchor", "accuracy of the anchor not stated"],
   ]);
   const unknown = parts.filter(({ metres }) => metres === null).map(({ name }) => lacks.get(name) ?? name);

@@ -33,6 +33,11 @@ describe("--vertical in words", () => {
     );
   });
 
+  it("leaves the answer to a system that is wrong itself alone", async () => {
+    const wrong = georeference(tile("scan.las"), { crs: "2056", vertical: "NAP" });
+    await expect(wrong).rejects.toMatchObject({ code: "CRS_UNKNOWN", fix: "give EPSG:2056" });
+  });
+
   it("is answered without a place too", async () => {
     const { min: _min, max: _max, ...unplaced } = tile("scan.las");
     expect(await fixFor("DHHN2016", unplaced)).toMatch(/EPSG:7837/);

@@ -96,7 +96,8 @@ function named(scan: Named, given: Given, record: GeoreferenceRecord | undefined
     const found = resolveWithNotes({ ...declared, given: given.crs, givenVertical: given.vertical }, epsg);
     return { ...found, heightGiven: given.vertical !== undefined && found.basis !== "given" };
   } catch (error) {
-    if (error instanceof CrsError && isNoHeightReference(given.vertical)) {
+    const ofHeights = error instanceof CrsError && /not a known height reference/.test(error.cause);
+    if (ofHeights && isNoHeightReference(given.vertical)) {
       throw withSuggestions(error, given.vertical, placeOf(scan, { ...given, vertical: undefined }));
     }
     if (!(error instanceof CrsError) || error.code !== "CRS_MISSING") throw error;

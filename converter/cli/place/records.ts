@@ -2,6 +2,8 @@ import {
   accuracyParts,
   type Crs,
   type Domain,
+  EGM96,
+  EGM96_NOTE,
   ENGINE,
   ecefToGeodetic,
   encodeRecord,
@@ -71,10 +73,10 @@ export async function makeRecords(
   const truth = truthOf({ crs, transformation: bytes }, (minZ + maxZ) / 2, surroundings.file);
   const report = withKnownShift(own, crs, truth, domain);
   const guess = crs.height.kind === "unknown" ? await guessFor(crs, truth, domain) : undefined;
-  const operation = operationReport(report, guess, notes);
+  const outsideOf = heightSystemAbroad(crs, truth, { min, max });
+  const operation = operationReport(report, guess, notes, outsideOf);
   const accuracy = accuracyParts(crs, scale, TOLERANCE + report.fitBound, {
-    ...{ operation, geoids: geoidsOf(truth), guess },
-    outsideOf: heightSystemAbroad(crs, truth, { min, max }),
+    ...{ operation, geoids: geoidsOf(truth), guess, outsideOf },
   });
   const georeference = { version: 1, crs, engine: report.engine, operation, accuracy } as const;
   return { ...encoded(georeference), transformation: bytes, fitBound: report.fitBound };
@@ -108,13 +110,16 @@ function operationReport(
   report: EngineReport,
   guess: string | undefined,
   found: Georeferenced["notes"],
+  outsideOf: string | undefined,
 ): OperationReport {
   const passedOver = report.passedOver.map(
     ({ operation, why }) => `PROJ would have taken "${operation}", which cannot be followed: ${why}`,
   );
-  const notes = report.notes.map((note) =>
-    note === UNKNOWN_HEIGHT_NOTE && guess !== undefined ? `height reference unknown: ${guess}` : note,
-  );
+  const notes = report.notes.map((note) => {
+    if (note === UNKNOWN_HEIGHT_NOTE && guess !== undefined) return `height reference unknown: ${guess}`;
+    if (note !== EGM96_NOTE || outsideOf === undefined) return note;
+    return `height by the geoid model ${EGM96}: ${outsideOf} is not in use at this place`;
+  });
   return {
     name: report.operation,
     accuracy: report.accuracy,

@@ -72,6 +72,7 @@ const heightData: HeightData = {
     system(5861, "LAT depth", 1, true),
     system(5773, "EGM96 height"),
     system(9999, "Flat height"),
+    { ...system(5709, "NAP height"), area: [3, 50, 7, 54] },
   ],
   egm96: async () => egm96Grid(() => GLOBAL_UNDULATION),
 };
@@ -203,6 +204,15 @@ describe("georeferenceOf a file with a transformation", () => {
       note: "LN02 height: by EGM96 in place of its own geoid; given by the user",
     });
     expect(await part("EPSG:5773")).toMatchObject({ metres: 0.006 });
+  });
+
+  it("does not know what heights are worth where their system is not in use", async () => {
+    for (const file of [withRecords(record, transformation), {}]) {
+      const crs = "records" in file ? {} : { crs: UTM };
+      const { accuracy } = await open(file, { vertical: "EPSG:5709", ...crs });
+      const note = expect.stringContaining("NAP height: not in use at this place");
+      expect(accuracy.parts).toContainEqual({ name: "height", metres: null, note });
+    }
   });
 
   it("takes the table of the application before its own", async () => {

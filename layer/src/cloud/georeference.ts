@@ -24,7 +24,14 @@ import {
 import type { PointSource } from "../sources/contract/point-source.js";
 import { declaredCrs, packagedEpsg } from "./declared-crs.js";
 import { type HeightData, packagedHeights } from "./height-data.js";
-import { crsWithHeights, derivedByEgm96, lookupFor, operationRegiven, regiven } from "./heights.js";
+import {
+  crsWithHeights,
+  derivedByEgm96,
+  lookupFor,
+  operationRegiven,
+  regiven,
+  systemAbroad,
+} from "./heights.js";
 
 /** What an application says about a data set's coordinates; it goes before what the file says. */
 export interface GeoreferenceOptions {
@@ -116,7 +123,8 @@ async function withOtherHeights(
   const own = decodeTransformation(bytes, source.name);
   const map = derived({ crs, transformation: regiven(own, crs, source, egm96) }, source);
   const report = operation && operationRegiven(operation, own, crs);
-  const placing = { operation: report ?? UNSTATED, geoids: map.geoids };
+  const outsideOf = await systemAbroad(map.truth, crs, source, heightData);
+  const placing = { operation: report ?? UNSTATED, geoids: map.geoids, outsideOf };
   const bound = greatestBound(map.truth, source, tolerance);
   const parts = accuracyParts(crs, source.scale, bound, placing);
   return {
@@ -142,7 +150,11 @@ async function fromCrs(
   const whose = given ? "for the system given by the user" : "derived in the page from the file";
   const by = await transformationByEgm96(crs, source, options);
   const map = derived({ crs, ...(by.transformation && { transformation: by.transformation }) }, source);
+  const { heightData = packagedHeights } = options;
+  const outsideOf =
+    vertical === undefined ? undefined : await systemAbroad(map.truth, crs, source, heightData);
   const placing = by.transformation && {
+    outsideOf,
     operation: {
       name: crs.datum?.operation ?? UNSTATED.name,
       accuracy: crs.datum?.accuracy ?? null,

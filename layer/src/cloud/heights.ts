@@ -14,18 +14,22 @@ import {
   encodeTransformation,
   type GeoreferenceRecord,
   type Grid,
+  isInside,
   type OperationReport,
   PlacementError,
+  pointTransform,
   resolveWithNotes,
   similarSystems,
   spread,
   type Transformation,
+  type Truth,
   verticalLookup,
   withHeights,
 } from "@groma/georef";
 import type { PointSource } from "../sources/contract/point-source.js";
 import type { HeightData } from "./height-data.js";
 
+const DEGREE = Math.PI / 180;
 const CODE = /^\s*EPSG:(\d{1,6})\s*$/i;
 
 /**
@@ -99,6 +103,29 @@ export function crsWithHeights(
     },
     notes,
   };
+}
+
+/**
+ * Name of a given height system whose area of use the middle of the data set lies outside of; undefined within it, and
+ * for systems that the table beside this library does not have.
+ *
+ * @throws SourceError SOURCE_HEIGHTS
+ */
+export async function systemAbroad(
+  truth: Truth,
+  { height }: Crs,
+  { boundingBox: { min, max } }: PointSource,
+  data: HeightData,
+): Promise<string | undefined> {
+  if (height.kind !== "geoid" || height.epsg === undefined) return undefined;
+  const system = (await data.systems()).find(({ code }) => code === height.epsg);
+  const [x, y, z] = min.map((least, axis) => (least + max[axis]) / 2);
+  const [ecef, place] = [new Float64Array(3), new Float64Array(3)];
+  pointTransform(truth)(x, y, z, ecef, 0);
+  ecefToGeodetic(ecef[0], ecef[1], ecef[2], place);
+  const [longitude, latitude] = [place[0] / DEGREE, place[1] / DEGREE];
+  const within = !system || !Number.isFinite(longitude) || isInside(system.area, { longitude, latitude });
+  return within ? undefined : system.name;
 }
 
 /**
