@@ -1,9 +1,8 @@
 import type { ProgressKind, Sampling } from "../given/choices.js";
-import type { EngineChoice } from "../place/engine.js";
 import type { Given } from "../place/georeference.js";
 
 /** What a conversion is told. */
-export interface ConvertOptions extends Given, EngineChoice {
+export interface ConvertOptions extends Given {
   readonly sampling?: Sampling;
   readonly averageColors?: boolean;
   readonly threads?: number;

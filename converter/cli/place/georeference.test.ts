@@ -1,6 +1,8 @@
 import { describe, expect, it } from "vitest";
+import { findProj } from "../proj/program/find.js";
 import { epsg } from "./epsg.js";
 import { commonGeoreference, type Given, georeference, type Named } from "./georeference.js";
+import { outputWkt } from "./output-wkt.js";
 
 const tile = (file: string, more: Partial<Named> = {}): Named => ({
   ...{
@@ -60,6 +62,37 @@ it("a height reference that is given beside what the file declares is told as su
   expect(await given({ vertical: "EPSG:5709" })).toBe(true);
   expect(await given({ vertical: "EPSG:5709", crs: "EPSG:28992" })).toBe(false);
   expect(await given({})).toBe(false);
+});
+
+const proj = await findProj();
+const absent = proj ? "" : " (skipped: PROJ is not installed)";
+
+describe.skipIf(!proj)(`what only PROJ understands${absent}`, () => {
+  const bare = { file: "scan.las" };
+  const keys = (...entries: number[]) => ({
+    directory: [1, 1, 0, entries.length / 4, ...entries],
+    ...{ doubles: [], ascii: "" },
+  });
+
+  it.each([
+    ["a code", bare, { crs: "EPSG:29701" }, "EPSG:29701", "given"],
+    ["a code newer than the table", bare, { crs: "EPSG:10739" }, "EPSG:10739", "given"],
+    ["a code with --vertical", bare, { crs: "EPSG:2385", vertical: "EPSG:5737" }, "EPSG:2385+5737", "given"],
+    ["GeoTIFF keys", { ...bare, geoTiff: keys(3072, 0, 1, 2385) }, {}, "EPSG:2385", "GeoTIFF keys"],
+  ])("is taken from %s", async (_, scan, given, code, basis) => {
+    const found = await georeference(scan, given);
+    expect(found).toMatchObject({ basis, crs: { code } });
+    expect(outputWkt(found)).toContain(found.crs.name);
+    await expect(georeference(scan, { ...given, engine: "proj4js" })).rejects.toMatchObject({
+      code: expect.stringMatching(/^CRS_(UNKNOWN|UNSUPPORTED)$/),
+    });
+  });
+
+  it("stays refused where PROJ does not understand it either, in the same words", async () => {
+    const given = { crs: "EPSG:999999" };
+    const words = await georeference(bare, { ...given, engine: "proj4js" }).catch((error) => error.message);
+    await expect(georeference(bare, given)).rejects.toThrow(words);
+  });
 });
 
 describe("several inputs", () => {

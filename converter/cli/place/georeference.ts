@@ -15,12 +15,14 @@ import {
   verticalSystems,
 } from "@groma/georef";
 import type { Scan } from "../core/core.js";
+import { knownCrs } from "../proj/known-crs.js";
+import { chosenProj, type EngineChoice } from "./engine.js";
 import { epsg, epsgRows } from "./epsg.js";
 import { type GivenPlace, isPlaced, type LocalPlace, localPlace } from "./local.js";
 import { expectedWhereabouts } from "./whereabouts.js";
 
-/** What the user says of the coordinates; it goes before what the files say. */
-export interface Given extends GivenPlace {
+/** What the user says of the coordinates; it goes before what the files say. PROJ is asked what only PROJ knows. */
+export interface Given extends GivenPlace, EngineChoice {
   /** `none` ignores what the files declare. */
   readonly crs?: string | undefined;
   readonly vertical?: string | undefined;
@@ -46,7 +48,8 @@ export type Named = Pick<Scan, "file" | "wkt" | "geoTiff" | "groma"> &
 const NONE = "none";
 
 /**
- * The coordinate reference system of one file, or the place that it was given instead.
+ * The coordinate reference system of one file, or the place that it was given instead. One that is not understood here
+ * is PROJ's to understand, where there is PROJ.
  *
  * @throws CrsError CRS_MISSING, CRS_UNKNOWN, CRS_UNSUPPORTED, CRS_TWICE
  * @throws OptionError, RowsError, ControlError
@@ -59,7 +62,15 @@ export async function georeference(scan: Named, given: Given): Promise<Georefere
   }
   if (given.crs === NONE) throw missing(scan.file, "--crs none ignores its coordinate reference system");
   const record = readable(scan);
-  if (!record || given.crs !== undefined || given.vertical !== undefined) return named(scan, given, record);
+  if (!record || given.crs !== undefined || given.vertical !== undefined) {
+    try {
+      return named(scan, given, record);
+    } catch (error) {
+      const known = await knownToProj(scan, given, error);
+      if (known) return known;
+      throw error;
+    }
+  }
   const { crs, similarity, accuracy } = record;
   const basis = "Groma's record";
   return { crs, basis, notes: [], ...(similarity && { local: { basis, crs, similarity, accuracy } }) };
@@ -103,6 +114,58 @@ function named(scan: Named, given: Given, record: GeoreferenceRecord | undefined
     if (!(error instanceof CrsError) || error.code !== "CRS_MISSING") throw error;
     throw missing(error.file, error.cause);
   }
+}
+
+/** Refusals of CRSs that PROJ may know all the same. */
+const PROJ_MAY_KNOW = new Set(["CRS_UNKNOWN", "CRS_UNSUPPORTED"]);
+
+/**
+ * What PROJ makes of a coordinate reference system that was refused; nothing where there is no PROJ, or it refuses too.
+ */
+async function knownToProj(scan: Named, given: Given, refusal: unknown): Promise<Georeferenced | undefined> {
+  if (!(refusal instanceof CrsError) || !PROJ_MAY_KNOW.has(refusal.code) || given.engine === "proj4js") {
+    return undefined;
+  }
+  const basis = given.crs !== undefined ? "given" : wktOnEarth(scan) ? "WKT" : "GeoTIFF keys";
+  const plane = given.crs ?? wktOnEarth(scan) ?? codeInKeys(scan);
+  const text = plane === undefined ? undefined : withHeights(plane.trim(), given.vertical);
+  const proj = text === undefined ? undefined : await chosenProj(given);
+  if (!proj || text === undefined) return undefined;
+  try {
+    const crs = await knownCrs(proj, { name: scan.file, text });
+    return { crs, basis, notes: [], heightGiven: given.vertical !== undefined && basis !== "given" };
+  } catch (error) {
+    if (error instanceof CrsError) return undefined;
+    throw error;
+  }
+}
+
+/** A code with the heights that are given apart from it; nothing where they cannot be joined. */
+function withHeights(plane: string, vertical: string | undefined): string | undefined {
+  if (vertical === undefined) return plane;
+  const heights = /^\s*EPSG:(\d+)\s*$/i.exec(vertical)?.[1];
+  const code = /^EPSG:\d+/i.exec(plane)?.[0];
+  return heights === undefined || code === undefined ? undefined : `${code}+${heights}`;
+}
+
+/** GeoTIFF keys of the codes of a CRS in plane (ProjectedCRSGeoKey, GeodeticCRSGeoKey) and of its heights. */
+const [PROJECTED, GEODETIC, VERTICAL] = [3072, 2048, 4096];
+/** Codes from here on mean "user-defined" and the like. */
+const NO_CODE = 32767;
+
+function codeInKeys({ geoTiff }: Named): string | undefined {
+  const directory = geoTiff?.directory ?? [];
+  const codeOf = (key: number) => {
+    for (let i = 4; i + 3 < directory.length; i += 4) {
+      const value = directory[i + 3];
+      if (directory[i] === key && directory[i + 1] === 0 && value > 0 && value < NO_CODE) return value;
+    }
+    return undefined;
+  };
+  const plane = codeOf(PROJECTED) ?? codeOf(GEODETIC);
+  const heights = codeOf(VERTICAL);
+  if (plane === undefined) return undefined;
+  return heights === undefined ? `EPSG:${plane}` : `EPSG:${plane}+${heights}`;
 }
 
 /** Whether a height reference is given in words of which none is known: neither a code nor `ellipsoidal`. */

@@ -1,4 +1,4 @@
-import { type Crs, resolveCrs, sameHeights } from "@groma/georef";
+import { type Crs, CrsError, resolveCrs, sameHeights } from "@groma/georef";
 import { epsg } from "./epsg.js";
 import type { Georeferenced } from "./georeference.js";
 
@@ -21,10 +21,20 @@ export function outputWkt({ crs, local }: Georeferenced): string {
     : `COMPD_CS[${quoted(crs.name)},${plane},${vertical1(crs)}]`;
 }
 
-/** Whether a text declares the heights that were settled. */
+/** Whether a text declares the heights that were settled; what PROJ alone reads is as PROJ wrote it. */
 function saysHeights(wkt: string, crs: Crs): boolean {
-  const said = resolveCrs({ file: crs.name, given: wkt }, epsg);
+  const said = readHere(wkt, crs);
+  if (!said) return true;
   return sameHeights(said, crs) && (said.verticalUnit.declared || !crs.verticalUnit.declared);
+}
+
+function readHere(wkt: string, { name }: Crs): Crs | undefined {
+  try {
+    return resolveCrs({ file: name, given: wkt }, epsg);
+  } catch (error) {
+    if (error instanceof CrsError) return undefined;
+    throw error;
+  }
 }
 
 /** The horizontal part as WKT: of the text that was read, of the EPSG table, else GDAL's form of a PROJ string. */

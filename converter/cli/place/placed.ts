@@ -41,7 +41,7 @@ export async function placed(scan: Named & Pick<Scan, "min" | "max" | "scale">):
   const middle = (scan.min[2] + scan.max[2]) / 2;
   const record = georeferenceRecord(scan);
   if (!record) {
-    const { crs, basis, notes } = await georeference(scan, {});
+    const { crs, basis, notes } = await georeference(scan, { engine: "proj4js" });
     const truth = truthOf({ crs }, middle, scan.file);
     const accuracy = accuracyParts(crs, scan.scale, TOLERANCE);
     return { crs, basis, notes, truth, ...noReport, accuracy };

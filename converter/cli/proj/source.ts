@@ -3,7 +3,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { type Crs, CrsError } from "@groma/georef";
 import type { Proj } from "./program/find.js";
-import { run } from "./program/run.js";
+import { failed, run } from "./program/run.js";
 
 /** A CRS in words that PROJ reads. */
 export interface CrsText {
@@ -116,12 +116,22 @@ async function firstKnown(
   }
 }
 
-interface ProjJson {
+/** Of a CRS in PROJJSON (schema v0.7) what is read here. */
+export interface ProjJson {
   readonly type?: string;
   readonly name?: string;
   readonly components?: readonly [ProjJson, ProjJson];
-  readonly coordinate_system?: { readonly subtype?: string };
+  /** Of a BoundCRS. */
+  readonly source_crs?: ProjJson;
+  readonly coordinate_system?: { readonly subtype?: string; readonly axis?: readonly ProjAxis[] };
   readonly id?: { readonly authority?: string; readonly code?: number };
+}
+
+export interface ProjAxis {
+  /** `up`, `down`, `north` … */
+  readonly direction?: string;
+  /** A unit of PROJJSON's own (`metre`, `degree`), or one with its size in metres or radians. */
+  readonly unit?: string | { readonly name?: string; readonly conversion_factor?: number };
 }
 
 /** Geocentric coordinates need no engine: they are X, Y, Z already. */
@@ -135,23 +145,42 @@ function inSpace(name: string): CrsError {
 }
 
 /** EPSG code of a CRS. */
-function idOf({ id }: ProjJson): number | undefined {
+export function idOf({ id }: ProjJson): number | undefined {
   return id?.authority === "EPSG" && Number.isInteger(id.code) ? id.code : undefined;
 }
 
-async function projJson(proj: Proj, source: CrsText, signal?: AbortSignal): Promise<ProjJson> {
+/** @throws CrsError CRS_UNKNOWN */
+export async function projJson(proj: Proj, source: CrsText, signal?: AbortSignal): Promise<ProjJson> {
+  const text = await written(proj, source, "PROJJSON", signal);
+  const json = parsed(text);
+  if (!json) throw failed(proj.projinfo, "its description of a coordinate reference system cannot be read");
+  return json;
+}
+
+/**
+ * A CRS in a notation of PROJ's, on one line.
+ *
+ * @throws CrsError CRS_UNKNOWN when PROJ does not know it, or has no words for it in that notation
+ */
+export async function written(
+  proj: Proj,
+  source: CrsText,
+  notation: "PROJJSON" | "WKT2:2019" | "PROJ",
+  signal?: AbortSignal,
+): Promise<string> {
   return withArgument(source, async (argument) => {
-    const args = ["-k", "crs", "-q", "-o", "PROJJSON", "--single-line", argument];
+    const args = ["-k", "crs", "-q", "-o", notation, "--single-line", argument];
     const { status, stdout, stderr } = await run(proj.projinfo, args, {
       environment: proj.environment,
       signal,
     });
-    const json = status === 0 ? parsed(stdout) : undefined;
-    if (json) return json;
+    const text = stdout.trim();
+    if (status === 0 && text !== "" && !text.startsWith("Error when exporting")) return text;
+    const said = (stderr.trim() || text).split("\n")[0].slice(0, 160);
     throw new CrsError({
       code: "CRS_UNKNOWN",
       file: source.name,
-      cause: `PROJ does not understand this coordinate reference system (${stderr.trim().split("\n")[0].slice(0, 160)})`,
+      cause: `PROJ does not understand this coordinate reference system (${said})`,
       fix: "name it with --crs, as an EPSG code or as WKT",
     });
   });

@@ -5,6 +5,13 @@ import type { MapView } from "./map-view.js";
 
 /** Least and greatest share of the page that the globe has beside the map. */
 const SHARES = [0.1, 0.9];
+/** By how much a key moves the bar. */
+const STEPS: ReadonlyMap<string, number> = new Map([
+  ["ArrowLeft", -0.05],
+  ["ArrowUp", -0.05],
+  ["ArrowRight", 0.05],
+  ["ArrowDown", 0.05],
+]);
 
 /** The map beside the globe: loaded when it is first shown, with a bar between the two that can be dragged. */
 export class Beside {
@@ -63,7 +70,7 @@ export class Beside {
   }
 
   #step(event: KeyboardEvent): void {
-    const step = { ArrowLeft: -0.05, ArrowUp: -0.05, ArrowRight: 0.05, ArrowDown: 0.05 }[event.key];
+    const step = STEPS.get(event.key);
     if (step === undefined) return;
     event.preventDefault();
     this.#moveTo(Number(document.body.style.getPropertyValue("--split") || 0.5) + step);

@@ -1,0 +1,55 @@
+import { describe, expect, it } from "vitest";
+import { knownCrs } from "./known-crs.js";
+import { findProj } from "./program/find.js";
+
+const proj = await findProj();
+const absent = proj ? "" : " (skipped: PROJ is not installed)";
+const METRE = { name: "metre", kind: "linear", size: 1 } as const;
+
+describe.skipIf(!proj)(`a CRS by PROJ${absent}`, () => {
+  const known = (text: string) => knownCrs(proj!, { name: "x.las", text });
+
+  it("is read with its code, unit, PROJ string and WKT", async () => {
+    const crs = await known("EPSG:2385");
+    expect(crs).toMatchObject({
+      ...{ name: "Xian 1980 / 3-degree Gauss-Kruger CM 120E", code: "EPSG:2385" },
+      ...{ horizontalUnit: METRE, verticalUnit: { ...METRE, declared: false }, height: { kind: "unknown" } },
+    });
+    expect(crs.proj4).toMatch(/^\+proj=tmerc .*(\+a=6378140|\+ellps=)/);
+    expect(crs.wkt).toMatch(/^PROJCRS\["Xian 1980/);
+  });
+
+  it("has the heights of a compound, with their unit", async () => {
+    const crs = await known("EPSG:2385+5737");
+    expect(crs).toMatchObject({ code: "EPSG:2385+5737", verticalUnit: { ...METRE, declared: true } });
+    expect(crs.height).toEqual({ kind: "geoid", model: "Yellow Sea 1985 height", epsg: 5737 });
+    const feet = await known("EPSG:2262+6360");
+    expect(feet.horizontalUnit.size).toBeCloseTo(1200 / 3937, 12);
+    expect(feet.verticalUnit).toMatchObject({ size: feet.horizontalUnit.size, declared: true });
+  });
+
+  it("has ellipsoidal heights where it has three axes, and degrees or grads where it is geographic", async () => {
+    const three = await known("EPSG:4979");
+    expect(three).toMatchObject({ height: { kind: "ellipsoidal" }, horizontalUnit: { kind: "angular" } });
+    const grads = await known("EPSG:4807");
+    expect(grads.horizontalUnit).toMatchObject({ kind: "angular" });
+    expect(grads.horizontalUnit.size).toBeCloseTo(Math.PI / 200, 12);
+  });
+
+  it("is read from WKT of an unknown datum, and with a shift of its own", async () => {
+    const text = "+proj=cass +lat_0=52.4 +lon_0=13.6 +ellps=bessel +towgs84=598,73,418 +units=m";
+    const crs = await known(text);
+    expect(crs.proj4).toMatch(/^\+proj=cass .*\+towgs84=598,73,418/);
+    expect(await known(crs.wkt!)).toMatchObject({ proj4: crs.proj4 });
+  });
+
+  it.each([
+    ["nothing", "EPSG:999999", "CRS_UNKNOWN"],
+    ["a height system alone", "EPSG:5728", "CRS_UNSUPPORTED"],
+    ["geocentric coordinates", "EPSG:4978", "CRS_UNSUPPORTED"],
+    ["an engineering system", "EPSG:5800", "CRS_UNSUPPORTED"],
+    ["depths", "EPSG:4326+5715", "CRS_UNSUPPORTED"],
+  ])("is refused when it is %s", async (_, text, code) => {
+    await expect(known(text)).rejects.toMatchObject({ code, file: "x.las" });
+  });
+});

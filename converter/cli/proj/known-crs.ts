@@ -1,0 +1,102 @@
+import { type Crs, CrsError, type Unit } from "@groma/georef";
+import type { Proj } from "./program/find.js";
+import { type CrsText, idOf, type ProjAxis, type ProjJson, projJson, written } from "./source.js";
+
+const METRE: Unit = { name: "metre", kind: "linear", size: 1 };
+/** Units that PROJJSON has a name for. */
+const NAMED: ReadonlyMap<string, Unit> = new Map([
+  ["metre", METRE],
+  ["degree", { name: "degree", kind: "angular", size: Math.PI / 180 }],
+]);
+
+/**
+ * A CRS as PROJ knows it, for one that `resolveCrs` does not take: only PROJ can place it, and `proj4` is what its PROJ
+ * string has left of it, without the datum.
+ *
+ * @throws CrsError CRS_UNKNOWN when PROJ does not know it either, CRS_UNSUPPORTED when it is no place on the earth (a
+ *   height system alone, geocentric or engineering coordinates) or has depths
+ */
+export async function knownCrs(proj: Proj, source: CrsText, signal?: AbortSignal): Promise<Crs> {
+  const whole = await projJson(proj, source, signal);
+  const [plane, vertical] =
+    whole.type === "CompoundCRS" && whole.components ? whole.components : [whole, undefined];
+  const [x, , z] = axesOf(plane);
+  const horizontalUnit = x && unitOf(x, isProjected(plane) ? "linear" : "angular");
+  if (!horizontalUnit || !ON_EARTH.has(inside(plane).type ?? "")) {
+    throw unsupported(source.name, `"${whole.name}" has no places in plane`);
+  }
+  const up = vertical ? axesOf(vertical)[0] : z;
+  if (up?.direction === "down")
+    throw unsupported(source.name, `its depths ("${whole.name}") are not supported`);
+  const declared = up && unitOf(up, "linear");
+  const fallback = horizontalUnit.kind === "linear" ? horizontalUnit : METRE;
+  const code = codeOf(whole, plane, vertical);
+  return {
+    name: whole.name ?? source.name,
+    ...(code !== undefined && { code: `EPSG:${code}` }),
+    proj4: await projString(proj, source, plane, signal),
+    wkt: await written(proj, source, "WKT2:2019", signal),
+    horizontalUnit,
+    verticalUnit: { ...(declared ?? fallback), declared: declared !== undefined },
+    height: heightOf(vertical, z),
+    datum: { operation: `as PROJ knows "${plane.name}"`, accuracy: null },
+  };
+}
+
+const ON_EARTH: ReadonlySet<string> = new Set([
+  ...["GeographicCRS", "GeodeticCRS", "ProjectedCRS", "DerivedGeographicCRS", "DerivedGeodeticCRS"],
+  "DerivedProjectedCRS",
+]);
+
+function inside(crs: ProjJson): ProjJson {
+  return crs.type === "BoundCRS" && crs.source_crs ? inside(crs.source_crs) : crs;
+}
+
+function isProjected(crs: ProjJson): boolean {
+  return /ProjectedCRS$/.test(inside(crs).type ?? "");
+}
+
+function axesOf(crs: ProjJson): readonly ProjAxis[] {
+  const { coordinate_system: system } = inside(crs);
+  return (system?.subtype === "Cartesian" && !isProjected(crs) ? undefined : system?.axis) ?? [];
+}
+
+function unitOf({ unit }: ProjAxis, kind: Unit["kind"]): Unit | undefined {
+  const found = typeof unit === "string" ? NAMED.get(unit) : sized(unit, kind);
+  return found?.kind === kind ? found : undefined;
+}
+
+function sized(unit: ProjAxis["unit"], kind: Unit["kind"]): Unit | undefined {
+  if (typeof unit !== "object" || unit === null) return undefined;
+  const { name = "unit", conversion_factor: size } = unit;
+  return typeof size === "number" && size > 0 ? { name, kind, size } : undefined;
+}
+
+function codeOf(whole: ProjJson, plane: ProjJson, vertical: ProjJson | undefined) {
+  const parts = vertical ? [idOf(plane), idOf(vertical)] : [idOf(whole)];
+  return parts.every((part) => part !== undefined) ? parts.join("+") : idOf(whole);
+}
+
+function heightOf(vertical: ProjJson | undefined, z: ProjAxis | undefined): Crs["height"] {
+  const system = vertical && inside(vertical);
+  if (!system) return { kind: z ? "ellipsoidal" : "unknown" };
+  const epsg = idOf(system);
+  return { kind: "geoid", model: system.name ?? "unnamed", ...(epsg !== undefined && { epsg }) };
+}
+
+async function projString(
+  proj: Proj,
+  source: CrsText,
+  plane: ProjJson,
+  signal: AbortSignal | undefined,
+): Promise<string> {
+  const text = await written(proj, { name: source.name, text: JSON.stringify(plane) }, "PROJ", signal);
+  return text.replace(/ \+type=crs$/, "");
+}
+
+function unsupported(file: string, cause: string): CrsError {
+  return new CrsError({
+    ...{ code: "CRS_UNSUPPORTED", file, cause },
+    fix: "give the coordinate reference system of the points in plane with --crs, their heights with --vertical",
+  });
+}
