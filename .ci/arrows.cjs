@@ -60,6 +60,7 @@ module.exports = {
     onlyTo("layer-knows-georef-only", "layer", ["georef"]),
     onlyTo("demo-knows-libraries", "demo", ["layer", "georef"]),
     onlyTo("demo-scene", "demo/src/scene", ["layer", "georef"]),
+    onlyTo("demo-profile", "demo/src/profile", ["demo/src/panel", "layer", "georef"]),
     onlyTo("demo-panel", "demo/src/panel", ["demo/src/scene", "layer", "georef"]),
     onlyTo("cli-knows-view-independent-rooms", "converter/cli", [
       "georef",

@@ -23,6 +23,7 @@ import { Picked } from "./panel/picked.js";
 import { Progress } from "./panel/progress.js";
 import { STYLE_GROUPS } from "./panel/style-fields.js";
 import { VIEW_GROUPS } from "./panel/view-fields.js";
+import { ProfilePanel } from "./profile/profile-panel.js";
 import { type Flight, goToCloud, goToPlaces } from "./scene/camera.js";
 import { ClipBox } from "./scene/clip-box.js";
 import { Picking } from "./scene/picking.js";
@@ -51,8 +52,6 @@ function start(viewer: Viewer): void {
     (thrown) => message.show(thrown),
   );
   const beside = new Beside(viewer, (thrown) => message.show(thrown));
-  const groma: Groma = { viewer, measure: measuring.tool, beside, layer: undefined };
-  window.groma = groma;
   const progress = new Progress();
   const controls = new Controls((aspect) => {
     if (slot.layer) void goToCloud(viewer, slot.layer, { aspect, free: freeArea(), way: way("fly") });
@@ -63,10 +62,20 @@ function start(viewer: Viewer): void {
   const classes = new Classes();
   const ledger = new Ledger();
   const picked = new Picked();
+  const profile = new ProfilePanel(viewer, () => slot.layer, {
+    // One tool at a time has the clicks.
+    begins: () => measuring.tool.cancel(),
+    failed: (thrown) => message.show(thrown),
+  });
+  measuring.tool.onChange(() => {
+    if (measuring.tool.drawing) profile.finish();
+  });
+  const groma: Groma = { viewer, measure: measuring.tool, beside, profile, layer: undefined };
+  window.groma = groma;
   const picking = new Picking(
     viewer,
     // A click that places a vertex shows no record.
-    () => (measuring.tool.drawing ? undefined : slot.layer),
+    () => (measuring.tool.drawing || profile.drawing ? undefined : slot.layer),
     (hit) => {
       picked.show(hit);
       if (hit) box.moveTo(hit.position);
@@ -189,6 +198,7 @@ function start(viewer: Viewer): void {
     picking.clear();
     measuring.tool.attach([layer.cloud]);
     beside.attach(layer);
+    profile.clear();
     progress.follow(layer);
     tellFailures(layer);
     if (wanted !== "stay") {

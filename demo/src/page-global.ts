@@ -2,6 +2,7 @@ import type { PointCloudLayer } from "@groma/layer/cesium";
 import type { MeasureTool } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
 import type { Beside } from "./map/beside.js";
+import type { ProfilePanel } from "./profile/profile-panel.js";
 
 /** What the page offers to the browser's console and to tests. */
 export interface Groma {
@@ -9,6 +10,7 @@ export interface Groma {
   readonly measure: MeasureTool;
   /** The map beside the globe. */
   readonly beside: Beside;
+  readonly profile: ProfilePanel;
   /** The cloud, from when the camera stands before it. */
   layer: PointCloudLayer | undefined;
 }

@@ -11,6 +11,11 @@ export interface Groma {
   readonly beside: { readonly view: Promise<{ readonly map: OlMap }> | undefined };
   readonly layer: PointCloudLayer;
   readonly measure: MeasureTool;
+  /** The panel of demo/src/profile. */
+  readonly profile: {
+    readonly line: readonly (readonly [number, number])[];
+    readonly shown: number;
+  };
 }
 
 declare global {

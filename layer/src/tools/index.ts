@@ -12,11 +12,20 @@ export type {
 } from "@groma/georef";
 export type { SourceSpace } from "../clips/index.js";
 export { MeasureError } from "../errors/index.js";
-export type { BoxRelation, QueryVolume } from "../query/index.js";
+export type {
+  BoxRelation,
+  PointBatch,
+  PointBracket,
+  PointOrigin,
+  PointQuery,
+  QueryOptions,
+  QueryVolume,
+} from "../query/index.js";
 export { BoxVolume } from "./area/box-volume.js";
 export { PolygonVolume } from "./area/polygon-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
 export * from "./measure/index.js";
 export { Corridor } from "./profile/corridor.js";
+export { Profile, type ProfiledCloud, type ProfileOptions, type ProfilePoints } from "./profile/profile.js";
 export { sourceLine } from "./profile/source-line.js";

@@ -1,0 +1,64 @@
+import { type ByteSink, MemorySink } from "@groma/layer/export";
+
+/** The part of the File System API that TypeScript's own types lack. */
+interface SavePicker {
+  showSaveFilePicker?(options: { suggestedName: string }): Promise<FileSystemFileHandle>;
+}
+
+/** Writes a file of the browser's, which stands whole or not at all: it takes its place when it is closed. */
+class StreamSink implements ByteSink {
+  readonly #stream: FileSystemWritableFileStream;
+
+  constructor(stream: FileSystemWritableFileStream) {
+    this.#stream = stream;
+  }
+
+  async write(bytes: Uint8Array): Promise<void> {
+    await this.#stream.write(bytes as Uint8Array<ArrayBuffer>);
+  }
+
+  async overwrite(at: number, bytes: Uint8Array): Promise<void> {
+    await this.#stream.write({ type: "write", position: at, data: bytes as Uint8Array<ArrayBuffer> });
+  }
+}
+
+/**
+ * Has a file written where the reader chooses, straight to disk; in a browser that cannot, it is held in memory and
+ * downloaded. Nothing is left of what fails.
+ *
+ * @returns false where the reader chose no place
+ */
+export async function saveFile(name: string, fill: (sink: ByteSink) => Promise<unknown>): Promise<boolean> {
+  const { showSaveFilePicker } = window as SavePicker;
+  if (!showSaveFilePicker) {
+    const sink = new MemorySink();
+    await fill(sink);
+    download(name, sink.blob());
+    return true;
+  }
+  let handle: FileSystemFileHandle;
+  try {
+    handle = await showSaveFilePicker.call(window, { suggestedName: name });
+  } catch (thrown) {
+    if (thrown instanceof Error && thrown.name === "AbortError") return false;
+    throw thrown;
+  }
+  const stream = await handle.createWritable();
+  try {
+    await fill(new StreamSink(stream));
+  } catch (thrown) {
+    await stream.abort();
+    throw thrown;
+  }
+  await stream.close();
+  return true;
+}
+
+function download(name: string, blob: Blob): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  // The browser has taken the file by the next turn of the loop, some only a little later.
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
