@@ -56,6 +56,12 @@ function positive(text: string): number {
   throw new InvalidArgumentError("Expected a number greater than 0");
 }
 
+function finite(text: string): number {
+  const number = text.trim() === "" ? Number.NaN : Number(text);
+  if (Number.isFinite(number)) return number;
+  throw new InvalidArgumentError("Expected a number");
+}
+
 function boxNumbers(text: string): number[] {
   const numbers = text.split(",").map((word) => (word.trim() === "" ? Number.NaN : Number(word)));
   if ((numbers.length === 4 || numbers.length === 6) && numbers.every(Number.isFinite)) return numbers;
@@ -175,6 +181,12 @@ const profile = program
       .argParser(positive)
       .makeOptionMandatory(),
   )
+  .addOption(
+    new Option("--stations <how>", "how chainage is counted: in the plane, or along geodesics in metres")
+      .choices(["grid", "geodesic"])
+      .default("grid"),
+  )
+  .addOption(new Option("--start <S>", "chainage at the start of the line").argParser(finite).default(0))
   .option("--chainage", "add chainage and offset along the line to each LAS record, as extra bytes")
   .option("--straightened", "lay the points of DXF along the line: x is the chainage, y the height")
   .action(async (files: string[], options) =>

@@ -1,5 +1,5 @@
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
@@ -109,6 +109,21 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
     expect(found.users).toEqual(["LASF_Projection", "LASF_Spec", "groma"]);
   });
 
+  it("counts chainage along geodesics, from a start", () => {
+    const scan = converted(road.path);
+    const line = lines["a line along the lattice"]!;
+    const longest = (...options: string[]) =>
+      profile(scan, line, 10, ["--chainage", "--start", "1000", ...options]).along.chainage!;
+    const [grid, geodesic] = [longest(), longest("--stations", "geodesic")];
+    expect(grid[0]).toBeGreaterThanOrEqual(1000);
+    expect(grid[1]).toBeGreaterThan(1299);
+    expect(grid[1]).toBeLessThanOrEqual(1300);
+    // The scan lies 765 m up, of which a geodesic on the ellipsoid knows nothing; LV03 is within 200 ppm of true there.
+    const ratio = (geodesic[1] - 1000) / (grid[1] - 1000);
+    expect(Math.abs(ratio - 1)).toBeLessThan(2e-4);
+    expect(ratio).not.toBe(1);
+  });
+
   it("finds the same by longitude and latitude", () => {
     const scan = converted(road.path);
     const line = lines["a line along the lattice"]!;
@@ -205,6 +220,36 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
     } finally {
       server.kill();
     }
+  });
+
+  it("leaves nothing behind when it is stopped", async () => {
+    const scan = converted(road.path);
+    const file = join(folder, "stopped.geojson");
+    const place = join(folder, "stopped");
+    mkdirSync(place);
+    writeFileSync(
+      file,
+      JSON.stringify({ type: "LineString", coordinates: lines["a line along the lattice"] }),
+    );
+    const options = [
+      "--line",
+      file,
+      "--line-crs",
+      "source",
+      "--width",
+      "400",
+      "--out",
+      join(place, "cut.las"),
+    ];
+    const child = spawn(process.execPath, [main, "profile", scan, ...options, "--progress", "json"]);
+    let stderr = "";
+    child.stderr.on("data", (chunk) => {
+      stderr += chunk;
+    });
+    child.stdout.once("data", () => child.kill("SIGINT"));
+    const code = await new Promise((resolve) => child.on("close", resolve));
+    expect([code, stderr]).toEqual([1, expect.stringMatching(/^INTERRUPTED: /)]);
+    expect(readdirSync(place)).toEqual([]);
   });
 
   it("refuses what it cannot do, by name, and leaves nothing behind", () => {

@@ -1,7 +1,7 @@
 import { ecefToGeodetic, pointTransform } from "@groma/georef";
 import type { PointSelection } from "@groma/layer/export";
 import type { RecordedPoints } from "@groma/layer/query";
-import { sourceLine } from "@groma/layer/tools";
+import { geodesicLengths, sourceLine } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
 import { placed } from "../place/placed.js";
 import type { Position } from "./geojson.js";
@@ -94,4 +94,25 @@ export async function geodeticOf({
     out[0]! /= DEGREE;
     out[1]! /= DEGREE;
   };
+}
+
+/**
+ * Lengths of the geodesics between places, metres.
+ * @param positions as they were given
+ * @throws CrsError, RecordError
+ */
+export async function lengthsOnEarth(
+  positions: readonly Position[],
+  crs: GivenCrs,
+  origin: RecordedPoints,
+): Promise<number[]> {
+  const geodetic = crs === "source" ? await geodeticOf(origin) : undefined;
+  const { min, max } = origin.source.boundingBox;
+  const out = new Float64Array(3);
+  const line = positions.map(([x, y]) => {
+    out.set([x, y]);
+    geodetic?.(x, y, (min[2] + max[2]) / 2, out);
+    return [out[0]! * DEGREE, out[1]! * DEGREE] as const;
+  });
+  return geodesicLengths(line);
 }

@@ -1,4 +1,4 @@
-import { BoxVolume, Corridor, PolygonVolume } from "@groma/layer/tools";
+import { BoxVolume, Corridor, PolygonVolume, type Stationing } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
 import type { InSource } from "./place.js";
 
@@ -14,10 +14,19 @@ function made<T>(make: () => T, code: string, file: string, fix: string): T {
   }
 }
 
-/** The strip along a line. @throws OptionError OPTION_LINE where the line has no length */
-export function corridor({ positions, unit }: InSource, width: number, given: string): Corridor {
+/**
+ * The strip along a line.
+ * @param width in the unit of lengths that goes with the line
+ * @throws OptionError OPTION_LINE where the line has no length
+ */
+export function corridor(
+  { positions, unit }: InSource,
+  width: number,
+  stationing: Stationing,
+  given: string,
+): Corridor {
   const fix = "give a line with two or more different vertices";
-  return made(() => new Corridor(positions, width * unit), "OPTION_LINE", given, fix);
+  return made(() => new Corridor(positions, width * unit, stationing), "OPTION_LINE", given, fix);
 }
 
 /** All that stands on a polygon. @throws OptionError OPTION_POLYGON where a ring has no area */

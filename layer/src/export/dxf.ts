@@ -1,6 +1,6 @@
 import type { ByteSink } from "./byte-sink.js";
 import { CoordinateText, SLICE } from "./columns.js";
-import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { type AlongLine, type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
 import { TextSink } from "./text-sink.js";
 
 /** How DXF is written. */
@@ -36,7 +36,7 @@ export async function exportDxf(
   const { layout = "space" } = options;
   const text = new TextSink(sink);
   text.add(front());
-  text.add(polyline(selections.find(({ along }) => along)?.along?.vertices ?? [], layout));
+  text.add(polyline(selections.find(({ along }) => along)?.along, layout));
   const place = new Float64Array(2);
   const count = await eachBatch(selections, options, async (batch, wanted, { origin, along }) => {
     const coordinates = new CoordinateText(origin);
@@ -83,12 +83,10 @@ function pointText(x: string, y: string, z: string): string {
 }
 
 /** The line at height 0: as it runs, or straightened. */
-function polyline(line: readonly (readonly [number, number])[], layout: DxfOptions["layout"]): string {
-  if (line.length < 2) return "";
-  let chainage = 0;
-  const vertices = line.map(([x, y], index) => {
-    if (index > 0) chainage += Math.hypot(x - line[index - 1][0], y - line[index - 1][1]);
-    const [u, v] = layout === "straightened" ? [chainage, 0] : [x, y];
+function polyline(along: AlongLine | undefined, layout: DxfOptions["layout"]): string {
+  if (!along) return "";
+  const vertices = along.vertices.map(([x, y], index) => {
+    const [u, v] = layout === "straightened" ? [along.chainages[index], 0] : [x, y];
     return groups([0, "VERTEX"], [8, "LINE"], [10, u], [20, v], [30, 0], [70, 32]);
   });
   return [

@@ -112,6 +112,7 @@ describe("LAS from recorded points", () => {
     const { selection, lasRecords } = selectionOf(3, envelopeOf(302, [extra]));
     const along = {
       vertices: [],
+      chainages: [],
       locate(x: number, y: number, out: Float64Array) {
         out.set([x, y]);
       },

@@ -4,6 +4,8 @@ import type { PointBatch, PointOrigin, PointQuery, QueryVolume } from "../query/
 export interface AlongLine {
   /** x and y of its vertices, source coordinates. */
   readonly vertices: readonly (readonly [number, number])[];
+  /** Chainage of each. */
+  readonly chainages: readonly number[];
   /**
    * @param out receives the chainage (distance along the line) and the signed offset from it, left positive
    */

@@ -49,6 +49,7 @@ const along = {
     [600000, 0],
     [600003, 4],
   ] as const,
+  chainages: [0, 5],
   locate(x: number, y: number, out: Float64Array) {
     out.set([x - 600000, y]);
   },

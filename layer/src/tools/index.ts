@@ -26,6 +26,12 @@ export { PolygonVolume } from "./area/polygon-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
 export * from "./measure/index.js";
-export { Corridor } from "./profile/corridor.js";
-export { Profile, type ProfiledCloud, type ProfileOptions, type ProfilePoints } from "./profile/profile.js";
+export { Corridor, type Stationing } from "./profile/corridor.js";
+export {
+  geodesicLengths,
+  Profile,
+  type ProfiledCloud,
+  type ProfileOptions,
+  type ProfilePoints,
+} from "./profile/profile.js";
 export { sourceLine } from "./profile/source-line.js";

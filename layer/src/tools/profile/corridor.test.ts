@@ -153,10 +153,11 @@ describe("a corridor along a line", () => {
         [10, 10],
       ],
       4,
-      [100, 7, 50],
+      { lengths: [100, 7, 50], start: 1000 },
     );
     expect(corridor.length).toBe(150);
-    expect(located(corridor, 10.5, 5).chainage).toBe(125);
+    expect(corridor.chainages).toEqual([1000, 1100, 1100, 1150]);
+    expect(located(corridor, 10.5, 5).chainage).toBe(1125);
   });
 
   it("agrees with itself on boxes", () => {

@@ -2,6 +2,14 @@ import type { BoxRelation, QueryVolume } from "../../query/index.js";
 import { isNear } from "../exact/exact.js";
 import { SegmentGrid, type Segments } from "./segment-grid.js";
 
+/** How distances along a line are counted. */
+export interface Stationing {
+  /** Lengths of the stretches between the vertices, in any unit. Default: in the plane. */
+  readonly lengths?: readonly number[] | undefined;
+  /** Chainage at the start of the line, in the same unit. Default: 0. */
+  readonly start?: number | undefined;
+}
+
 /** Relative error of a float64 operation. */
 const EPSILON = 2 ** -53;
 
@@ -17,34 +25,45 @@ const EPSILON = 2 ** -53;
 export class Corridor implements QueryVolume {
   /** x and y of the line's vertices, source units, as they were given. */
   readonly vertices: readonly (readonly [number, number])[];
+  /** Chainage of each vertex. */
+  readonly chainages: readonly number[];
   /** Half the width, source units. */
   readonly reach: number;
   readonly #segments: Segments;
-  /** Distance along the line at the start of each segment, and at the end of the last. */
+  /** Chainage at the start of each segment, and at the end of the last. */
   readonly #stations: Float64Array;
   readonly #grid: SegmentGrid;
 
   /**
    * @param line x and y of each vertex, source units; vertices that repeat the one before are passed over
    * @param width of the whole strip, source units
-   * @param lengths of the stretches between the vertices, in any unit. Default: in the plane
    * @throws RangeError where the line has no length, or a number is not finite
    */
-  constructor(line: readonly (readonly [number, number])[], width: number, lengths?: readonly number[]) {
+  constructor(
+    line: readonly (readonly [number, number])[],
+    width: number,
+    { lengths, start = 0 }: Stationing = {},
+  ) {
     if (!(width > 0 && Number.isFinite(width))) throw new RangeError(`the width cannot be ${width}`);
     const ends: number[] = [];
-    const stations = [0];
+    const stations = [start];
+    const chainages = [start];
     for (let index = 1; index < line.length; index++) {
       const [ax, ay] = line[index - 1];
       const [bx, by] = line[index];
       if (![ax, ay, bx, by].every(Number.isFinite))
         throw new RangeError("a vertex of the line is not finite");
-      if (ax === bx && ay === by) continue;
+      if (ax === bx && ay === by) {
+        chainages.push(stations[stations.length - 1]);
+        continue;
+      }
       ends.push(ax, ay, bx, by);
       stations.push(stations[stations.length - 1] + (lengths?.[index - 1] ?? Math.hypot(bx - ax, by - ay)));
+      chainages.push(stations[stations.length - 1]);
     }
     if (ends.length === 0) throw new RangeError("the line has no length");
     this.vertices = line;
+    this.chainages = chainages;
     this.reach = width / 2;
     this.#segments = Float64Array.from(ends);
     this.#stations = Float64Array.from(stations);
@@ -53,7 +72,7 @@ export class Corridor implements QueryVolume {
 
   /** Length of the line, in the unit of its distances. */
   get length(): number {
-    return this.#stations[this.#stations.length - 1];
+    return this.#stations[this.#stations.length - 1] - this.#stations[0];
   }
 
   contains(x: number, y: number): boolean {

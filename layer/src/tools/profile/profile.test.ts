@@ -1,7 +1,7 @@
 import { PlacementError } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import type { PointBatch } from "../../query/index.js";
-import { Profile, type ProfiledCloud } from "./profile.js";
+import { geodesicLengths, Profile, type ProfiledCloud } from "./profile.js";
 
 const FOOT = 0.3048;
 
@@ -56,6 +56,23 @@ describe("a profile", () => {
       const found = points[name as keyof typeof expected];
       for (const [index, feet] of values.entries()) expect(found[index]).toBeCloseTo(feet * FOOT, 5);
     }
+  });
+
+  it("counts chainage along geodesics, from a start", async () => {
+    const line = [
+      [0, 0],
+      [radians(100), 0],
+    ] as const;
+    const profile = new Profile(cloudOf(), { line, width: 10 * FOOT, chainage: "geodesic", start: 1000 });
+    // The cloud lies on a sphere of the equator's radius, along which both lengths are the same.
+    const { value } = await profile.points().next();
+    expect(value!.chainage[1]).toBeCloseTo(1000 + 50 * FOOT, 5);
+    expect(profile.length).toBeCloseTo(100 * FOOT, 6);
+    const north = [
+      [0, 0],
+      [0, Math.PI / 4],
+    ] as const;
+    expect(geodesicLengths(north)[0]).toBeCloseTo(4984944.378, 2);
   });
 
   it("refuses coordinates that are angles, and lines without length", () => {

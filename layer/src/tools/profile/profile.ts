@@ -1,4 +1,4 @@
-import { type Crs, PlacementError } from "@groma/georef";
+import { type Crs, geodesicBetween, PlacementError } from "@groma/georef";
 import type { SourceSpace } from "../../clips/index.js";
 import type { PointBatch, PointOrigin } from "../../query/index.js";
 import { Corridor } from "./corridor.js";
@@ -15,12 +15,19 @@ export interface ProfileOptions {
   readonly line: readonly (readonly [number, number])[];
   /** Of the whole strip, metres in the plane of the data set's coordinates. */
   readonly width: number;
+  /**
+   * How chainage is counted: in the plane of the data set's coordinates, or along the geodesics of WGS 84 between the
+   * vertices, and in proportion between them. Default: `grid`.
+   */
+  readonly chainage?: "grid" | "geodesic" | undefined;
+  /** Chainage at the start of the line, metres. Default: 0. */
+  readonly start?: number | undefined;
 }
 
 /** Points of a profile from one node, along the line. */
 export interface ProfilePoints {
   readonly batch: PointBatch;
-  /** Metres from the line's start, in the plane of the data set's coordinates. */
+  /** Metres along the line, as the profile counts them. */
   readonly chainage: Float64Array;
   /** Metres from the line, left positive. */
   readonly offset: Float64Array;
@@ -41,7 +48,7 @@ export class Profile {
    * @throws PlacementError PLACE_DOMAIN where a vertex has no place in the data set's coordinates, PLACE_ANGLES where
    * these are angles, PLACE_LINE where the line has no length or the width is none
    */
-  constructor(cloud: ProfiledCloud, { line, width }: ProfileOptions) {
+  constructor(cloud: ProfiledCloud, { line, width, chainage = "grid", start = 0 }: ProfileOptions) {
     const { horizontalUnit } = cloud.crs;
     const refuse = (code: string, cause: string, fix: string) =>
       new PlacementError({ code, file: cloud.name, cause, fix });
@@ -52,7 +59,10 @@ export class Profile {
     this.origin = cloud;
     const vertices = sourceLine(cloud, line, cloud.name);
     try {
-      this.volume = new Corridor(vertices, width / horizontalUnit.size);
+      const { size } = horizontalUnit;
+      const lengths =
+        chainage === "geodesic" ? geodesicLengths(line).map((metres) => metres / size) : undefined;
+      this.volume = new Corridor(vertices, width / size, { lengths, start: start / size });
     } catch (thrown) {
       if (!(thrown instanceof RangeError)) throw thrown;
       throw refuse("PLACE_LINE", thrown.message, "Give two or more different vertices, and a width above 0");
@@ -64,7 +74,7 @@ export class Profile {
     return this.volume;
   }
 
-  /** Length of the line, metres in the plane of the data set's coordinates. */
+  /** Length of the line, metres, as the profile counts them. */
   get length(): number {
     return this.volume.length * this.origin.crs.horizontalUnit.size;
   }
@@ -95,4 +105,15 @@ export class Profile {
       yield { batch, chainage, offset, height };
     }
   }
+}
+
+/**
+ * Lengths of the geodesics of WGS 84 between the vertices of a line, metres.
+ * @param line longitude and latitude of each, radians
+ */
+export function geodesicLengths(line: ProfileOptions["line"]): number[] {
+  return line.slice(1).map(([longitude, latitude], index) => {
+    const [fromLongitude, fromLatitude] = line[index];
+    return geodesicBetween(fromLongitude, fromLatitude, longitude, latitude).distance;
+  });
 }
