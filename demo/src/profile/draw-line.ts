@@ -2,9 +2,9 @@ import { ecefToGeodetic } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import {
   ArcType,
+  CallbackProperty,
   Cartesian3,
   Color,
-  ConstantProperty,
   type Entity,
   ScreenSpaceEventHandler,
   ScreenSpaceEventType,
@@ -13,6 +13,9 @@ import {
 
 /** Pixels around the pointer in which a point counts as hit. */
 const REACH = 9;
+
+/** What the line and its vertices are drawn in. */
+const COLOUR = Color.fromCssColorString("#f2b84b");
 
 /** A line on the globe: longitude and latitude of each vertex, radians. */
 export type DrawnLine = readonly (readonly [number, number])[];
@@ -23,6 +26,8 @@ export class DrawLine {
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #changed: (line: DrawnLine) => void;
   readonly #places: Cartesian3[] = [];
+  /** The vertices in the scene, seen through whatever stands before them. */
+  readonly #marks: Entity[] = [];
   #entity: Entity | undefined;
   #handler: ScreenSpaceEventHandler | undefined;
 
@@ -56,11 +61,11 @@ export class DrawLine {
     }, ScreenSpaceEventType.LEFT_CLICK);
     this.#entity = this.#viewer.entities.add({
       polyline: {
-        positions: [],
+        // Asked for with each frame: a line that is built anew in a worker would come seconds later.
+        positions: new CallbackProperty(() => [...this.#places], false),
         arcType: ArcType.NONE,
         width: 3,
-        material: Color.fromCssColorString("#f2b84b"),
-        depthFailMaterial: Color.fromCssColorString("#f2b84b").withAlpha(0.6),
+        material: COLOUR,
       },
     });
   }
@@ -75,6 +80,7 @@ export class DrawLine {
     this.end();
     if (this.#entity) this.#viewer.entities.remove(this.#entity);
     this.#entity = undefined;
+    for (const mark of this.#marks.splice(0)) this.#viewer.entities.remove(mark);
     this.#places.length = 0;
   }
 
@@ -83,7 +89,18 @@ export class DrawLine {
     if (!hit || !this.active) return;
     const { x, y, z } = hit.position;
     this.#places.push(new Cartesian3(x, y, z));
-    if (this.#entity?.polyline) this.#entity.polyline.positions = new ConstantProperty([...this.#places]);
+    this.#marks.push(
+      this.#viewer.entities.add({
+        position: new Cartesian3(x, y, z),
+        point: {
+          pixelSize: 9,
+          color: COLOUR,
+          outlineColor: Color.BLACK,
+          outlineWidth: 1,
+          disableDepthTestDistance: Number.POSITIVE_INFINITY,
+        },
+      }),
+    );
     this.#viewer.scene.requestRender();
     this.#changed(this.line);
   }
