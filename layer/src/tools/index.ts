@@ -12,6 +12,7 @@ export type {
 } from "@groma/georef";
 export type { SourceSpace } from "../clips/index.js";
 export { MeasureError } from "../errors/index.js";
+export type { VoxelKey } from "../octree/index.js";
 export type {
   BoxRelation,
   PointBatch,
@@ -21,6 +22,9 @@ export type {
   QueryOptions,
   QueryVolume,
 } from "../query/index.js";
+export type { NumberType, PointAttribute } from "../sources/contract/point-attribute.js";
+export type { LasEnvelope, LasVariableRecord } from "../sources/contract/point-source.js";
+export type { RecordedNode, StoredAttribute } from "../workers/index.js";
 export { BoxVolume } from "./area/box-volume.js";
 export { PolygonVolume } from "./area/polygon-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
