@@ -104,7 +104,7 @@ module.exports = {
     layer("effects/declaration", ["clips", "octree", "options", "errors"]),
     layer("effects/catalogue", ["effects/declaration", "clips", "octree", "options", "errors"]),
     layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "errors"]),
-    layer("tools/measure", ["options", "errors"]),
+    layer("tools/measure", ["query", "options", "errors"]),
     layer("tools/draw", ["tools/measure", "errors"]),
     layer("tools/profile", ["tools/exact", "query", "clips", "options", "errors"]),
     layer("export", ["query", "workers", CONTRACT, "options", "errors"]),

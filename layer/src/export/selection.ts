@@ -1,4 +1,10 @@
-import type { PointBatch, PointOrigin, PointQuery, QueryVolume } from "../query/index.js";
+import {
+  ofClasses,
+  type PointBatch,
+  type PointOrigin,
+  type PointQuery,
+  type QueryVolume,
+} from "../query/index.js";
 
 /** How points lie along a line: what a profile adds to their records. */
 export interface AlongLine {
@@ -82,11 +88,4 @@ export async function eachBatch(
   }
   onProgress?.({ read: total, total, written });
   return written;
-}
-
-function ofClasses({ records, inside }: PointBatch, classes: ReadonlySet<number>): Wanted {
-  const attribute = records.attributes.find(({ name }) => name === "classification");
-  if (!attribute) return new Uint32Array(0);
-  const { bytes, at, stride } = attribute;
-  return inside.filter((point) => classes.has(bytes[at + point * stride]));
 }

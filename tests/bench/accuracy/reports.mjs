@@ -3,6 +3,7 @@ import { createRequire } from "node:module";
 import { cpus, loadavg } from "node:os";
 import { join } from "node:path";
 import { geodesicReport } from "./geodesic-report.mjs";
+import { measuringReport } from "./measuring-report.mjs";
 import { placingReport } from "./placing-report.mjs";
 import { renderingReport } from "./rendering-report.mjs";
 import { samplingReport } from "./sampling-report.mjs";
@@ -11,6 +12,7 @@ import { verticalReport } from "./vertical-report.mjs";
 const reports = {
   placing: placingReport,
   geodesic: geodesicReport,
+  measuring: measuringReport,
   vertical: verticalReport,
   rendering: renderingReport,
   sampling: samplingReport,

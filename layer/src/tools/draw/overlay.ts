@@ -64,6 +64,9 @@ export class Overlay {
     this.#svg.append(this.#cross);
     this.root.append(this.#svg);
     view.element.after(this.root);
+    const { parentElement: around } = this.root;
+    // What is laid over the view is placed in what holds the view.
+    if (around && getComputedStyle(around).position === "static") around.style.position = "relative";
     this.#unwatch = view.onFrame(() => this.layout());
   }
 

@@ -6,6 +6,7 @@ export { type Distance, type GridDistance, measureDistance, measureHeight } from
 export { type BestPlane, measurePlane } from "./figures/plane.js";
 export { measurePolyline, type Polyline } from "./figures/polyline.js";
 export { type ReadOut, readOut } from "./figures/read-out.js";
+export { type GroundOptions, measureHeightAboveGround } from "./ground/height-above-ground.js";
 export {
   type KindOfMeasurement,
   MEASUREMENT_KINDS,
@@ -40,5 +41,8 @@ export {
   type Vertex,
   type VertexRecord,
 } from "./vertex/vertex.js";
+export { cutAndFill, type RingVolume, type VolumeBase } from "./volume/cut-and-fill.js";
+export { measureVolume, type Volume, type VolumeCloud, type VolumeOptions } from "./volume/measure-volume.js";
+export type { CutAndFill } from "./volume/prisms.js";
 export type { Precision, WorthOptions } from "./worth/point-errors.js";
 export type { Quantity, SiUnit, UncertaintyPart } from "./worth/quantity.js";

@@ -1,0 +1,125 @@
+import { describe, expect, it } from "vitest";
+import type { PointOrigin, QueryOptions } from "../../../query/index.js";
+import { cloudOf, type FixtureCloud, UTM } from "../cloud.fixture.js";
+import { measureHeightAboveGround, measureVolume } from "../index.js";
+
+/** Points with classes, metres from a place. */
+type Points = readonly (readonly [number, number, number, number])[];
+const [X, Y] = [500000, 5300000];
+
+/** A data set of these points, in one node. */
+function withPoints(cloud: FixtureCloud, points: Points) {
+  const integers = points.flatMap(([x, y, z]) => cloud.vertex(X + x, Y + y, z).record!.integers);
+  const attribute = {
+    name: "classification",
+    bytes: Uint8Array.from(points, ([, , , kind]) => kind),
+    at: 0,
+    stride: 1,
+  };
+  const records = { count: points.length, xyz: Int32Array.from(integers), attributes: [attribute] };
+  const query = ({ volume }: QueryOptions = {}) => ({
+    bracket: async () => ({ least: 0, most: points.length, nodes: 1 }),
+    async *batches() {
+      const inside = points.flatMap(([x, y, z], i) => (volume?.contains(X + x, Y + y, z) ? [i] : []));
+      yield {
+        node: "0-0-0-0",
+        key: { depth: 0, x: 0, y: 0, z: 0 },
+        records,
+        inside: Uint32Array.from(inside),
+      };
+    },
+  });
+  return Object.assign(cloud, { offset: [0, 4_000_000, 0], query }) as unknown as FixtureCloud & PointOrigin;
+}
+
+/** Ground that falls by a tenth to the east, with trees of class 5 on it. */
+const slope: Points = Array.from({ length: 400 }, (_, i) => {
+  const [x, y] = [(i % 20) - 10, Math.floor(i / 20) - 10];
+  return i % 7 === 0 ? ([x, y, 20, 5] as const) : ([x + 0.3, y, 5 - 0.1 * (x + 0.3), 2] as const);
+});
+
+describe("the height above the ground", () => {
+  it("is that above the plane of the ground around, whatever stands on it", async () => {
+    const cloud = withPoints(cloudOf(UTM), slope);
+    const top = cloud.vertex(X + 1, Y + 1, 17);
+    const height = await measureHeightAboveGround(cloud, top, { precision: 0.01 });
+    expect(height.value).toBeCloseTo(17 - 4.9, 3);
+    expect(height.uncertainty).toBeGreaterThan(0.019);
+    expect(height.uncertainty).toBeLessThan(0.03);
+    expect(height.parts.map(({ name }) => name)).toContain("ground");
+  });
+
+  it("is worth less where the ground is rough", async () => {
+    const rough = slope.map(([x, y, z, kind], i) => [x, y, z + 0.2 * ((i % 3) - 1), kind] as const);
+    const cloud = withPoints(cloudOf(UTM), rough);
+    const height = await measureHeightAboveGround(cloud, cloud.vertex(X, Y, 9), { precision: 0.01 });
+    expect(height.uncertainty).toBeGreaterThan(0.25);
+  });
+
+  it("is none where there is no ground, or another data set", async () => {
+    const cloud = withPoints(cloudOf(UTM), slope);
+    const top = cloud.vertex(X, Y, 17);
+    await expect(measureHeightAboveGround(cloud, top, { radius: 0.5 })).rejects.toMatchObject({
+      code: "MEASURE_GROUND",
+    });
+    await expect(measureHeightAboveGround(cloud, top, { classes: new Set([9]) })).rejects.toThrow(
+      "MEASURE_GROUND",
+    );
+    await expect(measureHeightAboveGround(cloud, cloudOf(UTM).vertex(X, Y, 1))).rejects.toThrow(
+      "MEASURE_DATASET",
+    );
+  });
+});
+
+describe("the volume of a data set", () => {
+  const pile: Points = Array.from({ length: 6400 }, (_, i) => {
+    const [x, y] = [(i % 80) / 4 - 10, Math.floor(i / 80) / 4 - 10];
+    return [x, y, Math.max(0, 4 - Math.hypot(x, y)), 2] as const;
+  });
+  const ringOf = (cloud: FixtureCloud) =>
+    [
+      [-8, -8],
+      [8, -8],
+      [8, 8],
+      [-8, 8],
+    ].map(([x, y]) => cloud.vertex(X + x!, Y + y!, 0));
+
+  it("is one of the ground, not of the grid, and holds the truth", async () => {
+    const cloud = withPoints(cloudOf(UTM), pile);
+    const { cut, fill, net, area, covered, points } = await measureVolume(cloud, ringOf(cloud), {
+      precision: 0.01,
+    });
+    const truth = (Math.PI * 64) / 3 / 0.9996 ** 2;
+    expect(Math.abs(cut.value / truth - 1)).toBeLessThan(2e-3);
+    expect(Math.abs(cut.value - truth)).toBeLessThan(cut.uncertainty!);
+    expect(fill.value).toBeCloseTo(0, 6);
+    expect(net.value).toBe(cut.value - fill.value);
+    expect(area).toBeCloseTo(256 / 0.9996 ** 2, 3);
+    expect(covered).toBeCloseTo(area, 6);
+    expect(points).toBeGreaterThan(4096);
+  });
+
+  it("changes between two data sets by what one has and the other lacks, with its level of detection", async () => {
+    const parts = [
+      { name: "datum operation", metres: 0.02 },
+      { name: "height", metres: 0 },
+    ];
+    const made = (name: string, points: Points) => withPoints(cloudOf(UTM, { name, parts }), points);
+    const after = made("after", pile);
+    const before = made(
+      "before",
+      pile.map(([x, y, z, kind]) => [x + 0.1, y - 0.1, z / 2, kind] as const),
+    );
+    const base = { kind: "cloud", cloud: before } as const;
+    const { cut, levelOfDetection } = await measureVolume(after, ringOf(after), { base, precision: 0.01 });
+    expect(Math.abs(cut.value / ((Math.PI * 64) / 6) - 1)).toBeLessThan(0.02);
+    expect(levelOfDetection).toBeCloseTo(1.96 * Math.hypot(0.01, 0.02, 0.01, 0.02), 6);
+    expect(cut.parts.map(({ name }) => name)).toContain("place of both data sets");
+    const unknown = await measureVolume(after, ringOf(after), { base });
+    expect([unknown.levelOfDetection, unknown.cut.uncertainty]).toEqual([null, null]);
+    const other = withPoints(cloudOf(UTM.replace("32", "33"), { name: "other" }), pile);
+    await expect(
+      measureVolume(after, ringOf(after), { base: { kind: "cloud", cloud: other } }),
+    ).rejects.toMatchObject({ code: "MEASURE_DATASET" });
+  });
+});

@@ -1,0 +1,108 @@
+import { MeasureError } from "../../../errors/index.js";
+import type { PointOrigin } from "../../../query/index.js";
+import { planOf } from "../points/local-plan.js";
+import { readPoints } from "../points/read-points.js";
+import { axesAt } from "../vertex/axes.js";
+import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
+import type { WorthOptions } from "../worth/point-errors.js";
+import { type Quantity, quantity } from "../worth/quantity.js";
+
+export interface GroundOptions extends WorthOptions {
+  /** Metres around the vertex in which points of the ground count. Default: 3. */
+  readonly radius?: number | undefined;
+  /** Default: 2, ground. */
+  readonly classes?: ReadonlySet<number> | undefined;
+  readonly signal?: AbortSignal | undefined;
+}
+
+const GROUND: ReadonlySet<number> = new Set([2]);
+
+/**
+ * Height of a vertex above the ground of its own data set: above the plane of least squares through the points of the
+ * ground around it, along the vertical of the data set's heights. How far these points are from the plane is part of its
+ * worth.
+ *
+ * @throws MeasureError MEASURE_GROUND where there are not three such points, MEASURE_DATASET for vertices of no data set;
+ *   SourceError, FormatError, DecodeError; the signal's reason when aborted
+ */
+export async function measureHeightAboveGround(
+  cloud: MeasuredCloud & PointOrigin,
+  vertex: Vertex,
+  { radius = 3, classes = GROUND, signal, ...worth }: GroundOptions = {},
+): Promise<Quantity<"m">> {
+  const { source } = vertex;
+  if (!source || vertex.cloud !== cloud) {
+    throw new MeasureError({
+      code: "MEASURE_DATASET",
+      file: cloud.name,
+      cause: "the vertex does not stand on this data set",
+      fix: "give the data set that it stands on",
+    });
+  }
+  const [x, y, z] = source;
+  // About the vertex the plan has it in the middle.
+  const step =
+    radius / cloud.crs.horizontalUnit.size / (cloud.crs.horizontalUnit.kind === "angular" ? 6.4e6 : 1);
+  const to = planOf(cloud, [
+    [x - step, y - step, z],
+    [x + step, y + step, z],
+  ]);
+  const metres = [to(x + step, y, z), to(x, y + step, z)].map(([east, north]) => Math.hypot(east, north));
+  const [reachX, reachY] = metres.map((length) => (radius * step) / length);
+  const points = await readPoints(cloud, [x - reachX, y - reachY, x + reachX, y + reachY], {
+    to,
+    classes,
+    signal,
+  });
+  const plane = levelPlane(points, radius);
+  if (!plane) {
+    throw new MeasureError({
+      code: "MEASURE_GROUND",
+      file: cloud.name,
+      cause: `there are not three points of the ground within ${radius} m of the vertex`,
+      fix: "give a greater radius, or the classes that the ground has in this data set",
+    });
+  }
+  const note = `${plane.count} points within ${radius} m`;
+  return quantity(
+    z * cloud.crs.verticalUnit.size - plane.height,
+    "m",
+    [[{ vertex, gradient: axesAt(vertex).up }]],
+    { ...worth, ofRecords: true, own: [{ name: "ground", standard: plane.deviation, note }] },
+  );
+}
+
+/** The plane z = a + b x + c y of least squares: its height in the middle, and how far points are from it. */
+function levelPlane(points: Float64Array, radius: number) {
+  const near: number[] = [];
+  for (let i = 0; i < points.length; i += 3) {
+    if (Math.hypot(points[i], points[i + 1]) <= radius) near.push(i);
+  }
+  const count = near.length;
+  if (count < 3) return undefined;
+  const mean = [0, 1, 2].map((axis) => near.reduce((sum, i) => sum + points[i + axis], 0) / count);
+  let [xx, xy, yy, xz, yz] = [0, 0, 0, 0, 0];
+  for (const i of near) {
+    const [dx, dy, dz] = [0, 1, 2].map((axis) => points[i + axis] - mean[axis]);
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+    xz += dx * dz;
+    yz += dy * dz;
+  }
+  const determinant = xx * yy - xy * xy;
+  // On a line, or in one place.
+  if (!(determinant > 1e-12 * (xx + yy) ** 2)) return undefined;
+  const b = (xz * yy - yz * xy) / determinant;
+  const c = (yz * xx - xz * xy) / determinant;
+  const squares = near.reduce((sum, i) => {
+    const [dx, dy, dz] = [0, 1, 2].map((axis) => points[i + axis] - mean[axis]);
+    return sum + (dz - b * dx - c * dy) ** 2;
+  }, 0);
+  return {
+    count,
+    height: mean[2] - b * mean[0] - c * mean[1],
+    // Of three points none is left over to tell by.
+    deviation: count > 3 ? Math.sqrt(squares / (count - 3)) : null,
+  };
+}

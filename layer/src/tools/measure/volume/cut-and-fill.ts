@@ -1,0 +1,141 @@
+import { fitPlane, planarArea } from "@groma/georef";
+import { MeasureError } from "../../../errors/index.js";
+import { tooFew } from "../figures/refusals.js";
+import { crossingEdges } from "../figures/ring.js";
+import { type CutAndFill, prismsOf } from "./prisms.js";
+import { RingIndex } from "./ring-index.js";
+import { Tin } from "./tin.js";
+
+/**
+ * What a surface is held against.
+ * - `height`: a level; `lowest`, `highest`: that of the ring's lowest or highest vertex
+ * - `plane`: the plane that fits the ring's vertices best
+ * - `ring`: triangles between the ring's vertices
+ * - `surface`: triangles between other points
+ */
+export type VolumeBase =
+  | { readonly kind: "height"; readonly height: number }
+  | { readonly kind: "lowest" | "highest" | "plane" }
+  | { readonly kind: "ring" }
+  | { readonly kind: "surface"; readonly points: Float64Array };
+
+/** Volumes over a ring. */
+export interface RingVolume extends CutAndFill {
+  /** Area of the ring, square metres. */
+  readonly area: number;
+  /** Points of the surface that were used. */
+  readonly points: number;
+}
+
+/**
+ * Volumes between a surface and a base within a ring, prismoidal over Delaunay's triangles: exact for the surface of these
+ * triangles. Where the base is made of triangles too, the surface is that of the differences at the points of both.
+ *
+ * @param points x, y, z of each, metres in one Cartesian plan; points around the ring let the surface reach its edge
+ * @param ring x, y, z of its vertices in the same plan
+ * @throws MeasureError MEASURE_VERTICES, MEASURE_CROSSING for the ring; MEASURE_SURFACE where the points make no surface
+ */
+export function cutAndFill(points: Float64Array, ring: Float64Array, base: VolumeBase): RingVolume {
+  if (ring.length < 9) throw tooFew("a volume", 3, ring.length / 3);
+  const plan = flat(ring);
+  const edges = crossingEdges(plan);
+  if (edges) {
+    throw new MeasureError({
+      code: "MEASURE_CROSSING",
+      file: "volume",
+      cause: `the edges of its ring after vertex ${edges[0] + 1} and after vertex ${edges[1] + 1} cross`,
+      fix: "move one of these vertices, or take the vertices in another order",
+    });
+  }
+  const index = new RingIndex(plan, planarArea(plan));
+  const surface = new Tin(differences(points, ring, base));
+  if (surface.triangles.length === 0) throw noSurface();
+  return { ...prismsOf(surface, index), area: index.area, points: surface.z.length };
+}
+
+function noSurface(): MeasureError {
+  return new MeasureError({
+    code: "MEASURE_SURFACE",
+    file: "volume",
+    cause: "there are not three points that make a surface in the ring",
+    fix: "draw the ring around more points, or take in more classes of them",
+  });
+}
+
+/** x, y and height above the base of each point. */
+function differences(points: Float64Array, ring: Float64Array, base: VolumeBase): Float64Array {
+  if (base.kind === "ring") return between(points, ring);
+  if (base.kind === "surface") return between(points, base.points);
+  const level = levelOf(ring, base);
+  const above = Float64Array.from(points);
+  for (let i = 0; i < above.length; i += 3) above[i + 2] -= level(above[i], above[i + 1]);
+  return above;
+}
+
+function levelOf(
+  ring: Float64Array,
+  base: Exclude<VolumeBase, { kind: "ring" | "surface" }>,
+): (x: number, y: number) => number {
+  const heights = Array.from({ length: ring.length / 3 }, (_, i) => ring[3 * i + 2]);
+  switch (base.kind) {
+    case "height":
+      return () => base.height;
+    case "lowest":
+      return () => Math.min(...heights);
+    case "highest":
+      return () => Math.max(...heights);
+    case "plane": {
+      const { centre, normal } = fitPlane(ring);
+      // A plane on edge has no height over a place.
+      if (Math.abs(normal[2]) < 1e-6) throw noSurface();
+      return (x, y) => centre[2] - (normal[0] * (x - centre[0]) + normal[1] * (y - centre[1])) / normal[2];
+    }
+  }
+}
+
+/** Differences of two surfaces at the points of both; places that only one of them covers are left out. */
+function between(points: Float64Array, others: Float64Array): Float64Array {
+  const [surface, base] = [new Tin(points), new Tin(others)];
+  if (surface.triangles.length === 0 || base.triangles.length === 0) throw noSurface();
+  const found = new Float64Array(points.length + others.length);
+  let count = 0;
+  const add = (x: number, y: number, difference: number) => {
+    if (Number.isNaN(difference)) return;
+    found[3 * count] = x;
+    found[3 * count + 1] = y;
+    found[3 * count + 2] = difference;
+    count++;
+  };
+  for (const at of inOrder(points)) {
+    const [x, y, z] = [points[at], points[at + 1], points[at + 2]];
+    add(x, y, z - base.heightAt(x, y));
+  }
+  for (const at of inOrder(others)) {
+    const [x, y, z] = [others[at], others[at + 1], others[at + 2]];
+    add(x, y, surface.heightAt(x, y) - z);
+  }
+  return found.slice(0, 3 * count);
+}
+
+/** Strips of the plan, to and fro, so that each place is near the one before. @returns offsets of x */
+function inOrder(points: Float64Array): Float64Array {
+  let [low, high] = [Infinity, -Infinity];
+  for (let i = 1; i < points.length; i += 3) {
+    low = Math.min(low, points[i]);
+    high = Math.max(high, points[i]);
+  }
+  const strips = Math.max(1, Math.ceil(Math.sqrt(points.length / 3)));
+  const height = (high - low) / strips || 1;
+  const offsets = Float64Array.from({ length: points.length / 3 }, (_, i) => 3 * i);
+  const strip = (at: number) => Math.floor((points[at + 1] - low) / height);
+  return offsets.sort((a, b) => {
+    const [s, t] = [strip(a), strip(b)];
+    if (s !== t) return s - t;
+    return s % 2 === 0 ? points[a] - points[b] : points[b] - points[a];
+  });
+}
+
+/** x and y alone. */
+function flat(ring: Float64Array): Float64Array {
+  return Float64Array.from({ length: (ring.length / 3) * 2 }, (_, i) => ring[3 * (i >> 1) + (i & 1)]);
+}

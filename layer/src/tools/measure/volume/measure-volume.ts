@@ -1,0 +1,181 @@
+import { sameHeights, samePlane, type Vector } from "@groma/georef";
+import { MeasureError } from "../../../errors/index.js";
+import type { PointOrigin } from "../../../query/index.js";
+import { checkedRing } from "../figures/ring.js";
+import { planOf } from "../points/local-plan.js";
+import { readPoints, type SourceRectangle } from "../points/read-points.js";
+import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
+import type { Precision, WorthOptions } from "../worth/point-errors.js";
+import { type OwnError, type Quantity, quantity } from "../worth/quantity.js";
+import { cutAndFill, type RingVolume, type VolumeBase } from "./cut-and-fill.js";
+
+/** A data set whose points can be asked for; a `PointCloud` is one. */
+export type VolumeCloud = MeasuredCloud & PointOrigin;
+
+export interface VolumeOptions extends WorthOptions {
+  /** Default: `lowest`. Heights are metres in the data set's own height system. */
+  readonly base?:
+    | Exclude<VolumeBase, { kind: "surface" }>
+    | { readonly kind: "cloud"; readonly cloud: VolumeCloud };
+  /** Classes of the points that make the surface; those of the ground are 2. Default: all. */
+  readonly classes?: ReadonlySet<number> | undefined;
+  readonly signal?: AbortSignal | undefined;
+  /** Hears the share of the points that are read, 0 to 1. */
+  readonly onProgress?: ((share: number) => void) | undefined;
+}
+
+/** Volumes over a polygon. */
+export interface Volume {
+  /** Material above the base. */
+  readonly cut: Quantity<"m³">;
+  /** Material missing below it. */
+  readonly fill: Quantity<"m³">;
+  /** Cut less fill. */
+  readonly net: Quantity<"m³">;
+  /** Level area of the polygon, and the part of it that the points cover, square metres. */
+  readonly area: number;
+  readonly covered: number;
+  /** Points of the surface. */
+  readonly points: number;
+  /**
+   * Between two data sets, metres: differences of height below it are not told from none (95 %); null where the precision
+   * or the accuracy of one of them is not known.
+   */
+  readonly levelOfDetection?: number | null | undefined;
+}
+
+/** Share of the polygon's extent around it from which points are taken too, so that the surface reaches its edge. */
+const AROUND = 0.05;
+
+/**
+ * Volume between the surface of a data set's points and a base, over a polygon: cut, fill and their difference,
+ * prismoidal over Delaunay's triangles, lengths in the level of the polygon.
+ *
+ * The surface has one height at each place: of points above each other one counts, so take the classes that are meant.
+ * Its worth: the precision of the points, what two surfaces may be off against each other, and what the surface may do
+ * between the points, told by how far half of them lead.
+ *
+ * @param ring vertices of the data set
+ * @throws MeasureError MEASURE_VERTICES, MEASURE_CROSSING, MEASURE_SURFACE, MEASURE_DATASET where the ring is of another
+ *   data set; SourceError, FormatError, DecodeError; the signal's reason when aborted
+ */
+export async function measureVolume(
+  cloud: VolumeCloud,
+  ring: readonly Vertex[],
+  options: VolumeOptions = {},
+): Promise<Volume> {
+  const { base = { kind: "lowest" }, classes, signal, onProgress } = options;
+  const corners = checkedRing(ring).map(({ cloud: of, source }) => {
+    if (of === cloud && source) return source;
+    throw new MeasureError({
+      code: "MEASURE_DATASET",
+      file: cloud.name,
+      cause: "a vertex of the polygon does not stand on this data set",
+      fix: "draw the polygon on the data set whose volume is measured",
+    });
+  });
+  const plan = planOf(cloud, corners);
+  const outline = Float64Array.from(corners.flatMap(([x, y, z]) => plan(x, y, z)));
+  const other = base.kind === "cloud" ? base.cloud : undefined;
+  if (other && !(samePlane(cloud.crs, other.crs) && sameHeights(cloud.crs, other.crs))) {
+    throw new MeasureError({
+      code: "MEASURE_DATASET",
+      file: other.name,
+      cause: `it has another coordinate or height system than ${cloud.name}`,
+      fix: "convert one of them into the system of the other first",
+    });
+  }
+  const steps = other ? 2 : 1;
+  const rectangle = around(corners);
+  const pointsOf = (of: VolumeCloud, step: number) =>
+    readPoints(of, rectangle, {
+      ...{ to: plan, classes, signal },
+      onProgress: (share) => onProgress?.((step + share) / steps),
+    });
+  const points = await pointsOf(cloud, 0);
+  const against: VolumeBase =
+    base.kind === "cloud" ? { kind: "surface", points: await pointsOf(base.cloud, 1) } : base;
+  const whole = cutAndFill(points, outline, against);
+  const half = coarser(points, outline, against);
+  const own = errorsOf(cloud, other, whole, options);
+  const told = (value: number, coarse: number | undefined) =>
+    quantity(value, "m³", [], { own: [...own, betweenPoints(value, coarse)] });
+  const net = ({ cut, fill }: RingVolume) => cut - fill;
+  return {
+    cut: told(whole.cut, half?.cut),
+    fill: told(whole.fill, half?.fill),
+    net: told(net(whole), half && net(half)),
+    ...{ area: whole.area, covered: whole.covered, points: whole.points },
+    ...(other && { levelOfDetection: levelOfDetection(cloud, other, options) }),
+  };
+}
+
+/** The rectangle of a polygon with a margin. */
+function around(corners: readonly Vector[]): SourceRectangle {
+  const [[minX, maxX], [minY, maxY]] = ([0, 1] as const).map((axis) => {
+    const values = corners.map((corner) => corner[axis]);
+    const [low, high] = [Math.min(...values), Math.max(...values)];
+    const margin = AROUND * (high - low);
+    return [low - margin, high + margin] as const;
+  });
+  return [minX, minY, maxX, maxY];
+}
+
+/** The same of every second point; undefined where these make no surface. */
+function coarser(points: Float64Array, ring: Float64Array, base: VolumeBase): RingVolume | undefined {
+  const every = (all: Float64Array) => all.filter((_, i) => Math.floor(i / 3) % 2 === 0);
+  try {
+    const other = base.kind === "surface" ? { ...base, points: every(base.points) } : base;
+    return cutAndFill(every(points), ring, other);
+  } catch (thrown) {
+    if (thrown instanceof MeasureError) return undefined;
+    throw thrown;
+  }
+}
+
+/**
+ * Half of the points, twice the square of their distance, twice the error of triangles: what the half is off by is about
+ * what the whole is off by.
+ */
+function betweenPoints(whole: number, half: number | undefined): OwnError {
+  const note = "what the surface may do between its points, by every second of them";
+  return { name: "surface", standard: half === undefined ? null : Math.abs(whole - half), note };
+}
+
+/** Errors of the heights of a volume: each point's own, and what the base is off by against them. */
+function errorsOf(
+  cloud: VolumeCloud,
+  other: VolumeCloud | undefined,
+  { shares, covered }: RingVolume,
+  { precision }: WorthOptions,
+): OwnError[] {
+  const square = Math.sqrt(shares.reduce((sum, share) => sum + share ** 2, 0));
+  const step = (cloud.scale[2] * cloud.crs.verticalUnit.size) / Math.sqrt(12);
+  const given = typeof precision === "function" ? precision(cloud) : precision;
+  const errors: OwnError[] = [
+    { name: "quantisation", standard: square * step, note: "rounding to the stored integers" },
+    { name: "point precision", ...precisionOf(given, square) },
+  ];
+  if (!other) return errors;
+  const parts = [cloud, other].map(({ accuracy }) => accuracy.total);
+  const known = parts.every((total) => total !== null);
+  const together = known ? covered * Math.hypot(...(parts as number[])) : null;
+  return [
+    ...errors,
+    { name: "place of both data sets", standard: together, note: "against each other, over the whole area" },
+  ];
+}
+
+/** 1.96 standard deviations of a difference of two heights (Lane, Westaway and Hicks 2003). */
+function levelOfDetection(a: VolumeCloud, b: VolumeCloud, { precision }: WorthOptions): number | null {
+  const deviations = [a, b].flatMap((cloud) => {
+    const given = typeof precision === "function" ? precision(cloud) : precision;
+    return [typeof given === "object" ? given.vertical : (given ?? null), cloud.accuracy.total];
+  });
+  return deviations.every((one) => one !== null) ? 1.96 * Math.hypot(...(deviations as number[])) : null;
+}
+
+function precisionOf(given: Precision | undefined, square: number): Omit<OwnError, "name"> {
+  if (given === undefined) return { standard: null, note: "the scanner's; not given" };
+  return { standard: square * (typeof given === "number" ? given : given.vertical), note: "as given" };
+}
