@@ -125,6 +125,7 @@ module.exports = {
       "index.ts",
     ]),
     layer("openlayers", [
+      "tools",
       "drawing",
       "effects",
       "clips",

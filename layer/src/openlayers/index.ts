@@ -1,3 +1,4 @@
+export type { Vector } from "@groma/georef";
 export type { GpuCounts, GpuKind } from "../drawing/gpu.js";
 export {
   ASPRS_CLASSES,
@@ -23,7 +24,9 @@ export {
   type StyleParts,
 } from "../effects/index.js";
 export * from "../index.js";
+export type { MeasuredCloud, ScreenPoint, Vertex, VertexRecord, ViewAdapter } from "../tools/index.js";
 export type { DrawingOptions, PointCloudLayerOptions } from "./layer-options.js";
+export { measureView } from "./measure-view.js";
 export {
   type LayerStatistics,
   type PickOptions,

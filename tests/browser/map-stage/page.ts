@@ -1,4 +1,5 @@
 import * as layer from "@groma/layer/openlayers";
+import * as tools from "@groma/layer/tools";
 import { MapStage } from "./map-stage.js";
 import * as ol from "./ol.js";
 
@@ -8,12 +9,19 @@ declare global {
     map: {
       readonly ol: typeof ol;
       readonly layer: typeof layer;
+      readonly tools: typeof tools;
       readonly MapStage: typeof MapStage;
       /** The stage that stands, if any. */
       stage: MapStage;
+      /** The tool that measures on it, if any. */
+      measure: tools.MeasureTool;
     };
   }
 }
 
-window.map = { ol, layer, MapStage, stage: undefined as unknown as MapStage };
+window.map = {
+  ...{ ol, layer, tools, MapStage },
+  stage: undefined as unknown as MapStage,
+  measure: undefined as unknown as tools.MeasureTool,
+};
 document.body.dataset.ready = "true";

@@ -36,7 +36,19 @@ interface Elements {
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** Figures and labels laid over a view, moved with it. Colours and sizes are those of the class `groma-measure` in CSS. */
+/** How figures look where the application's CSS says nothing: no rule of it weighs less. */
+const LOOK = `
+:where(.groma-measure) { color: #e8eef5; font: 13px / 1.4 system-ui, sans-serif }
+:where(.groma-line) { fill: none; stroke: #f2b84b; stroke-width: 2.5; stroke-linejoin: round }
+:where(.groma-ring) { fill: rgb(242 184 75 / 18%) }
+:where(.groma-measure circle) { fill: #f2b84b; stroke: #10161d; stroke-width: 1.5 }
+:where(.groma-measure) :where(.groma-grip, .groma-between) { fill: rgb(242 184 75 / 35%); stroke: #f2b84b }
+:where(.groma-crosshair) { stroke: #fff; stroke-width: 1.5; filter: drop-shadow(0 0 1px #000) }
+:where(.groma-label) { padding: 2px 7px; border-radius: 6px; background: rgb(14 21 30 / 92%); text-align: center; cursor: pointer }
+:where(.groma-wrong) { background: #3d1716 }
+`;
+
+/** Figures and labels laid over a view, moved with it. Their classes, `groma-line` and so on, are the application's to style. */
 export class Overlay {
   readonly root = document.createElement("div");
   /** Where the next vertex would be placed by keyboard. */
@@ -62,7 +74,9 @@ export class Overlay {
     this.#svg.style.cssText = "position:absolute;inset:0;width:100%;height:100%";
     this.#cross.classList.add("groma-crosshair");
     this.#svg.append(this.#cross);
-    this.root.append(this.#svg);
+    const look = document.createElement("style");
+    look.textContent = LOOK;
+    this.root.append(look, this.#svg);
     view.element.after(this.root);
     const { parentElement: around } = this.root;
     // What is laid over the view is placed in what holds the view.

@@ -1,0 +1,107 @@
+import { dirname } from "node:path";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { converted } from "../converted.js";
+import { data } from "../project.js";
+import { pythonMissing } from "../python.js";
+import { screenshot } from "./harness.js";
+import type { MapStage } from "./map-stage/map-stage.js";
+import { openStage, type StagePage } from "./stage.js";
+
+const scan = data("autzen.laz");
+// Pages of tests lie beside clouds that a script makes.
+const missing = scan.missing ?? pythonMissing;
+
+describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})` : ""}`, () => {
+  let stage: StagePage;
+  beforeAll(async () => {
+    stage = await openStage("map-stage", { "/scans/": dirname(converted(scan.path)) });
+    await stage.page.evaluate(async () => {
+      const { MapStage, layer, tools } = window.map;
+      const made = new MapStage({
+        view: { projection: "EPSG:3857", center: [0, 0], resolution: 1 },
+        source: { url: "/scans/autzen.copc.laz" },
+        layer: { style: { pointSize: 4 } },
+      }) as MapStage;
+      window.map.stage = made;
+      await made.source.opened();
+      const [minX, minY, maxX, maxY] = made.source.getExtent()!;
+      await made.show({
+        projection: "EPSG:3857",
+        center: [(minX! + maxX!) / 2, (minY! + maxY!) / 2],
+        resolution: Math.max((maxX! - minX!) / 560, (maxY! - minY!) / 360),
+      });
+      window.map.measure = new tools.MeasureTool(layer.measureView(made.map, () => [made.layer]));
+    });
+  }, 280_000);
+  afterAll(() => stage?.close());
+
+  /** Places of the map where a point is found, far apart, with its integers. */
+  const hits = () =>
+    stage.page.evaluate(async () => {
+      const found: { x: number; y: number; integers: readonly number[] }[] = [];
+      for (const [x, y] of [
+        [250, 190],
+        [350, 200],
+        [300, 240],
+        [200, 180],
+        [400, 220],
+      ] as const) {
+        const hit = await window.map.stage.layer.pick([x, y], { window: 15 });
+        if (hit) found.push({ x, y, integers: hit.integers });
+      }
+      return found;
+    });
+  const records = () =>
+    stage.page.evaluate(() =>
+      window.map.measure.measurements.map(({ vertices }) => vertices.map(({ record }) => record?.integers)),
+    );
+  const until = (count: number) =>
+    stage.page.waitForFunction((wanted) => window.map.measure.measurements.length === wanted, count);
+
+  it("by mouse, with the vertices on the records and the figure at their places", {
+    timeout: 120_000,
+  }, async () => {
+    const { page } = stage;
+    const [a, b] = await hits();
+    await page.evaluate(() => void window.map.measure.distance());
+    for (const { x, y } of [a!, b!]) {
+      await page.mouse.click(x, y);
+      await page.waitForTimeout(300);
+    }
+    await until(1);
+    expect(await records()).toEqual([[a!.integers, b!.integers]]);
+    const dots = await page
+      .locator(".groma-measure circle")
+      .evaluateAll((circles) =>
+        circles.map((circle) => [Number(circle.getAttribute("cx")), Number(circle.getAttribute("cy"))]),
+      );
+    for (const [i, { x, y }] of [a!, b!].entries()) {
+      expect(Math.hypot(dots[i]![0]! - x, dots[i]![1]! - y)).toBeLessThan(11);
+    }
+    await screenshot(page, "measuring-map");
+    // This page has no style of its own for figures.
+    const line = page.locator(".groma-line").first();
+    expect(await line.evaluate((element) => getComputedStyle(element).stroke)).toBe("rgb(242, 184, 75)");
+    await page.evaluate(() => window.map.measure.undo());
+    expect(await records()).toEqual([]);
+    await page.evaluate(() => window.map.measure.redo());
+    expect(await records()).toEqual([[a!.integers, b!.integers]]);
+  });
+
+  it("by touch", { timeout: 120_000 }, async () => {
+    const { page } = stage;
+    const [a, b, c] = await hits();
+    const session = await page.context().newCDPSession(page);
+    await session.send("Emulation.setTouchEmulationEnabled", { enabled: true });
+    await page.evaluate(() => void window.map.measure.area());
+    for (const { x, y } of [a!, b!, c!, a!]) {
+      await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });
+      await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+      await page.waitForTimeout(400);
+    }
+    await until(2);
+    expect((await records())[1]).toEqual([a!.integers, b!.integers, c!.integers]);
+    expect(await page.evaluate(() => window.map.stage.errors)).toEqual([]);
+    expect(stage.watch.errors).toEqual([]);
+  });
+});
