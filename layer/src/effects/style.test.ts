@@ -261,7 +261,7 @@ describe("the properties of a style", () => {
     [{ constructor: 1 }, "STYLE_OPTION", 'a style has no "constructor"'],
     [null, "STYLE_OPTION", "a style cannot be null. Use an object"],
     ["rgb", "STYLE_OPTION", 'a style cannot be "rgb"'],
-    [[], "STYLE_OPTION", "a style cannot be an array of 0"],
+    [[], "STYLE_OPTION", "a style cannot be an empty array"],
     [{ color: "intensty" }, "STYLE_COLOR", 'color cannot be "intensty". Did you mean "intensity"?'],
     [
       { size: "adaptve" },

@@ -62,7 +62,7 @@ describe("a filter that is given", () => {
     [{ ranges: { intensity: [Number.NaN, 1] } }, "filter.ranges.intensity cannot run from NaN to 1"],
     [{ ranges: { intensity: 5 } }, "filter.ranges.intensity cannot be 5"],
     [{ range: {} }, 'Did you mean "ranges"? Otherwise use classes, returns or ranges'],
-    [[], "filter cannot be an array of 0"],
+    [[], "filter cannot be an empty array"],
     ["last", 'filter cannot be "last"'],
   ])("is STYLE_FILTER for %j", (filter, words) => {
     expect(() => check(filter)).toThrow(
