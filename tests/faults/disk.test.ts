@@ -30,7 +30,7 @@ describe.skipIf(coreMissing)("places that take no file", () => {
     ["an output that is a folder", "OUTPUT_WRITE", ".", ["--overwrite"]],
     ["an output in a file", "OUTPUT_WRITE", "in.las/out.laz", []],
     ["an output that is there", "OUTPUT_EXISTS", "old.copc.laz", []],
-    ["an output that is the input", "OUTPUT_EXISTS", "in.las", ["--overwrite"]],
+    ["an output that is the input", "OUTPUT_INPUT", "in.las", ["--overwrite"]],
     ["a temporary folder that is not there", "OPTION_TEMP_DIR", "out.laz", ["--temp-dir", "/no/such"]],
     ["a temporary folder that is a file", "OPTION_TEMP_DIR", "out.laz", ["--temp-dir", "in.las"]],
   ])("%s: %s", async (_, code, output, options) => {

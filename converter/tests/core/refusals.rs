@@ -154,7 +154,7 @@ fn outputs_and_options() {
     bench.put("old.laz", b"old");
     assert_eq!(bench.refused(&["nowhere.las", "out.laz"]), "INPUT_NOT_FOUND");
     assert_eq!(bench.refused(&["a.las", "old.laz"]), "OUTPUT_EXISTS");
-    assert_eq!(bench.refused(&["a.las", "a.las", "--overwrite"]), "OUTPUT_EXISTS");
+    assert_eq!(bench.refused(&["a.las", "a.las", "--overwrite"]), "OUTPUT_INPUT");
     assert_eq!(bench.refused(&["a.las", "b.las"]), "OUTPUT_NAME");
     assert_eq!(bench.refused(&["a.las", "no/such/folder/out.laz"]), "OUTPUT_WRITE");
     assert_eq!(bench.refused(&["a.las", ".", "--overwrite"]), "OUTPUT_WRITE");
