@@ -79,6 +79,10 @@ impl TempFolder {
         if let Err(TryLockError::WouldBlock) = lock.try_lock() {
             return Err(io::ErrorKind::NotFound.into());
         }
+        // Another run may have locked the file first, removed the folder, and given the lock back.
+        if !folder.path.join(LOCK).exists() {
+            return Err(io::ErrorKind::NotFound.into());
+        }
         // On a file system without locks no other run can tell that this one lives, and none removes its folder.
         folder.lock = Some(lock);
         Ok(folder)
@@ -172,6 +176,23 @@ mod tests {
         drop(TempFolder::create(parent.path(), "next").unwrap());
         assert!(alive.path().is_dir() && foreign.is_dir() && other.is_dir());
         assert!(!killed.exists() && !empty.exists());
+    }
+
+    #[test]
+    fn runs_that_begin_at_once_leave_each_other_their_folders() {
+        let parent = tempfile::tempdir().unwrap();
+        std::thread::scope(|scope| {
+            for run in 0..4 {
+                let parent = parent.path();
+                scope.spawn(move || {
+                    for _ in 0..500 {
+                        let folder = TempFolder::create(parent, &format!("out-{run}")).unwrap();
+                        fs::write(folder.path().join("cell"), b"points").unwrap();
+                    }
+                });
+            }
+        });
+        assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 0);
     }
 
     #[test]
