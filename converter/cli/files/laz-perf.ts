@@ -4,10 +4,15 @@ import { create } from "laz-perf/lib/node/index.js";
 let module: Promise<LazPerf> | undefined;
 
 /**
- * The decoder of LAZ, one for all files: each module puts two listeners on the process and leaves them there. After a
- * failure its memory is in no known state; the command then ends.
+ * The decoder of LAZ, one for all chunks of all files: each module takes megabytes, and puts two listeners on the process,
+ * that go only with the process.
  */
 export function lazPerf(): Promise<LazPerf> {
   module ??= create() as unknown as Promise<LazPerf>;
   return module;
+}
+
+/** After a failure the decoder's memory is in no known state: the next chunk gets a fresh one. */
+export function dropLazPerf(): void {
+  module = undefined;
 }

@@ -1,23 +1,8 @@
-import { create } from "laz-perf/lib/node/index.js";
 import type { Scan } from "../core/core.js";
-
-/** The part of laz-perf's module that is used; its own types lean on a package that is not there. */
-interface LazPerf {
-  readonly HEAPU8: Uint8Array;
-  _malloc(length: number): number;
-  _free(pointer: number): void;
-  readonly ChunkDecoder: new () => {
-    open(pointFormat: number, recordLength: number, chunk: number): void;
-    getPoint(record: number): void;
-    delete(): void;
-  };
-}
+import { dropLazPerf, lazPerf } from "../files/laz-perf.js";
 
 /** Point formats that laz-perf decodes. */
 const DECODABLE = new Set([0, 1, 2, 3, 6, 7, 8]);
-
-/** The module in use. Each takes megabytes that come free only with the process, so that one decodes all chunks. */
-let shared: Promise<LazPerf> | undefined;
 
 /**
  * The first records of a LAZ chunk, uncompressed, `count · recordLength` bytes. The decoder has a memory of its own, in
@@ -31,8 +16,7 @@ export async function decodeChunk(
   count: number,
 ): Promise<Uint8Array> {
   if (!DECODABLE.has(pointFormat)) throw new Error(`point format ${pointFormat} cannot be decoded`);
-  shared ??= create() as unknown as Promise<LazPerf>;
-  const module = await shared;
+  const module = await lazPerf();
   try {
     const input = module._malloc(chunk.length);
     const output = module._malloc(recordLength);
@@ -49,7 +33,7 @@ export async function decodeChunk(
     module._free(input);
     return records;
   } catch (error) {
-    shared = undefined;
+    dropLazPerf();
     throw error;
   }
 }
