@@ -103,7 +103,7 @@ module.exports = {
     layer("effects", ["clips", "octree", "options", "errors"]),
     layer("effects/declaration", ["clips", "octree", "options", "errors"]),
     layer("effects/catalogue", ["effects/declaration", "clips", "octree", "options", "errors"]),
-    layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "errors"]),
+    layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "options", "errors"]),
     layer("tools/measure", ["query", "options", "errors"]),
     layer("tools/draw", ["tools/measure", "errors"]),
     layer("tools/profile", ["tools/exact", "query", "clips", "options", "errors"]),

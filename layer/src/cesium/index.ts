@@ -1,4 +1,5 @@
 export type { Vector } from "@groma/georef";
+export type { DrawingOptions } from "../drawing/drawing-options.js";
 export type { GpuMilliseconds } from "../drawing/frame.js";
 export type { GpuCounts, GpuKind } from "../drawing/gpu.js";
 export {

@@ -1,30 +1,15 @@
 import { type Cartesian3, RequestErrorEvent, Resource, TrustedServers } from "cesium";
-import { CLIPS_OPTION, type ClipSet } from "../clips/index.js";
 import { CLOUD_OPTIONS, type PointCloud, type PointCloudOptions, type PointRecord } from "../cloud/index.js";
-import type { Forced, PointFilter, StyleParts } from "../effects/index.js";
-import type { SharedBudget } from "../octree/index.js";
+import { DRAWING_KINDS, type DrawingOptions } from "../drawing/drawing-options.js";
 import { flag, type Kind, type Kinds, kindOf, number, optionPlace, some } from "../options/index.js";
 import type { HttpOptions, SourceLike } from "../sources/index.js";
 
-/** How a layer draws; all can be changed later. */
-export interface PointCloudLayerOptions {
+/** Options of a layer; all can be changed later. */
+export interface PointCloudLayerOptions extends DrawingOptions {
   /** Default: true. */
   readonly show?: boolean | undefined;
-  readonly style?: StyleParts | undefined;
-  /** Pixels between neighbouring points above which the next level is drawn. Default: 2. */
-  readonly maximumScreenSpaceError?: number | undefined;
-  /** Most points drawn at once. Default: 1,000,000; where a {@link budget} is given: as many as that allows. */
-  readonly pointBudget?: number | undefined;
-  /** Points and bytes that several layers share. Default: none is shared. */
-  readonly budget?: SharedBudget | undefined;
   /** Metres above their places at which points are drawn, for looks only. Default: 0. */
   readonly heightOffset?: number | undefined;
-  /** Volumes that cut or highlight; several layers may share one set. Default: an empty one. */
-  readonly clips?: ClipSet | undefined;
-  /** Which points are drawn and picked. Default: all. */
-  readonly filter?: PointFilter | undefined;
-  /** Effects that are on or off whatever the scene calls for. Default: none. */
-  readonly forced?: Forced | undefined;
   /** What `scene.pick` returns as `id`. Default: the cloud's name. */
   readonly id?: unknown;
 }
@@ -34,13 +19,10 @@ const checkedLater: Kind<never> = kindOf("anything", (_given): _given is never =
 
 /** What each option of a layer may be. */
 export const LAYER_OPTIONS: Kinds<PointCloudLayerOptions> = {
+  ...DRAWING_KINDS,
   show: flag,
   style: checkedLater,
-  maximumScreenSpaceError: number(0),
-  pointBudget: number(0),
-  budget: CLOUD_OPTIONS.budget,
   heightOffset: checkedLater,
-  clips: CLIPS_OPTION,
   filter: checkedLater,
   forced: checkedLater,
   id: checkedLater,

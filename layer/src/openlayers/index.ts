@@ -1,4 +1,5 @@
 export type { Vector } from "@groma/georef";
+export type { DrawingOptions } from "../drawing/drawing-options.js";
 export type { GpuCounts, GpuKind } from "../drawing/gpu.js";
 export {
   ASPRS_CLASSES,
@@ -25,7 +26,7 @@ export {
 } from "../effects/index.js";
 export * from "../index.js";
 export type { MeasuredCloud, ScreenPoint, Vertex, VertexRecord, ViewAdapter } from "../tools/index.js";
-export type { DrawingOptions, PointCloudLayerOptions } from "./layer-options.js";
+export type { PointCloudLayerOptions } from "./layer-options.js";
 export { measureView } from "./measure-view.js";
 export {
   type LayerStatistics,

@@ -1,5 +1,6 @@
 import { ClipSet } from "../clips/index.js";
 import type { PointCloud } from "../cloud/index.js";
+import type { DrawingOptions } from "../drawing/drawing-options.js";
 import type { LayerSettings } from "../drawing/frame.js";
 import {
   checkFilter,
@@ -12,7 +13,7 @@ import {
   type StyleParts,
 } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
-import { checkDrawingOption, type DrawingOptions } from "./layer-options.js";
+import { checkDrawingOption } from "./layer-options.js";
 
 /**
  * How a layer draws. Style, filter and effects are held against a data set as soon as one is known; what was given before
