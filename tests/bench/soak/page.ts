@@ -17,6 +17,9 @@ const CACHE = 48 * 2 ** 20;
 /** Frames of one flight. */
 const FLIGHT = 8;
 
+/** Milliseconds within which a view has to be complete: many, for a machine may be busy with other things. */
+const PATIENCE = 15 * 60_000;
+
 type Point = readonly [number, number, number];
 
 /** How the layer is drawn when it is measured. */
@@ -86,7 +89,7 @@ class Soak {
       this.#stage.frame();
       await new Promise((done) => setTimeout(done));
     }
-    if (this.#rounds % 2 === 0) await this.#stage.settle(undefined, 60_000);
+    if (this.#rounds % 2 === 0) await this.#stage.settle(undefined, PATIENCE);
     const window = 1 + 2 * Math.floor(this.#up(20));
     await layer.pick({ x: this.#up(SIZE.width), y: this.#up(SIZE.height) }, { window });
   }
@@ -98,7 +101,7 @@ class Soak {
     layer.filter = undefined;
     layer.clips.clear();
     this.#look(0, 600);
-    await this.#stage.settle(undefined, 120_000);
+    await this.#stage.settle(undefined, PATIENCE);
     await layer.pick({ x: SIZE.width / 2, y: SIZE.height / 2 });
   }
 
