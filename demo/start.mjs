@@ -33,8 +33,16 @@ async function sample() {
   return scan;
 }
 
+// npm's shell hands no SIGTERM on. Where the shell is gone, nobody is left who could stop the server.
+const shell = process.ppid;
+setInterval(() => {
+  if (process.ppid !== shell) process.kill(process.pid, "SIGTERM");
+}, 500).unref();
+
 await setup(forStart);
-const [scan, ...options] = process.argv.slice(2);
+const given = process.argv.slice(2);
+const scans = given[0]?.startsWith("-") === false ? given.splice(0, 1) : [];
 // npm runs scripts in the project's root; a path is meant from where the user stands.
 const from = process.env.INIT_CWD ?? process.cwd();
-await node(groma, ["view", scan ? resolve(from, scan) : await sample(), ...options]);
+const [scan = await sample()] = scans.map((path) => resolve(from, path));
+await node(groma, ["view", scan, ...given]);

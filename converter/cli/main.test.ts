@@ -294,6 +294,8 @@ describe("the command line", () => {
     [["convert", sample, "out3.copc.laz", "--sampling", "best"], "OPTION_INVALID"],
     [["convert", sample, "out3.copc.laz", "--sampler", "grid"], "OPTION_INVALID"],
     [["convert", sample, "out3.copc.laz", "--scale", "0"], "OPTION_INVALID"],
+    [["convert", sample, "out3.copc.laz", "--scale", "0.1"], "OPTION_SCALE"],
+    [["convert", sample, "out3.copc.laz", "--pdal", "nowhere"], "PDAL_MISSING"],
     [["convert", sample, "out3.copc.laz", "--pipeline", "nowhere.json"], "PDAL_PIPELINE"],
     [["convert", "--pipeline", "nowhere.json"], "OPTION_INVALID"],
     [["serve", "nowhere"], "SERVER_FOLDER"],

@@ -41,6 +41,8 @@ export async function convert(
   signal?: AbortSignal,
 ): Promise<Converted> {
   const preparation = await prepare(args, output, options, onEvent, signal);
+  // A system that is not meant for the place is a mistake more often than not: said before the points are read.
+  for (const { code, text } of preparation.whereabouts.notes) onEvent({ event: "warning", code, text });
   // What PDAL writes is as large as the points and belongs where the user has room; records are small.
   const parent = preparation.pdal ? (options.tempDir ?? dirname(output)) : tmpdir();
   return withScratch(parent, (scratch) =>

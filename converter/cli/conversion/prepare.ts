@@ -1,5 +1,6 @@
 import type { Fault } from "@groma/georef";
 import type { CoreEvent, PointBounds, Scan } from "../core/core.js";
+import { OptionError } from "../given/option-error.js";
 import { OutputError, requirePlace } from "../given/output-place.js";
 import type { Planned } from "../pdal/bring.js";
 import type { Pdal } from "../pdal/find.js";
@@ -52,7 +53,8 @@ export async function prepare(
   for (const { file, cause } of skipped) onEvent({ event: "warning", text: `${file}: skipped: ${cause}` });
   const sources = found.filter((source) => source.reader === "pdal" || scanOf.has(source.file));
   if (sources.length === 0) throw noneLeft(skipped);
-  const read = jobs.length > 0 ? await throughPdal(jobs, options, onEvent, signal) : undefined;
+  const read =
+    jobs.length > 0 ? await throughPdal(jobs, options, onEvent, signal) : await withoutPdal(options, files);
 
   const named = sources.map((source): Named => {
     if (source.reader === "core") return scanOf.get(source.file)!;
@@ -70,8 +72,6 @@ export async function prepare(
   });
   const bounds = boundsOf(inputs);
   const where = bounds ? expectedWhereabouts(georeferenced, bounds) : { centre: undefined, notes: [] };
-  // A system that is not meant for the place is a mistake more often than not: said before the points are read.
-  for (const { code, text } of where.notes) onEvent({ event: "warning", code, text });
   return { inputs, skipped, georeferenced, whereabouts: where, ...(read && { pdal: read.pdal }) };
 }
 
@@ -117,6 +117,25 @@ async function throughPdal(
   ]);
   const pdal = await findPdal(given, jobs[0]!.name);
   return { pdal, plan, probes: await probeAll(pdal, jobs, { onEvent, signal }) };
+}
+
+/**
+ * What is given for PDAL is checked where it has nothing to read as well: who gives it expects that it has an effect.
+ *
+ * @throws PdalError PDAL_MISSING
+ * @throws OptionError OPTION_SCALE
+ */
+async function withoutPdal({ pdal, scale }: ConvertOptions, files: readonly string[]): Promise<undefined> {
+  if (scale !== undefined)
+    throw new OptionError({
+      code: "OPTION_SCALE",
+      file: "--scale",
+      cause: "LAS and LAZ keep the scale factors of their integers, and no input is read by PDAL",
+      fix: "leave it out",
+    });
+  if (pdal === undefined) return;
+  const { findPdal } = await import("../pdal/find.js");
+  await findPdal(pdal, files[0]!);
 }
 
 function requireTarget(output: string, overwrite: boolean): void {

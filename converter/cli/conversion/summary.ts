@@ -33,7 +33,7 @@ export function summaryInWords(converted: Converted): string[] {
   return [first, ...placeSummary(converted)];
 }
 
-/** Location, accuracy and notes, a line each. */
+/** Location, accuracy and notes, a line each; a data set far from where it belongs was warned of by then. */
 export function placeSummary(converted: Converted): string[] {
   const { georeferenced, whereabouts, records, rgbBits, pdal, skipped } = converted;
   const { crs, engine, operation, accuracy } = records.georeference;
@@ -41,10 +41,7 @@ export function placeSummary(converted: Converted): string[] {
     ["place", placeInWords({ crs, engine, operation, accuracy, fitBound: records.fitBound })],
     ...centreRow(whereabouts),
     ["accuracy", accuracyInWords(accuracy, crs)],
-    ...[...whereabouts.notes.map(({ text }) => text), ...remarks(operation)].map((text): [string, string] => [
-      "note",
-      text,
-    ]),
+    ...remarks(operation).map((text): [string, string] => ["note", text]),
     ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
   ];
   for (const [index, residual] of (georeferenced.local?.fitted?.residuals ?? []).entries()) {
