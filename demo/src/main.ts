@@ -48,10 +48,17 @@ function start(viewer: Viewer): void {
   const measuring = new Measuring(
     viewer,
     () => slot.layer,
-    ({ vertices }) => goToPlaces(viewer, vertices, way("fly")),
+    ({ vertices }) => {
+      goToPlaces(viewer, vertices, way("fly"));
+      void beside.view?.then((view) => view.goTo(vertices));
+    },
     (thrown) => message.show(thrown),
   );
-  const beside = new Beside(viewer, (thrown) => message.show(thrown));
+  const beside = new Beside(
+    viewer,
+    (thrown) => message.show(thrown),
+    (view) => measuring.tool.addView(view.measured),
+  );
   const progress = new Progress();
   const controls = new Controls((aspect) => {
     if (slot.layer) void goToCloud(viewer, slot.layer, { aspect, free: freeArea(), way: way("fly") });

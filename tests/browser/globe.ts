@@ -1,6 +1,6 @@
 import { geodeticToEcef } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
-import type { MeasureTool } from "@groma/layer/tools";
+import type { MeasureTool, ViewAdapter } from "@groma/layer/tools";
 import type { Cartesian3, Viewer } from "cesium";
 import type OlMap from "ol/Map.js";
 import type { Page } from "playwright-core";
@@ -8,7 +8,9 @@ import type { Page } from "playwright-core";
 /** What the page offers to tests once a cloud is open: `window.groma` of demo/src/page-global.ts. */
 export interface Groma {
   readonly viewer: Viewer;
-  readonly beside: { readonly view: Promise<{ readonly map: OlMap }> | undefined };
+  readonly beside: {
+    readonly view: Promise<{ readonly map: OlMap; readonly measured: ViewAdapter }> | undefined;
+  };
   readonly layer: PointCloudLayer;
   readonly measure: MeasureTool;
   /** The panel of demo/src/profile. */

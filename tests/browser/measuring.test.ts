@@ -222,4 +222,77 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
     expect(watch.errors).toEqual([]);
     await page.context().close();
   });
+
+  it("by touch, begun on the globe and ended on the map", { timeout: 280_000 }, async () => {
+    const { page, watch } = await openPage(browser, { width: 1200, height: 600 });
+    await page.goto(`${server.address}&map=1&fly=0`);
+    await settle(page);
+    await page.evaluate(() => {
+      document.querySelectorAll("details").forEach((one) => {
+        one.open = one.id === "measuring";
+      });
+    });
+    /** Places of the window where each view finds a point. */
+    const places = await page.evaluate(async () => {
+      const { beside, layer, viewer } = window.groma;
+      const { map, measured } = (await beside.view)!;
+      await new Promise<void>((resolve) => {
+        map.once("rendercomplete", () => resolve());
+        map.render();
+      });
+      const signal = new AbortController().signal;
+      const found: Record<"globe" | "map", { x: number; y: number; integers: readonly number[] }[]> = {
+        globe: [],
+        map: [],
+      };
+      const left = map.getViewport().getBoundingClientRect().left;
+      for (let step = 0; step < 40; step++) {
+        const at = { x: viewer.canvas.clientWidth - 40 - 9 * step, y: 290 };
+        const hit = found.globe.length < 1 && (await layer.pick(at, { window: 15 }));
+        if (hit) found.globe.push({ ...at, integers: hit.integers });
+        const on = { x: 100 + 9 * step, y: 280 };
+        const record = found.map.length < 1 && (await measured.pick(on, 7, signal))?.record;
+        if (record) found.map.push({ x: on.x + left, y: on.y, integers: record.integers });
+      }
+      return found;
+    });
+    const [a, b] = [places.globe[0]!, places.map[0]!];
+    const session = await page.context().newCDPSession(page);
+    await session.send("Emulation.setTouchEmulationEnabled", { enabled: true });
+    const tap = async ({ x, y }: { x: number; y: number }) => {
+      await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });
+      await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    };
+    await page.click("#measure-tools button:text-is('Distance')");
+    await tap(a);
+    await page.waitForFunction(() => window.groma.measure.drawn === 1);
+    await tap(b);
+    await entries(page).first().waitFor();
+    expect(await records(page)).toEqual([[a.integers, b.integers]]);
+    await screenshot(page, "measuring-both");
+    const labels = page.locator(".groma-label:visible");
+    expect(await labels.count()).toBe(2);
+    expect(await labels.nth(1).textContent()).toBe(await labels.nth(0).textContent());
+    // Two taps at once would zoom the map; while a figure is drawn they end it.
+    await page.click("#measure-tools button:text-is('Line')");
+    const zoom = () => page.evaluate(async () => (await window.groma.beside.view)!.map.getView().getZoom());
+    const before = await zoom();
+    await tap(a);
+    await tap(b);
+    await tap(b);
+    await page.waitForFunction(() => window.groma.measure.measurements.length === 2);
+    await page.waitForTimeout(500);
+    expect(await zoom()).toBe(before);
+    await page.click("button[aria-label='Delete Line 1']");
+    await page.click("#measure-undo");
+    expect((await records(page))[1]).toEqual([a.integers, b.integers]);
+    await page.click("#measurements > li .name");
+    await page.waitForFunction(
+      async (was) => (await window.groma.beside.view)!.map.getView().getZoom() !== was,
+      before,
+    );
+    expect(watch.errors).toEqual([]);
+    expect(watch.foreign).toEqual([]);
+    await page.context().close();
+  });
 });

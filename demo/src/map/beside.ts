@@ -17,15 +17,20 @@ const STEPS: ReadonlyMap<string, number> = new Map([
 export class Beside {
   readonly #viewer: Viewer;
   readonly #failed: (thrown: unknown) => void;
+  readonly #begins: (view: MapView) => void;
   readonly #box = byId("beside", HTMLInputElement);
   readonly #bar = byId("split", HTMLHRElement);
   #view: Promise<MapView> | undefined;
   #layer: PointCloudLayer | undefined;
 
-  /** @param failed told of what the map cannot draw */
-  constructor(viewer: Viewer, failed: (thrown: unknown) => void) {
+  /**
+   * @param failed told of what the map cannot draw
+   * @param begins told of the map when it is first shown
+   */
+  constructor(viewer: Viewer, failed: (thrown: unknown) => void, begins: (view: MapView) => void) {
     this.#viewer = viewer;
     this.#failed = failed;
+    this.#begins = begins;
     this.#box.addEventListener("change", () => this.show(this.#box.checked));
     this.#bar.addEventListener("pointerdown", (down) => this.#bar.setPointerCapture(down.pointerId));
     this.#bar.addEventListener("pointermove", (move) => {
@@ -54,9 +59,11 @@ export class Beside {
 
   async #attach(): Promise<void> {
     try {
-      this.#view ??= import("./map-view.js").then(
-        ({ MapView }) => new MapView(byId("map", HTMLElement), this.#viewer, this.#failed),
-      );
+      this.#view ??= import("./map-view.js").then(({ MapView }) => {
+        const view = new MapView(byId("map", HTMLElement), this.#viewer, this.#failed);
+        this.#begins(view);
+        return view;
+      });
       const view = await this.#view;
       if (this.#layer) view.attach(this.#layer);
     } catch (thrown) {

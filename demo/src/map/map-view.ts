@@ -1,16 +1,23 @@
 import "ol/ol.css";
 import type { PointCloudLayer } from "@groma/layer/cesium";
-import { PointCloudLayer as MapLayer, PointCloudSource } from "@groma/layer/openlayers";
+import { PointCloudLayer as MapLayer, measureView, PointCloudSource } from "@groma/layer/openlayers";
+import type { ViewAdapter } from "@groma/layer/tools";
 import { buildModuleUrl, type Viewer } from "cesium";
+import { boundingExtent } from "ol/extent.js";
 import TileLayer from "ol/layer/Tile.js";
 import OlMap from "ol/Map.js";
-import { get as projectionOf } from "ol/proj.js";
+import { fromLonLat, get as projectionOf } from "ol/proj.js";
 import TileImage from "ol/source/TileImage.js";
 import TileGrid from "ol/tilegrid/TileGrid.js";
 import View from "ol/View.js";
 
 /** Levels of the Natural Earth map that comes with Cesium, degrees per pixel. */
 const RESOLUTIONS = [180 / 256, 90 / 256, 45 / 256];
+
+/** Pixels around places that are gone to. */
+const AROUND = [80, 80, 80, 80];
+/** Of one point its surroundings are shown: units of the projection per pixel. */
+const FINEST = 0.05;
 
 /** A map beside the globe that shows the same cloud from above, drawn as the layer on the globe is. */
 export class MapView {
@@ -63,6 +70,21 @@ export class MapView {
     map.maximumScreenSpaceError = globe.maximumScreenSpaceError;
     map.pointBudget = globe.pointBudget;
     map.setVisible(globe.show);
+  }
+
+  /** The map, for measuring on it. */
+  get measured(): ViewAdapter {
+    return measureView(this.map, () => [this.#layer].flatMap((layer) => layer ?? []));
+  }
+
+  /** Shows places in the middle, WGS 84, radians. */
+  goTo(places: readonly { readonly longitude: number; readonly latitude: number }[]): void {
+    const view = this.map.getView();
+    const degrees = places.map(({ longitude, latitude }) =>
+      [longitude, latitude].map((one) => one * (180 / Math.PI)),
+    );
+    const extent = boundingExtent(degrees.map((one) => fromLonLat(one, view.getProjection())));
+    if (extent.every(Number.isFinite)) view.fit(extent, { padding: AROUND, minResolution: FINEST });
   }
 
   #leave(): void {

@@ -24,15 +24,17 @@ function setFolded(folded: boolean): void {
   setText(button, folded ? "More" : "Less");
 }
 
-/** The part of the window beside or below the panel; the whole window where that would be too small. */
+/** The part of the globe beside or below the panel; the whole globe where that would be too small. */
 export function freeArea(): ScreenRectangle {
   const panel = byId("panel", HTMLElement).getBoundingClientRect();
-  const beside = panel.right < innerWidth / 2;
-  const below = !beside && panel.bottom < innerHeight / 2;
+  // A map may take a part of the window.
+  const { clientWidth: width, clientHeight: height } = byId("globe", HTMLElement);
+  const beside = panel.right < 0.6 * width;
+  const below = !beside && panel.bottom < height / 2;
   return {
     left: MARGIN + (beside ? panel.right : 0),
     top: MARGIN + (below ? panel.bottom : 0),
-    right: innerWidth - MARGIN,
-    bottom: innerHeight - 2 * MARGIN,
+    right: width - MARGIN,
+    bottom: height - 2 * MARGIN,
   };
 }

@@ -1,3 +1,4 @@
+import DoubleClickZoom from "ol/interaction/DoubleClickZoom.js";
 import type OlMap from "ol/Map.js";
 import { unByKey } from "ol/Observable.js";
 import { fromLonLat } from "ol/proj.js";
@@ -11,6 +12,8 @@ const DEGREE = Math.PI / 180;
  * @param layers those that are measured, asked for anew each time
  */
 export function measureView(map: OlMap, layers: () => readonly PointCloudLayer[]): ViewAdapter {
+  /** Interactions that rest while a figure is drawn. */
+  let resting: DoubleClickZoom[] = [];
   return {
     element: map.getViewport(),
     async pick({ x, y }, reach, signal) {
@@ -35,5 +38,13 @@ export function measureView(map: OlMap, layers: () => readonly PointCloudLayer[]
       return () => unByKey(key);
     },
     redraw: () => map.render(),
+    drawing(active) {
+      for (const one of resting) one.setActive(true);
+      const zooms = map.getInteractions().getArray();
+      resting = zooms
+        .filter((one) => one instanceof DoubleClickZoom)
+        .filter((one) => active && one.getActive());
+      for (const one of resting) one.setActive(false);
+    },
   };
 }

@@ -102,7 +102,7 @@ function viewOf(
     pick: async () => picks[next++],
     project: (vertex) => shown.get(vertex),
   };
-  return new Placing(view as ViewAdapter, new AbortController().signal);
+  return new Placing(view as ViewAdapter, { last: Promise.resolve() }, new AbortController().signal);
 }
 
 describe("placing", () => {

@@ -42,7 +42,7 @@ export function figuresOf({ measurements, draft }: Drawn, showing: Showing): Sho
   return [
     ...figures,
     {
-      ...{ id: undefined, name: title, vertices, shape, open: false, grows: false },
+      ...{ id: undefined, name: title, vertices, shape, open: false, grows: false, ahead: next[0] },
       ...(missed ? NO_POINT : labelOf(kind, [...vertices, ...next], showing)),
     },
   ];

@@ -10,12 +10,10 @@ import {
   type WorthOptions,
 } from "../measure/index.js";
 import { figuresOf } from "./figures.js";
-import { Grips } from "./grips.js";
 import { freshName, History, withVertices } from "./history.js";
-import { Overlay, type ShownFigure } from "./overlay.js";
-import { isSame, Placing, verticesOf } from "./placing.js";
-import { stepOf, watchPointer } from "./pointer.js";
-import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
+import { isSame } from "./placing.js";
+import { Surface } from "./surface.js";
+import type { ViewAdapter } from "./view-adapter.js";
 
 export interface MeasureToolOptions extends WorthOptions {
   /** How labels are written. Default: metres and degrees, in the reader's language. */
@@ -31,7 +29,7 @@ interface Waiting {
 }
 
 /**
- * Draws measurements on a view, by pointer, touch or keyboard, and keeps them.
+ * Draws measurements on one or several views, by pointer, touch or keyboard, and keeps them.
  *
  * Click places a vertex on the point there, or takes a vertex that is there; a click on the last vertex ends the figure,
  * as does one on the first vertex of an area. Keys: arrows move a crosshair (Shift: by a pixel), Enter or Space places,
@@ -39,14 +37,14 @@ interface Waiting {
  * and redo. Of the measurement being edited each vertex takes the keyboard: arrows, Delete, Insert.
  */
 export class MeasureTool {
-  readonly #view: ViewAdapter;
   readonly #options: MeasureToolOptions;
-  readonly #end = new AbortController();
-  readonly #placing: Placing;
-  readonly #overlay: Overlay;
-  readonly #grips: Grips;
   readonly #history = new History();
+  readonly #surfaces: Surface[] = [];
+  readonly #turns = { last: Promise.resolve() as Promise<unknown> };
   readonly #listeners = new Set<() => void>();
+  /** The view that the reader turned to last. */
+  #used: Surface | undefined;
+  #destroyed = false;
   #units: MeasureUnits;
   #worth: WorthOptions;
   #edited: string | undefined;
@@ -55,35 +53,43 @@ export class MeasureTool {
   #missed = false;
 
   constructor(view: ViewAdapter, options: MeasureToolOptions = {}) {
-    this.#view = view;
     this.#options = options;
     this.#units = options.units ?? new MeasureUnits();
     this.#worth = { precision: options.precision };
-    const { signal } = this.#end;
-    this.#placing = new Placing(view, signal);
-    this.#overlay = new Overlay(view, {
-      grabbed: (grip, event) => this.#grips.grab(grip, event),
-      key: (grip, event) => this.#grips.key(grip, event),
-      chosen: (id) => this.edit(id),
-    });
-    this.#grips = new Grips({
-      ...{ view, placing: this.#placing, overlay: this.#overlay },
+    this.addView(view);
+  }
+
+  /**
+   * Draws on a further view too: what is measured is shown on all of them, and a figure that was begun on one is ended on
+   * another.
+   * @returns what takes it off that view
+   */
+  addView(view: ViewAdapter): () => void {
+    const surface = new Surface(view, {
+      turns: this.#turns,
       measurements: () => this.measurements,
+      draft: () => this.#history.present.draft,
+      placed: (vertex) => this.#add(vertex),
+      ahead: (vertex, from) => this.#ahead(vertex, from),
       reshape: (id, vertices) => this.#reshape(id, vertices),
-      show: () => this.#overlay.show(this.#figures()),
+      chosen: (id) => this.edit(id),
+      used: (one) => {
+        this.#used = one;
+      },
+      key: (event) => this.#key(event),
+      show: () => this.#show(),
       told: (work) => this.#told(work),
     });
-    const active = () => this.#history.present.draft !== undefined;
-    const { element } = view;
-    watchPointer(
-      element,
-      { clicked: (at) => this.#place(at), moved: (at) => this.#moved(at) },
-      active,
-      signal,
-    );
-    for (const target of [element, this.#overlay.root]) {
-      target.addEventListener("keydown", (event) => this.#viewKey(event), { signal });
-    }
+    this.#surfaces.push(surface);
+    this.#used ??= surface;
+    this.#show();
+    return () => {
+      const at = this.#surfaces.indexOf(surface);
+      if (at < 0) return;
+      this.#surfaces.splice(at, 1);
+      surface.destroy();
+      if (this.#used === surface) this.#used = this.#surfaces[0];
+    };
   }
 
   /** All that is measured, in the order in which it was. */
@@ -166,9 +172,7 @@ export class MeasureTool {
       };
       this.#waiting = { resolve: settled, id };
     });
-    const { element } = this.#view;
-    if (element.tabIndex < 0) element.tabIndex = 0;
-    element.focus({ preventScroll: true });
+    this.#used?.focus();
     this.#changed();
     return done;
   }
@@ -253,11 +257,11 @@ export class MeasureTool {
     if (this.#history.redo()) this.#changed();
   }
 
-  /** Takes all figures off the view. */
+  /** Takes all figures off the views. */
   destroy(): void {
     this.cancel();
-    this.#end.abort();
-    this.#overlay.destroy();
+    this.#destroyed = true;
+    for (const surface of this.#surfaces.splice(0)) surface.destroy();
     this.#listeners.clear();
   }
 
@@ -265,21 +269,24 @@ export class MeasureTool {
     this.#waiting = undefined;
     this.#hover = undefined;
     this.#missed = false;
-    this.#overlay.crosshair = undefined;
-    this.#overlay.pointer = undefined;
+    for (const surface of this.#surfaces) surface.rest();
     this.#changed();
   }
 
   #changed(): void {
-    if (this.#end.signal.aborted) return;
-    this.#overlay.show(this.#figures());
-    this.#view.redraw();
+    if (this.#destroyed) return;
+    this.#show();
+    for (const { view } of this.#surfaces) view.redraw();
     for (const listener of this.#listeners) listener();
   }
 
-  #place(at: ScreenPoint): void {
-    const { measurements, draft } = this.#history.present;
-    this.#told(this.#placing.place(at, verticesOf(measurements, draft), (vertex) => this.#add(vertex)));
+  #show(): void {
+    const drag = this.#surfaces.map(({ grips }) => grips.drag).find((one) => one !== undefined);
+    const figures = figuresOf(this.#history.present, {
+      ...{ edited: this.#edited, drag, ahead: this.#hover, missed: this.#missed },
+      ...{ units: this.#units, worth: this.#worth },
+    });
+    for (const surface of this.#surfaces) surface.show(figures);
   }
 
   #add(vertex: Vertex | undefined): void {
@@ -287,7 +294,7 @@ export class MeasureTool {
     if (!draft) return;
     this.#missed = !vertex;
     if (!vertex) {
-      this.#overlay.show(this.#figures());
+      this.#show();
       return;
     }
     const { kind, vertices } = draft;
@@ -304,51 +311,23 @@ export class MeasureTool {
     else this.#changed();
   }
 
-  #moved(at: ScreenPoint): void {
-    const { draft, measurements } = this.#history.present;
-    if (!draft) return;
-    this.#overlay.crosshair = undefined;
-    this.#overlay.pointer = at;
-    if (this.#missed) {
-      this.#missed = false;
-      this.#overlay.show(this.#figures());
-    } else this.#overlay.layout();
-    const looking = this.#placing.look(at, verticesOf(measurements, draft)).then((vertex) => {
-      if (!vertex || this.#history.present.draft !== draft) return;
-      this.#hover = vertex;
-      this.#overlay.show(this.#figures());
-    });
-    this.#told(looking);
+  #ahead(vertex: Vertex | undefined, from: Surface): void {
+    for (const surface of this.#surfaces) if (surface !== from) surface.rest();
+    if (!vertex && !this.#missed) return;
+    this.#missed = false;
+    this.#hover = vertex ?? this.#hover;
+    this.#show();
   }
 
-  #viewKey(event: KeyboardEvent): void {
-    if (event.defaultPrevented) return;
-    const chord = event.ctrlKey || event.metaKey;
-    const key = event.key.toLowerCase();
-    if (chord && key === "z") event.shiftKey ? this.redo() : this.undo();
+  /** @returns whether the key means anything */
+  #key({ ctrlKey, metaKey, altKey, shiftKey, key: name }: KeyboardEvent): boolean {
+    const chord = ctrlKey || metaKey;
+    const key = name.toLowerCase();
+    if (chord && key === "z") shiftKey ? this.redo() : this.undo();
     else if (chord && key === "y") this.redo();
-    else if (chord || event.altKey) return;
-    else if (event.key === "Escape") this.drawing ? this.cancel() : this.edit(undefined);
-    else if (!this.drawing || !this.#drawKey(event)) return;
-    event.preventDefault();
-    event.stopPropagation();
-  }
-
-  /** @returns whether the key means anything to a figure that is being drawn */
-  #drawKey(event: KeyboardEvent): boolean {
-    const { clientWidth, clientHeight } = this.#view.element;
-    const at = this.#overlay.crosshair ?? { x: clientWidth / 2, y: clientHeight / 2 };
-    const step = stepOf(event);
-    if (step) {
-      const inside = (value: number, size: number) => Math.min(size - 1, Math.max(0, value));
-      const moved = { x: inside(at.x + step.x, clientWidth), y: inside(at.y + step.y, clientHeight) };
-      this.#moved(moved);
-      this.#overlay.crosshair = moved;
-      this.#overlay.layout();
-    } else if (event.key === "Enter" || event.key === " ") {
-      this.#overlay.crosshair = at;
-      this.#place(at);
-    } else if (event.key === "Backspace" || event.key === "Delete") this.undo();
+    else if (chord || altKey) return false;
+    else if (name === "Escape") this.drawing ? this.cancel() : this.edit(undefined);
+    else if (this.drawing && (name === "Backspace" || name === "Delete")) this.undo();
     else return false;
     return true;
   }
@@ -360,17 +339,10 @@ export class MeasureTool {
     this.#changed();
   }
 
-  #figures(): ShownFigure[] {
-    return figuresOf(this.#history.present, {
-      ...{ edited: this.#edited, drag: this.#grips.drag, ahead: this.#hover, missed: this.#missed },
-      ...{ units: this.#units, worth: this.#worth },
-    });
-  }
-
   /** Has failures told; what was given up is none. */
   #told(work: Promise<unknown>): void {
     work.catch((thrown: unknown) => {
-      if (this.#end.signal.aborted || isAbort(thrown)) return;
+      if (this.#destroyed || isAbort(thrown)) return;
       (this.#options.onError ?? reportError)(thrown);
     });
   }

@@ -9,6 +9,8 @@ export interface ShownFigure {
   readonly id: string | undefined;
   readonly name: string;
   readonly vertices: readonly Vertex[];
+  /** Where the figure being drawn would go on, pointed at on whatever view. */
+  readonly ahead?: Vertex | undefined;
   readonly shape: "points" | "line" | "ring";
   /** Whether its vertices can be taken hold of. */
   readonly open: boolean;
@@ -184,20 +186,21 @@ export class Overlay {
   layout(): void {
     const places = this.#figures.map(({ vertices }) => vertices.map((vertex) => this.#view.project(vertex)));
     const { clientWidth: width, clientHeight: height } = this.root;
-    const state = JSON.stringify([places, this.crosshair, this.pointer, width, height]);
+    const ahead = this.#figures.map((figure) => this.#aheadOf(figure));
+    const state = JSON.stringify([places, ahead, this.crosshair, width, height]);
     if (state === this.#last) return;
     this.#last = state;
     const labels: { element: HTMLElement; anchor: ScreenPoint }[] = [];
     for (const [i, figure] of this.#figures.entries()) {
       const elements = this.#elements.get(keyOf(figure))!;
-      const anchor = this.#place(figure, elements, places[i]);
+      const anchor = this.#place(figure, elements, places[i], ahead[i]);
       elements.label.hidden = anchor === undefined || figure.label === "";
       if (anchor && figure.label !== "") labels.push({ element: elements.label, anchor });
     }
     const wishes = labels.map(({ element, anchor }) => ({
       ...{ anchor, width: element.offsetWidth, height: element.offsetHeight },
     }));
-    const kept = [...places.flat(), this.pointer, this.crosshair].filter((place) => place !== undefined);
+    const kept = [...places.flat(), ...ahead, this.crosshair].filter((place) => place !== undefined);
     for (const [i, { x, y }] of placeLabels(wishes, kept, { width, height }).entries()) {
       labels[i].element.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
     }
@@ -205,14 +208,21 @@ export class Overlay {
     this.#cross.setAttribute("d", at ? `M${at.x - 12} ${at.y}h24M${at.x} ${at.y - 12}v24` : "");
   }
 
+  /** Where the figure being drawn leads on to: the pointer, or what is pointed at on another view. */
+  #aheadOf({ id, ahead }: ShownFigure): ScreenPoint | undefined {
+    if (id !== undefined) return undefined;
+    return this.pointer ?? (ahead && this.#view.project(ahead));
+  }
+
   /** @returns where its label belongs; undefined where nothing of it is in the view */
   #place(
     { id, shape }: ShownFigure,
     { line, dots, grips }: Elements,
     places: readonly (ScreenPoint | undefined)[],
+    ahead: ScreenPoint | undefined,
   ): ScreenPoint | undefined {
     const way: (ScreenPoint | undefined)[] = shape === "points" ? [] : [...places];
-    if (id === undefined && this.pointer && way.length > 0) way.push(this.pointer);
+    if (ahead && way.length > 0) way.push(ahead);
     if (shape === "ring" && way.length > 2) way.push(places[0]);
     line.setAttribute("d", pathOf(way));
     for (const [i, place] of places.entries()) move(dots[i], place);
@@ -221,7 +231,7 @@ export class Overlay {
       const b = places[(grip.vertex + 1) % places.length];
       move(element, grip.between ? middle([a, b]) : a);
     }
-    if (id === undefined) return this.crosshair ?? this.pointer ?? middle(places);
+    if (id === undefined) return this.crosshair ?? ahead ?? middle(places);
     return middle(shape === "ring" ? places : places.slice(0, 2));
   }
 }

@@ -6,15 +6,21 @@ import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 const REACH = 7;
 const SNAP = 9;
 
+/** The order in which vertices were asked for, on whatever view. */
+export interface Turns {
+  last: Promise<unknown>;
+}
+
 /** Finds the vertices for places of a view, one after the other. */
 export class Placing {
   readonly #view: ViewAdapter;
+  readonly #turns: Turns;
   readonly #signal: AbortSignal;
-  #last: Promise<unknown> = Promise.resolve();
   #looking = false;
 
-  constructor(view: ViewAdapter, signal: AbortSignal) {
+  constructor(view: ViewAdapter, turns: Turns, signal: AbortSignal) {
     this.#view = view;
+    this.#turns = turns;
     this.#signal = signal;
   }
 
@@ -28,12 +34,12 @@ export class Placing {
     others: readonly Vertex[],
     work: (vertex: Vertex | undefined) => void,
   ): Promise<void> {
-    const before = this.#last;
+    const before = this.#turns.last;
     const found = this.#find(at, others);
     const done = Promise.all([found, before.catch(() => undefined)]).then(([vertex]) => {
       if (!this.#signal.aborted) work(vertex);
     });
-    this.#last = done;
+    this.#turns.last = done;
     await done;
   }
 

@@ -22,4 +22,6 @@ export interface ViewAdapter {
   onFrame(listener: () => void): () => void;
   /** Has the view drawn again, where it draws on demand only. */
   redraw(): void;
+  /** Told when a figure is begun and when it ends: clicks are the figure's meanwhile, so two of them should not zoom. */
+  drawing?(active: boolean): void;
 }
