@@ -30,6 +30,7 @@ const rooms = {
   numerics: ["tests/numerics/**/*.test.ts"],
   faults: ["tests/faults/**/*.test.ts"],
   interop: ["tests/interop/**/*.test.ts"],
+  install: ["tests/install/**/*.test.ts"],
   browser: ["tests/browser/**/*.test.ts"],
 };
 
@@ -42,7 +43,7 @@ export default defineConfig({
     projects: Object.entries(rooms).map(([name, include]) => ({
       extends: true,
       // A browser test fills both cores by itself.
-      test: { name, include, fileParallelism: name !== "browser" && name !== "interop" },
+      test: { name, include, fileParallelism: !["browser", "install", "interop"].includes(name) },
     })),
   },
 });

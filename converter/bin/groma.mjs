@@ -1,10 +1,20 @@
 #!/usr/bin/env node
-// The command as it is installed. It is there before it is built, so that npm can link it.
+// The command as it is installed. It is there before it is built, so that npm can link it; what it says of an old Node
+// has to be understood by that Node.
 import { existsSync } from "node:fs";
 
 const main = new URL("../dist/main.js", import.meta.url);
-if (existsSync(main)) await import(main.href);
-else {
+const [major, minor] = process.versions.node.split(".").map(Number);
+
+if (major < 20 || (major === 20 && minor < 19)) {
+  fail(`NODE_VERSION: groma: this is Node.js ${process.versions.node}. Install Node.js 20.19 or newer.`);
+} else if (existsSync(main)) {
+  void import(main.href);
+} else {
+  fail("COMMAND_MISSING: groma: the command is not built. Run npm run setup.");
+}
+
+function fail(message) {
   process.exitCode = 1;
-  process.stderr.write("COMMAND_MISSING: groma: the command is not built. Run npm run setup.\n");
+  process.stderr.write(`${message}\n`);
 }

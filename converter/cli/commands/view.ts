@@ -2,12 +2,12 @@ import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, statSync } from "node:fs";
 import { homedir } from "node:os";
 import { basename, join, parse, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
 import { convert } from "../conversion/convert.js";
 import type { ConvertOptions } from "../conversion/options.js";
 import { isLas } from "../conversion/sources.js";
 import { placeSummary } from "../conversion/summary.js";
 import { coreProgram, type Scan, scanFile } from "../core/core.js";
+import { installedPage as page } from "../installed/parts.js";
 import { crsInWords, heightInWords } from "../place/describe.js";
 import { chosenProj } from "../place/engine.js";
 import { georeference } from "../place/georeference.js";
@@ -19,9 +19,6 @@ import { createProgress, defaultProgress } from "../terminal/progress.js";
 
 /** Of the options of a conversion, those that `view` takes too say how the file is read and where it is. */
 export interface ViewOptions extends ConvertOptions, ServingOptions {}
-
-/** The built page; served as files, not imported. */
-const page = fileURLToPath(new URL("../../../demo/dist", import.meta.url));
 
 /**
  * The `view` command: converts the file if it is no COPC, serves it with the page, prints the address and goes on

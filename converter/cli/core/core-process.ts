@@ -2,20 +2,16 @@ import { type ChildProcessByStdio, spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { createInterface } from "node:readline";
 import type { Readable, Writable } from "node:stream";
-import { fileURLToPath } from "node:url";
 import { type Fault, GromaError } from "@groma/georef";
+import { installedCore, isClone, platform } from "../installed/parts.js";
 
 /** The converter core, the file system or the points made a command fail; the code says which. */
 export class CoreError extends GromaError {
   static override readonly kind = "CoreError";
 }
 
-/** Path of the converter core: that of this package, or the one that GROMA_CORE names. */
-export const coreProgram =
-  process.env.GROMA_CORE ||
-  fileURLToPath(
-    new URL(`../../target/release/groma-core${process.platform === "win32" ? ".exe" : ""}`, import.meta.url),
-  );
+/** Path of the converter core: that of this installation, or the one that GROMA_CORE names. */
+export const coreProgram = process.env.GROMA_CORE || installedCore;
 
 /** Answers a line of the core: what is written to its standard input, which then ends; or nothing. */
 export type Answer<Line> = (line: Line, signal: AbortSignal) => Promise<string> | undefined;
@@ -34,10 +30,7 @@ export async function runCore<Line extends { readonly event?: string }>(
 ): Promise<void> {
   signal?.throwIfAborted();
   if (!existsSync(coreProgram)) {
-    throw new CoreError({
-      ...{ code: "CORE_MISSING", file: coreProgram, cause: "the converter core is not built" },
-      fix: "run npm run setup",
-    });
+    throw coreMissing();
   }
   const child = spawn(coreProgram, args, { stdio: ["pipe", "pipe", "pipe"] });
   // The core may have ended by itself; then its own error tells why.
@@ -70,6 +63,17 @@ export async function runCore<Line extends { readonly event?: string }>(
   } finally {
     signal?.removeEventListener("abort", stop);
   }
+}
+
+function coreMissing(): CoreError {
+  const [cause, fix] =
+    process.env.GROMA_CORE || isClone
+      ? ["the converter core is not built", "run npm run setup"]
+      : [
+          `there is no core for this platform (${platform}) in the installation`,
+          `install @groma/core-${platform} of the same version, or build the core in Groma's sources with cargo build --release --manifest-path converter/Cargo.toml and name the file groma-core in GROMA_CORE`,
+        ];
+  return new CoreError({ code: "CORE_MISSING", file: coreProgram, cause: cause!, fix: fix! });
 }
 
 /** Answers the core when the answer is there, and stops it when it cannot be made. */

@@ -51,6 +51,24 @@ describe("PROJ", () => {
     expect(data).toEqual(version === installed ? [own, "/mine"] : ["/mine"]);
   });
 
+  it.skipIf(process.platform === "win32").each([
+    ["that of the package where there is no other", undefined, undefined, "9.6.2"],
+    ["that of the package before an older one of PATH", "9.1.1", undefined, "9.6.2"],
+    ["that of install-proj before that of the package", undefined, "9.6.0", "9.6.0"],
+    ["one of PATH that is current before that of the package", "9.6.1", undefined, "9.6.1"],
+  ])("is %s", async (_, ofPath, installed, version) => {
+    const place = mkdtempSync(join(folder, "packaged-"));
+    const packaged = join(place, "package/proj");
+    stubs(join(packaged, "bin"), "cct: Rel. 9.6.2, 2025");
+    if (ofPath) stubs(join(place, "path"), `cct: Rel. ${ofPath}, 2025`);
+    if (installed) stubs(join(place, "groma/proj/bin"), `cct: Rel. ${installed}, 2025`);
+    const environment = { PATH: join(place, "path"), XDG_CACHE_HOME: place };
+    const proj = await findProj({ environment, packaged });
+    expect(proj?.version).toBe(version);
+    const own = proj?.environment.PROJ_DATA?.split(":")[0] === join(packaged, "share/proj");
+    expect(own).toBe(version === "9.6.2");
+  });
+
   it.skipIf(process.platform === "win32")("is the one that GROMA_PROJ names", async () => {
     const place = mkdtempSync(join(folder, "named-"));
     stubs(place, "cct: Rel. 9.2.0, 2023");

@@ -1,6 +1,7 @@
 import { existsSync } from "node:fs";
 import { homedir } from "node:os";
 import { delimiter, join, resolve } from "node:path";
+import { installedProj } from "../../installed/parts.js";
 import { ProjError } from "./errors.js";
 import { failed, run } from "./run.js";
 
@@ -22,6 +23,8 @@ export interface FindOptions {
   readonly grids?: string | undefined;
   /** Defaults to the environment of this process. */
   readonly environment?: NodeJS.ProcessEnv | undefined;
+  /** The PROJ that came with the core: a folder with `bin` and `share/proj`. Default: that of this installation. */
+  readonly packaged?: string | undefined;
 }
 
 /** The oldest PROJ whose `projinfo` and `cct` answer as they are read here. */
@@ -31,13 +34,24 @@ const CURRENT = [9, 6] as const;
 /** Data of the PROJ that Debian installs for all its users, which `install-proj`'s lies beside. */
 const OF_DEBIAN = "/usr/share/proj";
 
-/** Where `install-proj` puts PROJ unless it is told another place. */
-const installed = (environment: NodeJS.ProcessEnv): string =>
-  join(environment.XDG_CACHE_HOME || join(homedir(), ".cache"), "groma/proj");
+/** A PROJ that is Groma's own: `programs` and its database. */
+interface OwnProj {
+  readonly programs: string;
+  readonly data: string;
+}
+
+/** The first that is there of: the one that `install-proj` put where it does unless told another place, the packaged one. */
+function ownProj(environment: NodeJS.ProcessEnv, packaged: string | undefined): OwnProj | undefined {
+  const brought = join(environment.XDG_CACHE_HOME || join(homedir(), ".cache"), "groma/proj");
+  const places = [{ programs: join(brought, "bin"), data: join(brought, "usr/share/proj") }];
+  if (packaged) places.push({ programs: join(packaged, "bin"), data: join(packaged, "share/proj") });
+  const program = process.platform === "win32" ? "cct.exe" : "cct";
+  return places.find(({ programs }) => existsSync(join(programs, program)));
+}
 
 /**
  * Looks for PROJ: where the user says, where GROMA_PROJ says, on PATH if that is a current one, where `install-proj`
- * puts it, on PATH. Its network access stays off unless the user's environment turns it on (`PROJ_NETWORK=ON`).
+ * puts it, in the package of the core, on PATH. Its network access stays off unless the user's environment turns it on (`PROJ_NETWORK=ON`).
  *
  * @returns nothing when no folder was given and there is no PROJ
  * @throws ProjError PROJ_MISSING when the given folder has none, PROJ_VERSION, PROJ_GRID when `grids` is no folder
@@ -48,15 +62,14 @@ export async function findProj(options: FindOptions = {}): Promise<Proj | undefi
   // Numbers are written and read with a decimal point, whatever the user's language.
   const environment: NodeJS.ProcessEnv = { PROJ_NETWORK: "OFF", ...given, LC_ALL: "C" };
   delete environment.PROJ_DEBUG;
-  const own = installed(given);
-  const takesOwn =
-    folder === undefined && existsSync(join(own, "bin/cct")) && !(await hasCurrent(environment));
-  if (takesOwn) {
+  const there = folder === undefined ? ownProj(given, options.packaged ?? installedProj) : undefined;
+  const own = there && !(await hasCurrent(environment)) ? there : undefined;
+  if (own) {
     // Its database before any other, since that of another version would not be read.
     const others = [given.PROJ_DATA ?? given.PROJ_LIB, existsSync(OF_DEBIAN) ? OF_DEBIAN : undefined];
-    environment.PROJ_DATA = [join(own, "usr/share/proj"), ...others.filter(Boolean)].join(delimiter);
+    environment.PROJ_DATA = [own.data, ...others.filter(Boolean)].join(delimiter);
   }
-  const programs = takesOwn ? join(own, "bin") : folder;
+  const programs = own?.programs ?? folder;
   const program = (name: string) => (programs === undefined ? name : join(programs, name));
   const projinfo = program("projinfo");
   const cct = program("cct");

