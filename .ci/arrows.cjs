@@ -140,6 +140,8 @@ module.exports = {
       "errors",
       "index.ts",
     ]),
+    layer("link", ["cesium", "openlayers", "options", "errors"]),
+    layer("link/geometry", []),
     {
       name: "only-openlayers-rooms-know-openlayers",
       severity: "error",

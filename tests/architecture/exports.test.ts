@@ -4,7 +4,7 @@ import { describe, expect, it } from "vitest";
 import { projectRoot } from "../project.js";
 
 /** What applications import. */
-const ENTRIES = ["index.ts", "cesium/index.ts", "openlayers/index.ts", "tools/index.ts"].map(
+const ENTRIES = ["index.ts", "cesium/index.ts", "openlayers/index.ts", "link/index.ts", "tools/index.ts"].map(
   (entry) => `layer/src/${entry}`,
 );
 const OURS = /\/(georef|layer)\/(src|dist)\//;

@@ -12,8 +12,9 @@ import { projectRoot } from "../project.js";
 import { runPython } from "../python.js";
 import { launch, openPage, type Watch } from "./harness.js";
 
-/** Pages of tests: a scene of the globe, and a map. */
-type Which = "stage" | "map-stage";
+/** Pages of tests: a scene of the globe, a map, and both in step. */
+const PAGES = ["stage", "map-stage", "link-stage"] as const;
+type Which = (typeof PAGES)[number];
 
 const builtFolder = (which: Which) => join(projectRoot, "tests/artifacts", which);
 const rootFolder = (which: Which) => join(projectRoot, "tests/browser", which);
@@ -58,7 +59,12 @@ async function buildPage(which: Which): Promise<void> {
   const root = rootFolder(which);
   const built = builtFolder(which);
   const page = join(built, "index.html");
-  const sources = [root, join(projectRoot, "layer/dist"), join(projectRoot, "georef/dist")];
+  // A page may be made of parts of another one.
+  const sources = [
+    ...PAGES.map(rootFolder),
+    join(projectRoot, "layer/dist"),
+    join(projectRoot, "georef/dist"),
+  ];
   if (existsSync(page) && statSync(page).mtimeMs > Math.max(...sources.map(newest))) return;
   const { build } = await import("vite");
   await build({

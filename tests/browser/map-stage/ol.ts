@@ -4,7 +4,7 @@ export { default as VectorLayer } from "ol/layer/Vector.js";
 export { default as OlMap } from "ol/Map.js";
 export { default as Projection } from "ol/proj/Projection.js";
 export { register } from "ol/proj/proj4.js";
-export { get as getProjection } from "ol/proj.js";
+export { fromLonLat, get as getProjection } from "ol/proj.js";
 export { default as VectorSource } from "ol/source/Vector.js";
 export { default as View } from "ol/View.js";
 export { default as proj4 } from "proj4";

@@ -1,0 +1,358 @@
+import { cross, difference, dot, eastNorthUp, geodeticToEcef, unit, type Vector, WGS84 } from "@groma/georef";
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import {
+  type CameraPose,
+  footprintOf,
+  geodeticOf,
+  headingAt,
+  heightOf,
+  type MapView,
+  meetSurface,
+  moveCamera,
+  type Plane,
+  placeLookedAt,
+  ringOnMap,
+  toGroundView,
+  toMapView,
+  turnTowards,
+  upAt,
+} from "./index.js";
+import { PLANES } from "./planes.fixture.js";
+import { horizonBelow } from "./surface.js";
+
+const DEGREE = Math.PI / 180;
+/** Metres of ground per pixel at a metre's distance. */
+const PER_PIXEL = (2 * Math.tan(0.5)) / 600;
+
+function ecef(longitudeDegrees: number, latitudeDegrees: number, height = 0): Vector {
+  const out = new Float64Array(3);
+  geodeticToEcef(longitudeDegrees * DEGREE, latitudeDegrees * DEGREE, height, out);
+  return [out[0], out[1], out[2]];
+}
+
+/** A camera by its place and angles in degrees; pitch from the horizon, roll to the right. */
+function cameraAt(position: Vector, heading: number, pitch: number, roll = 0): CameraPose {
+  const { rotation: r } = eastNorthUp(position);
+  const out = (x: number, y: number, z: number): Vector => [
+    r[0] * x + r[3] * y + r[6] * z,
+    r[1] * x + r[4] * y + r[7] * z,
+    r[2] * x + r[5] * y + r[8] * z,
+  ];
+  const [h, p, t] = [heading * DEGREE, pitch * DEGREE, roll * DEGREE];
+  const direction = out(Math.cos(p) * Math.sin(h), Math.cos(p) * Math.cos(h), Math.sin(p));
+  const right = out(Math.cos(h), -Math.sin(h), 0);
+  const up = cross(right, direction);
+  const mixed = [0, 1, 2].map((axis) => Math.cos(t) * up[axis] + Math.sin(t) * right[axis]);
+  return { position, direction, up: mixed as unknown as Vector };
+}
+
+const distance = (a: Vector, b: Vector) => Math.hypot(...difference(a, b));
+const number = (min: number, max: number) => fc.double({ min, max, noNaN: true });
+/** Everywhere, with the poles and 180° among it. */
+const longitude = fc.oneof(number(-180, 180), fc.constantFrom(-180, 180, 179.9999999, 0));
+const latitude = fc.oneof(number(-90, 90), fc.constantFrom(-90, 90, 89.9999999));
+const span = number(0, 7).map((power) => 10 ** power);
+
+describe("where a ray meets the places of one height", () => {
+  it("lies on the ray and has the height", () => {
+    fc.assert(
+      fc.property(
+        ...[longitude, latitude, number(-400, 9000), span, number(0, 360), number(-90, -3)],
+        (lon, lat, height, above, heading, pitch) => {
+          const { position, direction } = cameraAt(ecef(lon, lat, height + above), heading, pitch);
+          const place = meetSurface({ origin: position, direction }, height);
+          if (!place) return;
+          const away = difference(place, position);
+          expect(Math.abs(dot(away, direction) - Math.hypot(...away))).toBeLessThan(1e-6);
+          expect(Math.abs(heightOf(place) - height)).toBeLessThan(1e-6);
+          // The nearer of two: the surface is met from above.
+          expect(dot(direction, upAt(place))).toBeLessThan(0);
+        },
+      ),
+    );
+  });
+
+  it("is none beside the earth, behind the camera and from below", () => {
+    const { position, direction } = cameraAt(ecef(10, 50, 1000), 0, -0.5);
+    expect(meetSurface({ origin: position, direction }, 0)).toBeUndefined();
+    const down = cameraAt(ecef(10, 50, 1000), 0, -90).direction;
+    expect(meetSurface({ origin: position, direction: down }, 0)).toBeDefined();
+    expect(meetSurface({ origin: position, direction: down }, 1001)).toBeUndefined();
+    const up = down.map((value) => -value) as unknown as Vector;
+    expect(meetSurface({ origin: position, direction: up }, 0)).toBeUndefined();
+  });
+
+  it("has a horizon where a line of sight touches", () => {
+    fc.assert(
+      fc.property(
+        longitude,
+        latitude,
+        span,
+        number(0, 360),
+        number(-3, 80),
+        (lon, lat, above, heading, pitch) => {
+          const { position, direction } = cameraAt(ecef(lon, lat, above), heading, pitch);
+          const place = horizonBelow({ origin: position, direction }, 0)!;
+          const { a, f } = WGS84;
+          const b = a * (1 - f);
+          expect((place[0] ** 2 + place[1] ** 2) / a ** 2 + place[2] ** 2 / b ** 2).toBeCloseTo(1, 12);
+          const normal = unit([place[0] / a ** 2, place[1] / a ** 2, place[2] / b ** 2]);
+          expect(Math.abs(dot(normal, unit(difference(place, position))))).toBeLessThan(1e-6);
+          // On the side to which the ray goes.
+          expect(dot(difference(place, position), direction)).toBeGreaterThan(-1e-6);
+        },
+      ),
+    );
+  });
+});
+
+describe("the place that a camera looks at", () => {
+  it("is below a camera that looks down, and ahead of a tilted one, on the ground or what stands on it", () => {
+    const down = cameraAt(ecef(8, 47, 500), 30, -90);
+    expect(distance(placeLookedAt(down, 400), ecef(8, 47, 400))).toBeLessThan(1e-6);
+    // 100 m above, 45°: 100 m ahead; less what the earth curves away from a line that goes on.
+    const tilted = cameraAt(ecef(0, 0, 100), 90, -45);
+    expect(placeLookedAt(tilted, 0)[1]).toBeCloseTo(100, 2);
+    expect(placeLookedAt(tilted, 60)[1]).toBeCloseTo(40, 2);
+  });
+
+  it("moves without a jump from the nadir over the horizon to the zenith and beyond", () => {
+    for (const [height, most] of [
+      [2, 1],
+      [100, 50],
+      [10_000, 30_000],
+      [1e6, 3e5],
+      [3e7, 1.5e6],
+    ]) {
+      let before: Vector | undefined;
+      for (let pitch = -90; pitch <= 89.9; pitch += 0.02) {
+        const place = placeLookedAt(cameraAt(ecef(7, 51, height), 200, pitch), 0);
+        expect(place.every(Number.isFinite)).toBe(true);
+        if (before) expect(distance(place, before), `${height} m, ${pitch}°`).toBeLessThan(most);
+        before = place;
+      }
+      // Of what is flatter than one in twenty the place stays at that distance.
+      if (height <= 10_000) expect(distance(before!, ecef(7, 51, 0))).toBeLessThan(21 * height);
+    }
+  });
+
+  it("is below the camera where the held height is above it", () => {
+    const indoors = cameraAt(ecef(7, 51, 10), 0, -45);
+    expect(distance(placeLookedAt(indoors, 300), ecef(7, 51, 10))).toBeLessThan(2);
+  });
+});
+
+describe("the heading", () => {
+  it("is the same at every tilt, straight down and past it included", () => {
+    for (const pitch of [-90, -89.9999, -45, 0, 60, 90]) {
+      const position = ecef(-70, -33, 1000);
+      expect(headingAt(cameraAt(position, 77, pitch), position) / DEGREE).toBeCloseTo(77, 9);
+    }
+    const position = ecef(-70, -33, 1000);
+    // Of a picture that is rolled to the right, the upper edge is to the right; level, it is neither here nor there.
+    expect(headingAt(cameraAt(position, 77, -30, 90), position) / DEGREE).toBeCloseTo(167, 9);
+    expect(headingAt(cameraAt(position, 77, 0, 90), position) / DEGREE).toBeCloseTo(77, 9);
+  });
+});
+
+describe("a camera that turns towards a place", () => {
+  it("looks at it, upright, from where it was", () => {
+    fc.assert(
+      fc.property(longitude, latitude, number(-3000, 3000), number(-3000, 3000), (lon, lat, east, north) => {
+        const pose = cameraAt(ecef(lon, lat, 500), 12, -20, 5);
+        const { rotation: r, origin: o } = eastNorthUp(ecef(lon, lat, 0));
+        const place = [0, 1, 2].map((at) => o[at] + r[at] * east + r[at + 3] * north) as unknown as Vector;
+        const turned = turnTowards(pose, place);
+        expect(turned.position).toBe(pose.position);
+        expect(distance(turned.direction, unit(difference(place, pose.position)))).toBeLessThan(1e-9);
+        expect(Math.abs(dot(turned.up, turned.direction))).toBeLessThan(1e-9);
+        expect(Math.hypot(...turned.up)).toBeCloseTo(1, 9);
+        expect(dot(turned.up, upAt(pose.position))).toBeGreaterThan(-1e-9);
+        expect(Math.abs(dot(cross(turned.direction, turned.up), upAt(pose.position)))).toBeLessThan(1e-9);
+      }),
+    );
+  });
+});
+
+/** Pixels by which the corners and the middle of a picture of 800 × 600 lie elsewhere in another view. */
+function drift(a: MapView, b: MapView): number {
+  return Math.max(
+    ...[
+      [0, 0],
+      [-400, -300],
+      [400, -300],
+      [400, 300],
+    ].map(([px, py]) => {
+      const place = (view: MapView) => {
+        const [cosine, sine] = [Math.cos(view.rotation), Math.sin(view.rotation)];
+        return [
+          view.center[0] + view.resolution * (cosine * px - sine * py),
+          view.center[1] + view.resolution * (sine * px + cosine * py),
+        ];
+      };
+      const [[ax, ay], [bx, by]] = [place(a), place(b)];
+      return Math.hypot(ax - bx, ay - by) / a.resolution;
+    }),
+  );
+}
+
+describe("map → globe → map", () => {
+  /** Middles of the map in reach of its plane, degrees. */
+  const middles: Readonly<Record<string, fc.Arbitrary<readonly [number, number]>>> = {
+    Mercator: fc.tuple(longitude, number(-85, 85)),
+    degrees: fc.tuple(longitude, number(-89.9, 89.9)),
+    UTM: fc.tuple(number(4, 14), number(-80, 84)),
+    arctic: fc.tuple(longitude, fc.oneof(number(50, 90), fc.constantFrom(90, 89.99999999))),
+    antarctic: fc.tuple(longitude, fc.oneof(number(-90, -50), fc.constantFrom(-90, -89.99999999))),
+    "equal area": fc.tuple(number(-10, 30), number(35, 70)),
+  };
+
+  it.each([...PLANES])("comes back to where it was in %s", (name, plane) => {
+    fc.assert(
+      fc.property(
+        middles[name],
+        // Near and tilted at will; from far above, a camera that is tilted looks beside the earth.
+        fc.oneof(fc.tuple(number(-3, 1), number(-90, -4)), fc.tuple(number(1, 5.5), number(-90, -80))),
+        number(-Math.PI, Math.PI),
+        fc.tuple(number(0, 360), number(-40, 40)),
+        number(-100, 4000),
+        ([lon, lat], [power, pitch], rotation, [heading, roll], height) => {
+          const metresPerPixel = 10 ** power;
+          const center = plane.forward(lon * DEGREE, lat * DEGREE);
+          // A view of that many metres, whatever the unit.
+          const unitsPerMetre = toMapView(plane, { place: ecef(lon, lat), heading: 0, metresPerPixel: 1 })!;
+          const view: MapView = { center, rotation, resolution: metresPerPixel * unitsPerMetre.resolution };
+          const ground = toGroundView(plane, view, height)!;
+          // The camera stands anywhere beforehand.
+          const start = cameraAt(ecef(20, 10, 2000), heading, pitch, roll);
+          const place = placeLookedAt(start, 0);
+          const from = { place, heading: headingAt(start, place) };
+          const scale = ground.metresPerPixel / (PER_PIXEL * distance(place, start.position));
+          const camera = moveCamera(start, from, ground, scale);
+          expect(Math.abs(dot(camera.direction, camera.up))).toBeLessThan(1e-9);
+          const again = placeLookedAt(camera, height);
+          const back = toMapView(
+            plane,
+            {
+              place: again,
+              heading: headingAt(camera, again),
+              metresPerPixel: PER_PIXEL * distance(again, camera.position),
+            },
+            center[0],
+          )!;
+          // The series by which proj4 goes back from equal areas leaves a millimetre.
+          const stray = name === "equal area" ? 2e-3 / metresPerPixel : 0;
+          expect(drift(view, back)).toBeLessThan(0.05 + stray);
+        },
+      ),
+      { numRuns: 300 },
+    );
+  });
+
+  it("shows as much ground in the middle, and the same side up", () => {
+    // At 60° a metre is two units of Mercator's; on a map in degrees a pixel has as much area.
+    const place = ecef(10, 60);
+    const mercator = toMapView(PLANES.get("Mercator")!, { place, heading: 0, metresPerPixel: 3 })!;
+    expect(mercator.resolution / 3).toBeCloseTo(2, 1);
+    expect(mercator.rotation).toBeCloseTo(0, 9);
+    const turned = toMapView(PLANES.get("Mercator")!, { place, heading: 0.4, metresPerPixel: 3 })!;
+    // A camera that looks to the north-east has the map turned to the left.
+    expect(turned.rotation).toBeCloseTo(-0.4, 2);
+    // East of its middle meridian, UTM's north lies to the east of the true one.
+    const utm = toMapView(PLANES.get("UTM")!, { place: ecef(12, 60), heading: 0, metresPerPixel: 3 })!;
+    expect(utm.rotation / DEGREE).toBeCloseTo(3 * Math.sin(60 * DEGREE), 1);
+  });
+
+  it("stays in the world that the map shows", () => {
+    const plane = PLANES.get("degrees")!;
+    const ground = { place: ecef(-179, 10), heading: 0, metresPerPixel: 1 };
+    expect(toMapView(plane, ground, 179)!.center[0]).toBeCloseTo(181, 9);
+    expect(toMapView(plane, ground, -900)!.center[0]).toBeCloseTo(-899, 9);
+  });
+
+  it("has no view of what the map does not have", () => {
+    const plane: Plane = { worldWidth: undefined, forward: () => [NaN, NaN], inverse: () => [NaN, NaN] };
+    expect(toMapView(plane, { place: ecef(0, 90), heading: 0, metresPerPixel: 1 })).toBeUndefined();
+    expect(toGroundView(plane, { center: [0, 0], resolution: 1, rotation: 0 }, 0)).toBeUndefined();
+  });
+});
+
+describe("the footprint of what a camera sees", () => {
+  const halves = { right: 0.8, up: 0.6 };
+
+  it("is the rectangle below a camera that looks down", () => {
+    const outline = footprintOf(cameraAt(ecef(0, 0, 100), 0, -90), halves, 0);
+    const east = outline.map(([, y]) => y);
+    const north = outline.map(([, , z]) => z);
+    for (const [found, wanted] of [
+      [Math.min(...east), -80],
+      [Math.max(...east), 80],
+      [Math.min(...north), -60],
+      [Math.max(...north), 60],
+    ]) {
+      expect(found).toBeCloseTo(wanted, 1);
+    }
+  });
+
+  it("lies on the ground, in the picture, and on its edge or the horizon", () => {
+    fc.assert(
+      fc.property(
+        ...[longitude, latitude, span.map((x) => 5 * x), number(0, 360), number(-90, 20), number(-60, 60)],
+        (lon, lat, above, heading, pitch, roll) => {
+          const pose = cameraAt(ecef(lon, lat, above), heading, pitch, roll);
+          const right = cross(pose.direction, pose.up);
+          for (const place of footprintOf(pose, halves, 0)) {
+            expect(Math.abs(heightOf(place))).toBeLessThan(0.01);
+            const away = difference(place, pose.position);
+            const depth = dot(away, pose.direction);
+            expect(depth).toBeGreaterThan(0);
+            const x = Math.abs(dot(away, right) / depth / halves.right);
+            const y = Math.abs(dot(away, pose.up) / depth / halves.up);
+            expect(Math.max(x, y)).toBeLessThan(1 + 1e-5);
+            const touch = Math.abs(dot(unit(away), upAt(place)));
+            expect(Math.max(x, y) > 1 - 1e-5 || touch < 1e-4).toBe(true);
+          }
+        },
+      ),
+    );
+  });
+
+  it("is none of the sky, and the horizon round a globe that is seen as a whole", () => {
+    expect(footprintOf(cameraAt(ecef(0, 0, 100), 0, 80), halves, 0)).toEqual([]);
+    const whole = footprintOf(cameraAt(ecef(20, 0, 3e7), 0, -90), halves, 0);
+    expect(whole.length).toBeGreaterThan(40);
+    for (const place of whole) {
+      expect(Math.abs(dot(unit(difference(place, ecef(20, 0, 3e7))), upAt(place)))).toBeLessThan(1e-6);
+    }
+  });
+
+  it("goes on over 180°, and along the edge of a map round whose pole it goes", () => {
+    const plane = PLANES.get("degrees")!;
+    const across = ringOnMap(footprintOf(cameraAt(ecef(180, 0, 1e5), 0, -90), halves, 0), plane, 179);
+    const x = across.map(([at]) => at);
+    expect(Math.max(...x) - Math.min(...x)).toBeLessThan(2);
+    expect((Math.max(...x) + Math.min(...x)) / 2).toBeCloseTo(180, 6);
+    const pole = ringOnMap(footprintOf(cameraAt(ecef(0, 90, 1e5), 0, -90), halves, 0), plane, 0);
+    const round = pole.map(([at]) => at);
+    expect(Math.max(...round) - Math.min(...round)).toBeCloseTo(360, 6);
+    expect(Math.max(...pole.map(([, y]) => y))).toBeCloseTo(90, 6);
+    expect(Math.min(...pole.map(([, y]) => y))).toBeGreaterThan(88);
+    // In the arctic plane it is an ordinary ring.
+    const arctic = ringOnMap(
+      footprintOf(cameraAt(ecef(0, 90, 1e5), 0, -90), halves, 0),
+      PLANES.get("arctic")!,
+      0,
+    );
+    expect(Math.min(...arctic.map(([px, py]) => Math.hypot(px, py)))).toBeGreaterThan(50_000);
+  });
+
+  it("leaves out what the map does not have", () => {
+    const whole = footprintOf(cameraAt(ecef(20, 0, 3e7), 0, -90), halves, 0);
+    for (const [x, y] of ringOnMap(whole, PLANES.get("UTM")!, 0)) {
+      expect(Number.isFinite(x) && Number.isFinite(y)).toBe(true);
+    }
+    const [lon] = geodeticOf(ecef(3, 4));
+    expect(lon / DEGREE).toBeCloseTo(3, 12);
+  });
+});

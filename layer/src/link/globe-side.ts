@@ -1,0 +1,219 @@
+import { difference, type Vector } from "@groma/georef";
+import {
+  Cartesian3,
+  Cartographic,
+  Ray as CesiumRay,
+  EllipsoidTerrainProvider,
+  Matrix4,
+  OrthographicFrustum,
+  type PerspectiveFrustum,
+  type PrimitiveCollection,
+  type Scene,
+  SceneMode,
+} from "cesium";
+import { PointCloudLayer } from "../cesium/index.js";
+import {
+  type CameraPose,
+  footprintOf,
+  type GroundView,
+  geodeticOf,
+  headingAt,
+  heightOf,
+  moveCamera,
+  type PictureHalves,
+  placeLookedAt,
+  type Ray,
+} from "./geometry/index.js";
+
+const scratch = { ray: new CesiumRay(), place: new Cartesian3(), cartographic: new Cartographic() };
+
+/** The globe as a link knows it: its camera, its ground, and the points on it. */
+export class GlobeSide {
+  readonly scene: Scene;
+  /** Height above WGS 84 of what the camera looks at, as it was found last, metres. */
+  #height = 0;
+  /** The camera, as it was told last. */
+  #known: readonly number[] = [];
+  readonly #unwatch: () => void;
+
+  /** @param moved called within a frame whose camera is another than the one known */
+  constructor(scene: Scene, moved: () => void) {
+    this.scene = scene;
+    this.#known = this.#numbers();
+    this.#unwatch = scene.preRender.addEventListener(() => {
+      if (!this.#isKnown() && this.shown) moved();
+    });
+  }
+
+  /** Whether the globe is drawn as a globe now, and has a size. */
+  get shown(): boolean {
+    const { mode, canvas } = this.scene;
+    return mode === SceneMode.SCENE3D && canvas.clientWidth > 0 && canvas.clientHeight > 0;
+  }
+
+  get pose(): CameraPose {
+    const { positionWC, directionWC, upWC } = this.scene.camera;
+    return { position: vector(positionWC), direction: vector(directionWC), up: vector(upWC) };
+  }
+
+  /** What the camera looks at. */
+  get view(): GroundView {
+    const { pose } = this;
+    const place = this.#lookedAt(pose);
+    const { camera, canvas } = this.scene;
+    const { frustum } = camera;
+    const metresPerPixel =
+      frustum instanceof OrthographicFrustum
+        ? (frustum.width ?? 1) / canvas.clientWidth
+        : (2 * distance(place, pose.position) * tangents(frustum).up) / canvas.clientHeight;
+    return { place, heading: headingAt(pose, place), metresPerPixel };
+  }
+
+  /** Height of the ground, or of what stands on it, at a place that is not looked at yet, metres above WGS 84. */
+  heightAt(longitude: number, latitude: number): number {
+    const terrain = this.#terrain?.getHeight(
+      Cartographic.fromRadians(longitude, latitude, 0, scratch.cartographic),
+    );
+    return terrain ?? this.#height;
+  }
+
+  /** Height above WGS 84 of what is looked at, until something else is found. */
+  get height(): number {
+    return this.#height;
+  }
+
+  set height(metres: number) {
+    this.#height = metres;
+  }
+
+  /** Has the camera look at another place in the way in which it looks now. @param turns whether its heading changes */
+  show(ground: GroundView, turns: boolean): void {
+    const now = this.view;
+    const from = { place: now.place, heading: now.heading };
+    const to = { place: ground.place, heading: turns ? ground.heading : now.heading };
+    this.#height = heightOf(ground.place);
+    const scale = ground.metresPerPixel / now.metresPerPixel;
+    const { frustum } = this.scene.camera;
+    if (frustum instanceof OrthographicFrustum) frustum.width = (frustum.width ?? 1) * scale;
+    this.stand(moveCamera(this.pose, from, to, scale));
+  }
+
+  /** Puts the camera somewhere; that is no move of the globe's own. */
+  stand({ position, direction, up }: CameraPose): void {
+    const { camera } = this.scene;
+    camera.cancelFlight();
+    camera.lookAtTransform(Matrix4.IDENTITY);
+    // `setView` goes by angles, which lose the roll of a camera that looks down.
+    Cartesian3.fromElements(...position, camera.position);
+    Cartesian3.fromElements(...direction, camera.direction);
+    Cartesian3.fromElements(...up, camera.up);
+    Cartesian3.cross(camera.direction, camera.up, camera.right);
+    this.know();
+    this.scene.requestRender();
+  }
+
+  /** Takes the camera as it is for known. */
+  know(): void {
+    this.#known = this.#numbers();
+  }
+
+  /** The outline of the ground in the picture: places of ECEF. */
+  get footprint(): Vector[] {
+    const { frustum } = this.scene.camera;
+    // Parallel rays are not drawn from one place.
+    if (frustum instanceof OrthographicFrustum) return [];
+    const halves = tangents(frustum);
+    const terrain = this.#terrain;
+    if (!terrain) return footprintOf(this.pose, halves, this.#height);
+    return footprintOf(this.pose, halves, 0, (ray) => this.#pickTerrain(ray));
+  }
+
+  /**
+   * The place of the point that the globe shows nearest to a place of its picture, as it is recorded: ECEF.
+   * @param at CSS pixels from the upper left
+   * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
+   */
+  async pick(
+    at: { readonly x: number; readonly y: number },
+    signal: AbortSignal,
+  ): Promise<Vector | undefined> {
+    const hits = await Promise.all(this.layers.map((layer) => layer.pick(at, { signal })));
+    const eye = this.scene.camera.positionWC;
+    const away = (hit: (typeof hits)[number]) =>
+      hit ? Cartesian3.distance(eye, hit.position) : Number.POSITIVE_INFINITY;
+    const nearest = hits.sort((a, b) => away(a) - away(b))[0];
+    return nearest && vector(nearest.position);
+  }
+
+  /** Layers of points that are shown. */
+  get layers(): PointCloudLayer[] {
+    return layersIn(this.scene.primitives).filter(({ show }) => show);
+  }
+
+  dispose(): void {
+    this.#unwatch();
+  }
+
+  /** The globe where it has terrain: elsewhere it is the ellipsoid, better than its triangles are. */
+  get #terrain() {
+    const { globe } = this.scene;
+    return globe?.show && !(globe.terrainProvider instanceof EllipsoidTerrainProvider) ? globe : undefined;
+  }
+
+  #lookedAt(pose: CameraPose): Vector {
+    const { position: origin, direction } = pose;
+    const onTerrain = this.#terrain && this.#pickTerrain({ origin, direction });
+    if (onTerrain) this.#height = geodeticOf(onTerrain)[2];
+    return onTerrain ?? placeLookedAt(pose, this.#height);
+  }
+
+  #pickTerrain({ origin, direction }: Ray): Vector | undefined {
+    const { ray, place } = scratch;
+    Cartesian3.fromElements(...origin, ray.origin);
+    Cartesian3.fromElements(...direction, ray.direction);
+    const found = this.scene.globe.pick(ray, this.scene, place);
+    return found && vector(found);
+  }
+
+  #isKnown(): boolean {
+    const now = this.#numbers();
+    return now.every((value, at) => value === this.#known[at]);
+  }
+
+  /** All of the camera that says what it looks at. */
+  #numbers(): number[] {
+    const { positionWC: p, directionWC: d, upWC: u, frustum } = this.scene.camera;
+    const { fovy = 0, width = 0 } = frustum as { fovy?: number; width?: number };
+    return [p.x, p.y, p.z, d.x, d.y, d.z, u.x, u.y, u.z, fovy, width];
+  }
+}
+
+function layersIn(collection: PrimitiveCollection): PointCloudLayer[] {
+  const found: PointCloudLayer[] = [];
+  for (let at = 0; at < collection.length; at++) {
+    const primitive: unknown = collection.get(at);
+    if (primitive instanceof PointCloudLayer) found.push(primitive);
+    else if (isCollection(primitive)) found.push(...layersIn(primitive));
+  }
+  return found;
+}
+
+function isCollection(primitive: unknown): primitive is PrimitiveCollection {
+  const { get, length } = primitive as Partial<PrimitiveCollection>;
+  return typeof get === "function" && typeof length === "number";
+}
+
+/** Of half of the fields of view. */
+function tangents(frustum: Scene["camera"]["frustum"]): PictureHalves {
+  const { fovy = Math.PI / 3, aspectRatio = 1 } = frustum as PerspectiveFrustum;
+  const up = Math.tan(fovy / 2);
+  return { right: up * aspectRatio, up };
+}
+
+function distance(a: Vector, b: Vector): number {
+  return Math.hypot(...difference(a, b));
+}
+
+function vector({ x, y, z }: Cartesian3): Vector {
+  return [x, y, z];
+}

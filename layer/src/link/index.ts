@@ -1,0 +1,4 @@
+export type { Fault, FaultWire, GromaError } from "@groma/georef";
+export { StyleError } from "../errors/index.js";
+export { Link, type LinkOptions, synchronize } from "./synchronize.js";
+export type { Move, MoveOrigin, ViewMode } from "./view-link.js";

@@ -1,0 +1,147 @@
+import type { Vector } from "@groma/georef";
+import type OlMap from "ol/Map.js";
+import { unByKey } from "ol/Observable.js";
+import { getTransform, get as projectionOf } from "ol/proj.js";
+import type View from "ol/View.js";
+import { PointCloudLayer } from "../openlayers/index.js";
+import { heightOf, type MapView, type Plane } from "./geometry/index.js";
+
+const DEGREE = Math.PI / 180;
+const NOWHERE = [Number.NaN, Number.NaN] as const;
+
+/** The map as a link knows it: its view and the plane that it lies in. */
+export class MapSide {
+  readonly map: OlMap;
+  readonly #moved: () => void;
+  readonly #keys: Parameters<typeof unByKey>[0];
+  /** The view, as it was told last. */
+  #known: MapView | undefined;
+  #view: View | undefined;
+  #viewKey: Parameters<typeof unByKey>[0] | undefined;
+  #plane: { readonly code: string; readonly plane: Plane } | undefined;
+
+  /** @param moved called when the view may be another than the one known */
+  constructor(map: OlMap, moved: () => void) {
+    this.map = map;
+    this.#moved = moved;
+    this.#keys = map.on("change:view", () => {
+      this.#follow();
+      moved();
+    });
+    this.#follow();
+    this.know();
+  }
+
+  /** The view as it is; undefined where the map has none yet. */
+  get view(): MapView | undefined {
+    const view = this.map.getView();
+    const center = view.getCenter();
+    const resolution = view.getResolution();
+    if (!view.isDef() || !center || !resolution) return undefined;
+    return { center: [center[0], center[1]], resolution, rotation: view.getRotation() };
+  }
+
+  /** Whether the view is another than the one known. */
+  get hasMoved(): boolean {
+    const { view } = this;
+    if (!view) return false;
+    const known = this.#known;
+    return !(
+      known &&
+      view.center[0] === known.center[0] &&
+      view.center[1] === known.center[1] &&
+      view.resolution === known.resolution &&
+      view.rotation === known.rotation
+    );
+  }
+
+  /** Shows another view, as far as the map allows it; that is no move of the map's own. */
+  show({ center, resolution, rotation }: MapView, turns: boolean): void {
+    const view = this.map.getView();
+    if (view.getAnimating()) view.cancelAnimations();
+    view.setCenter([...center]);
+    view.setResolution(resolution);
+    if (turns) view.setRotation(rotation);
+    this.know();
+  }
+
+  /** Takes the view as it is for known. */
+  know(): void {
+    this.#known = this.view;
+  }
+
+  /** The plane of the map's projection. */
+  get plane(): Plane {
+    const projection = this.map.getView().getProjection();
+    const code = projection.getCode();
+    if (this.#plane?.code !== code) {
+      const extent = projection.canWrapX() ? projection.getExtent() : undefined;
+      const worldWidth = extent ? extent[2] - extent[0] : undefined;
+      this.#plane = { code, plane: planeOf(code, worldWidth) };
+    }
+    return this.#plane.plane;
+  }
+
+  /** Greatest latitude that the map's projection shows, radians. */
+  get edge(): number | undefined {
+    const world = this.map.getView().getProjection().getWorldExtent();
+    return world && (Math.min(-world[1], world[3]) * DEGREE || undefined);
+  }
+
+  /**
+   * The place of the point that the map shows nearest to a pixel, the highest of several layers, as it is recorded: ECEF.
+   * @param pixel CSS pixels from the upper left
+   * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
+   */
+  async pick(pixel: readonly [number, number], signal: AbortSignal): Promise<Vector | undefined> {
+    const layers = this.map
+      .getAllLayers()
+      .filter((layer): layer is PointCloudLayer => layer instanceof PointCloudLayer && layer.getVisible());
+    const hits = await Promise.all(layers.map((layer) => layer.pick(pixel, { signal })));
+    const places = hits.flatMap((hit): Vector[] => {
+      if (!hit) return [];
+      const [x, y, z] = hit.cloud.place(...hit.source);
+      return [[x, y, z]];
+    });
+    return places.sort((a, b) => heightOf(b) - heightOf(a))[0];
+  }
+
+  dispose(): void {
+    unByKey(this.#keys);
+    if (this.#viewKey) unByKey(this.#viewKey);
+  }
+
+  #follow(): void {
+    if (this.#viewKey) unByKey(this.#viewKey);
+    this.#view = this.map.getView();
+    this.#viewKey = this.#view.on(["change:center", "change:resolution", "change:rotation"] as never, () =>
+      this.#moved(),
+    );
+  }
+}
+
+function planeOf(code: string, worldWidth: number | undefined): Plane {
+  const degrees = projectionOf("EPSG:4326")?.getCode() ?? "EPSG:4326";
+  const forward = getTransform(degrees, code);
+  const inverse = getTransform(code, degrees);
+  const input = [0, 0];
+  const convert = (of: typeof forward, x: number, y: number): readonly [number, number] => {
+    input[0] = x;
+    input[1] = y;
+    try {
+      const [first, second] = of(input, undefined, 2);
+      return [first, second];
+    } catch {
+      // proj4 throws for what is no place of a projection.
+      return NOWHERE;
+    }
+  };
+  return {
+    worldWidth,
+    forward: (longitude, latitude) => convert(forward, longitude / DEGREE, latitude / DEGREE),
+    inverse(x, y) {
+      const [longitude, latitude] = convert(inverse, x, y);
+      return [longitude * DEGREE, latitude * DEGREE];
+    },
+  };
+}

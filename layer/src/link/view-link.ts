@@ -1,0 +1,166 @@
+import type { Vector } from "@groma/georef";
+import { heightOf, toGroundView, toMapView } from "./geometry/index.js";
+import type { GlobeSide } from "./globe-side.js";
+import type { MapSide } from "./map-side.js";
+
+/** Which view follows which. */
+export type ViewMode = "both" | "to-map" | "to-globe" | "none";
+
+/** Who moved a view: the user or the application on that side, or the link's own handles and clicks. */
+export type MoveOrigin = "globe" | "map" | "handle";
+
+/** A move that was carried over. */
+export interface Move {
+  readonly origin: MoveOrigin;
+  /** The side that was moved by it. */
+  readonly target: "globe" | "map";
+}
+
+/** Milliseconds without a move after which the height of what is looked at is read from the points. */
+const REST = 150;
+/** Pixels by which that height has to differ from the one held for the views to be moved again. */
+const WORTH = 0.1;
+
+/**
+ * Carries the view of one side over to the other, once a frame at most. What it has moved itself it takes for known, so
+ * that nothing comes back.
+ */
+export class ViewLink {
+  mode: ViewMode;
+  /** Whether both sides keep their own turn. */
+  northUp: boolean;
+  /** Whether the map stands still whatever the globe does: while what is on it is dragged. */
+  held = false;
+  readonly #globe: GlobeSide;
+  readonly #map: MapSide;
+  readonly #told: (move: Move | undefined) => void;
+  readonly #failed: (thrown: unknown) => void;
+  #frame: number | undefined;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #looking: AbortController | undefined;
+
+  /**
+   * @param told called after each move that was carried over, and with undefined for one of the globe that was not
+   * @param failed called with what kept a record from being read
+   */
+  constructor(
+    globe: GlobeSide,
+    map: MapSide,
+    { mode, northUp }: { readonly mode: ViewMode; readonly northUp: boolean },
+    told: (move: Move | undefined) => void,
+    failed: (thrown: unknown) => void,
+  ) {
+    this.#globe = globe;
+    this.#map = map;
+    this.mode = mode;
+    this.northUp = northUp;
+    this.#told = told;
+    this.#failed = failed;
+  }
+
+  /** The globe's camera is another. */
+  globeMoved(): void {
+    this.#globe.know();
+    this.#cancelFrame();
+    this.#showOnMap("globe");
+    this.#atRest(() => this.#readAhead());
+  }
+
+  /** The map's view may be another; it is looked at in the next frame, however often this is called before. */
+  mapMoved(): void {
+    if (this.#frame !== undefined || !this.#map.hasMoved) return;
+    this.#frame = requestAnimationFrame(() => {
+      this.#frame = undefined;
+      if (!this.#map.hasMoved) return;
+      this.#map.know();
+      this.#showOnGlobe("map");
+    });
+  }
+
+  /** Carries the view over as it is, in the direction of the mode; the globe's where both are possible. */
+  carry(): void {
+    if (this.mode === "to-globe") this.#showOnGlobe("map");
+    else this.#showOnMap("globe");
+    this.#atRest(() => (this.mode === "to-globe" ? this.#readBelow() : this.#readAhead()));
+  }
+
+  dispose(): void {
+    this.#cancelFrame();
+    clearTimeout(this.#timer);
+    this.#looking?.abort();
+  }
+
+  #showOnMap(origin: MoveOrigin): void {
+    const [globe, map] = [this.#globe, this.#map];
+    const before = map.view;
+    const follows = this.mode === "both" || this.mode === "to-map";
+    const view =
+      follows && !this.held && globe.shown ? toMapView(map.plane, globe.view, before?.center[0]) : undefined;
+    if (view) map.show(view, !this.northUp);
+    this.#told(view && { origin, target: "map" });
+  }
+
+  #showOnGlobe(origin: MoveOrigin, height?: number): void {
+    const [globe, map] = [this.#globe, this.#map];
+    const { view } = map;
+    if (!view || !globe.shown || (this.mode !== "both" && this.mode !== "to-globe")) return;
+    const [longitude, latitude] = map.plane.inverse(...view.center);
+    const ground = toGroundView(map.plane, view, height ?? globe.heightAt(longitude, latitude));
+    if (!ground) return;
+    globe.show(ground, !this.northUp);
+    this.#told({ origin, target: "globe" });
+    if (height === undefined) this.#atRest(() => this.#readBelow());
+  }
+
+  /** The point in the middle of the globe's picture says how high lies what the camera looks at. */
+  async #readAhead(): Promise<void> {
+    const globe = this.#globe;
+    const { clientWidth, clientHeight } = globe.scene.canvas;
+    const found = await this.#look((signal) =>
+      globe.pick({ x: clientWidth / 2, y: clientHeight / 2 }, signal),
+    );
+    if (found && this.#differs(found)) this.#showOnMap("globe");
+  }
+
+  /** The point in the middle of the map says how high lies what it shows there. */
+  async #readBelow(): Promise<void> {
+    const map = this.#map;
+    const [width, height] = map.map.getSize() ?? [0, 0];
+    const found = await this.#look((signal) => map.pick([width / 2, height / 2], signal));
+    if (found && this.#differs(found)) this.#showOnGlobe("map", this.#globe.height);
+  }
+
+  /** Takes over the height of a point. @returns whether the views would show it */
+  #differs(found: Vector): boolean {
+    const globe = this.#globe;
+    const { metresPerPixel } = globe.view;
+    const height = heightOf(found);
+    const differs = Math.abs(height - globe.height) > WORTH * metresPerPixel;
+    globe.height = height;
+    return differs;
+  }
+
+  /** What a pick finds, unless anything moved meanwhile. */
+  async #look(pick: (signal: AbortSignal) => Promise<Vector | undefined>): Promise<Vector | undefined> {
+    const looking = new AbortController();
+    this.#looking = looking;
+    try {
+      const found = await pick(looking.signal);
+      return looking.signal.aborted ? undefined : found;
+    } catch (thrown) {
+      if (!looking.signal.aborted) this.#failed(thrown);
+      return undefined;
+    }
+  }
+
+  #atRest(work: () => Promise<void>): void {
+    this.#looking?.abort();
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => void work(), REST);
+  }
+
+  #cancelFrame(): void {
+    if (this.#frame !== undefined) cancelAnimationFrame(this.#frame);
+    this.#frame = undefined;
+  }
+}

@@ -1,0 +1,64 @@
+import { Clip, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import { type Link, synchronize } from "@groma/layer/link";
+import { PointCloudLayer as MapLayer, PointCloudSource } from "@groma/layer/openlayers";
+import * as Cesium from "cesium";
+import { MapStage, type StageView } from "../map-stage/map-stage.js";
+import * as ol from "../map-stage/ol.js";
+import type { StageOptions } from "../stage/setting.js";
+import { Stage } from "../stage/stage.js";
+
+/** A globe of 400 × 300 pixels and maps of 600 × 400 that show one scan; frames of the globe are drawn when told. */
+class LinkStage {
+  readonly globe: Stage;
+  readonly cloud: PointCloud;
+  readonly maps: MapStage[] = [];
+
+  constructor(cloud: PointCloud, options: StageOptions = {}) {
+    this.cloud = cloud;
+    this.globe = new Stage({ width: 400, height: 300, ...options });
+    this.globe.layer = PointCloudLayer.fromCloud(cloud, { style: { pointSize: 3 } });
+    this.globe.scene.primitives.add(this.globe.layer);
+  }
+
+  addMap(view: StageView): MapStage {
+    const options = { layer: { style: { pointSize: 3 } }, source: { cloud: this.cloud } };
+    const stage = new MapStage({ view, ...options });
+    this.maps.push(stage);
+    return stage;
+  }
+
+  /** Resolves after the next frames of the page. */
+  async frames(count = 2): Promise<void> {
+    for (let frame = 0; frame < count; frame++) await new Promise(requestAnimationFrame);
+  }
+
+  destroy(): void {
+    for (const map of this.maps) map.destroy();
+    this.globe.destroy();
+  }
+}
+
+declare global {
+  interface Window {
+    /** What tests of the link work with in the page. */
+    linked: {
+      readonly Cesium: typeof Cesium;
+      readonly ol: typeof ol;
+      readonly synchronize: typeof synchronize;
+      readonly PointCloud: typeof PointCloud;
+      readonly MapLayer: typeof MapLayer;
+      readonly PointCloudSource: typeof PointCloudSource;
+      readonly Clip: typeof Clip;
+      readonly LinkStage: typeof LinkStage;
+      /** What stands, if anything. */
+      stage: LinkStage;
+      link: Link;
+    };
+  }
+}
+
+window.linked = {
+  ...{ Cesium, ol, synchronize, PointCloud, MapLayer, PointCloudSource, Clip, LinkStage },
+  stage: undefined as unknown as LinkStage,
+} as Window["linked"];
+document.body.dataset.ready = "true";

@@ -1,0 +1,327 @@
+import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
+import { pythonMissing } from "../python.js";
+import { screenshot } from "./harness.js";
+import { openStage, type StagePage } from "./stage.js";
+
+/** Projections beside those of OpenLayers. */
+const PROJECTIONS = {
+  "EPSG:32632": "+proj=utm +zone=32 +datum=WGS84 +units=m +no_defs",
+  "EPSG:3413": "+proj=stere +lat_0=90 +lat_ts=70 +lon_0=-45 +k=1 +datum=WGS84 +units=m +no_defs",
+  "EPSG:3031": "+proj=stere +lat_0=-90 +lat_ts=-71 +lon_0=0 +k=1 +datum=WGS84 +units=m +no_defs",
+};
+/** Middle of the scans, in the plane of EPSG:32632. */
+const MIDDLE = [500_000, 5_200_000] as const;
+/** Random moves of a map; `GROMA_MOVES=1000` for the figure in docs/link.md, 2 minutes. */
+const MOVES = Number(process.env.GROMA_MOVES ?? 100);
+
+describe.skipIf(pythonMissing)(
+  `globe and map in step${pythonMissing ? ` (skipped: ${pythonMissing})` : ""}`,
+  () => {
+    let stage: StagePage;
+    beforeAll(async () => {
+      stage = await openStage("link-stage");
+      await stage.page.evaluate(async (projections) => {
+        const { ol, PointCloud, LinkStage } = window.linked;
+        for (const [code, definition] of Object.entries(projections)) ol.proj4.defs(code, definition);
+        ol.register(ol.proj4);
+        const cloud = await PointCloud.fromUrl("/clouds/stripes.copc.laz", { workers: { size: 1 } });
+        window.linked.stage = new LinkStage(cloud) as typeof window.linked.stage;
+      }, PROJECTIONS);
+    }, 240_000);
+    afterAll(() => stage?.close());
+    afterEach(async () => {
+      await stage.page.evaluate(() => {
+        const { linked } = window;
+        linked.link?.dispose();
+        for (const map of linked.stage.maps.splice(0)) map.destroy();
+      });
+      expect(stage.watch.errors).toEqual([]);
+    });
+
+    it("has the point that a tilted camera looks at in the middle of the map", {
+      timeout: 120_000,
+    }, async () => {
+      const seen = await stage.page.evaluate(async (middle) => {
+        const { stage, synchronize } = window.linked;
+        const map = stage.addMap({ projection: "EPSG:32632", center: [0, 0], resolution: 1 });
+        stage.globe.look({ at: [middle[0], middle[1], 500], heading: 40, pitch: -30, range: 60 });
+        await stage.globe.settle();
+        window.linked.link = synchronize({ viewer: stage.globe.widget, map: map.map });
+        const moves: string[] = [];
+        window.linked.link.onMove(({ origin, target }) => moves.push(`${origin} > ${target}`));
+        const view = map.map.getView();
+        const before = view.getCenter()!;
+        // Nothing is known of the points yet; as soon as the view rests, one of them is read.
+        for (let wait = 0; wait < 400 && moves.length === 0; wait++) {
+          stage.globe.frame();
+          await new Promise((done) => setTimeout(done, 10));
+        }
+        await map.complete();
+        return {
+          ...{ before, moves, center: view.getCenter()!, resolution: view.getResolution()! },
+          rotation: view.getRotation(),
+        };
+      }, MIDDLE);
+      await screenshot(stage.page, "link-tilted");
+      expect(seen.moves).toEqual(["globe > map"]);
+      // On the ellipsoid the camera would look at a place 500 m / tan 30° farther away.
+      const [east, north] = [seen.before[0]! - MIDDLE[0], seen.before[1]! - MIDDLE[1]];
+      expect(Math.hypot(east, north)).toBeGreaterThan(800);
+      expect(Math.atan2(east, north)).toBeCloseTo((40 * Math.PI) / 180, 2);
+      const off = Math.hypot(seen.center[0]! - MIDDLE[0], seen.center[1]! - MIDDLE[1]);
+      // The point nearest to the middle of the picture is one of a grid of 0.1 m.
+      expect(off).toBeLessThan(0.3);
+      const perPixel = (2 * Math.tan(Math.PI / 6)) / 400;
+      expect(seen.resolution / (60 * perPixel)).toBeCloseTo(0.9996, 2);
+      expect(seen.rotation).toBeCloseTo((-40 * Math.PI) / 180, 3);
+    });
+
+    it(`comes back to the pixel after ${MOVES} moves, by the poles and over 180°, and nothing echoes`, {
+      timeout: 240_000,
+    }, async () => {
+      const seen = await stage.page.evaluate(async (count) => {
+        const { stage, synchronize, ol, Cesium } = window.linked;
+        stage.globe.layer.show = false;
+        // Two maps without layers: one leads the globe, the other follows it and knows nothing of the first.
+        const maps = ["a", "b"].map(() => {
+          const target = document.createElement("div");
+          Object.assign(target.style, { width: "600px", height: "400px" });
+          document.body.append(target);
+          return new ol.OlMap({ target, controls: [], interactions: [] });
+        });
+        let seed = 20261128;
+        const random = () => {
+          seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0;
+          return seed / 2 ** 32;
+        };
+        const between = (low: number, high: number) => low + random() * (high - low);
+        const places: Record<string, () => number[]> = {
+          // Over 180°, in other worlds, and up to where Mercator's ends.
+          "EPSG:3857": () => [20037508.342789244 * between(0.99, 1.01), between(-1.5e7, 1.5e7)],
+          "EPSG:4326": () => [between(-720, 720), between(-89, 89)],
+          "EPSG:3413": () => [between(-1, 1), between(-1, 1)].map((at) => at * 10 ** between(-3, 6)),
+          "EPSG:3031": () => (random() < 0.1 ? [0, 0] : [between(-1e6, 1e6), between(-1e6, 1e6)]),
+          "EPSG:32632": () => [between(3e5, 7e5), between(1e5, 9e6)],
+        };
+        const codes = Object.keys(places);
+        const events: string[] = [];
+        let links: { dispose(): void }[] = [];
+        let worst = 0;
+        let moved = 0;
+        for (let move = 0; move < count; move++) {
+          const code = codes[Math.floor((move * codes.length) / count)]!;
+          const [a, b] = maps as [(typeof maps)[0], (typeof maps)[0]];
+          if (a.getView().getProjection().getCode() !== code || links.length === 0) {
+            for (const one of links) one.dispose();
+            for (const map of maps) {
+              const options = {
+                minResolution: 1e-9,
+                maxResolution: 1e9,
+                multiWorld: true,
+                constrainRotation: false,
+              };
+              map.setView(
+                new ol.View({
+                  ...options,
+                  projection: code,
+                  center: places[code]!(),
+                  resolution: 1,
+                  rotation: 0,
+                }),
+              );
+            }
+            const viewer = stage.globe.widget;
+            const leads = synchronize({ viewer, map: a, view: "to-globe" });
+            const follows = synchronize({ viewer, map: b, view: "to-map" });
+            leads.onMove(({ origin, target }) => events.push(`a: ${origin} > ${target}`));
+            follows.onMove(({ origin, target }) => events.push(`b: ${origin} > ${target}`));
+            links = [leads, follows];
+          }
+          const near = random() < 0.7;
+          if (move % 20 === 0) {
+            // The camera is tilted otherwise, and rolled.
+            const { camera } = stage.globe.scene;
+            const [longitude, latitude] = [between(-180, 180), between(-80, 80)];
+            camera.setView({
+              destination: Cesium.Cartesian3.fromDegrees(longitude, latitude, 1000),
+              orientation: { heading: between(0, 6), pitch: between(-1.57, -0.1), roll: between(-0.5, 0.5) },
+            });
+            stage.globe.frame();
+            events.length = 0;
+            moved = 0;
+          }
+          const scale = code === "EPSG:4326" ? 1e-5 : 1;
+          const view = a.getView();
+          view.setCenter(places[code]!());
+          view.setResolution(scale * 10 ** (near ? between(-2, 1) : between(1, 2)));
+          view.setRotation(between(-3, 3));
+          moved++;
+          await stage.frames(2);
+          stage.globe.frame();
+          const other = b.getView();
+          const resolution = view.getResolution()!;
+          const world = { "EPSG:3857": 2 * 20037508.342789244, "EPSG:4326": 360 }[code];
+          const pixel = ([px, py]: number[], of: typeof view) => {
+            const [cosine, sine] = [Math.cos(of.getRotation()), Math.sin(of.getRotation())];
+            const r = of.getResolution()!;
+            const [x, y] = of.getCenter()!;
+            return [x! + r * (cosine * px! - sine * py!), y! + r * (sine * px! + cosine * py!)];
+          };
+          for (const corner of [
+            [0, 0],
+            [-300, -200],
+            [300, -200],
+            [300, 200],
+          ]) {
+            const [p, q] = [pixel(corner, view), pixel(corner, other)];
+            let dx = p[0]! - q[0]!;
+            if (world) dx -= world * Math.round(dx / world);
+            worst = Math.max(worst, Math.hypot(dx, p[1]! - q[1]!) / resolution);
+          }
+          await stage.frames(1);
+          const wanted = Array.from({ length: moved }, () => ["a: map > globe", "b: globe > map"]).flat();
+          if (events.join() !== wanted.join()) return { worst, events: events.slice(-6), move, code };
+        }
+        for (const one of links) one.dispose();
+        for (const map of maps) {
+          map.getTargetElement()?.remove();
+          map.dispose();
+        }
+        stage.globe.layer.show = true;
+        return { worst, events: [], move: count };
+      }, MOVES);
+      expect(seen.events).toEqual([]);
+      expect(seen.move).toBe(MOVES);
+      expect(seen.worst).toBeLessThan(0.5);
+    });
+
+    it("shows the ground that the camera sees, as Cesium's own rays find it", {
+      timeout: 120_000,
+    }, async () => {
+      const seen = await stage.page.evaluate(async () => {
+        const { stage, synchronize, Cesium } = window.linked;
+        const map = stage.addMap({ projection: "EPSG:32632", center: [500_000, 5_200_000], resolution: 10 });
+        stage.globe.look({ at: [500_000, 5_200_000, 0], heading: 25, pitch: -50, range: 2000 });
+        stage.globe.frame();
+        const link = synchronize({ viewer: stage.globe.widget, map: map.map });
+        window.linked.link = link;
+        await map.complete();
+        const ring = link.footprint!.getGeometry()!.getCoordinates()[0]!;
+        // The corners of Cesium's picture, on the ellipsoid.
+        const { camera, canvas } = stage.globe.scene;
+        const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+        const corners = [
+          [0, height],
+          [width, height],
+          [width, 0],
+          [0, 0],
+        ].map(([x, y]) => {
+          const place = camera.pickEllipsoid(new Cesium.Cartesian2(x, y))!;
+          const { longitude, latitude } = Cesium.Cartographic.fromCartesian(place);
+          const degrees = [longitude, latitude].map(Cesium.Math.toDegrees);
+          return window.linked.ol.fromLonLat(degrees, "EPSG:32632");
+        });
+        return { ring, corners };
+      });
+      const off = seen.corners.map(([x, y]) =>
+        Math.min(...seen.ring.map(([px, py]) => Math.hypot(px! - x!, py! - y!))),
+      );
+      expect(seen.ring.length).toBe(49);
+      expect(Math.max(...off)).toBeLessThan(1e-3);
+    });
+
+    it("keeps to its mode, keeps north up, and does nothing once it is disposed of", {
+      timeout: 120_000,
+    }, async () => {
+      const seen = await stage.page.evaluate(async (middle) => {
+        const { stage, synchronize } = window.linked;
+        const map = stage.addMap({ projection: "EPSG:32632", center: [...middle], resolution: 1 });
+        const view = map.map.getView();
+        const { camera } = stage.globe.scene;
+        const look = (heading: number, range: number) => {
+          stage.globe.look({ heading, pitch: -60, range });
+          stage.globe.frame();
+        };
+        const onGlobe = () => [camera.positionWC.x, camera.heading];
+        look(0, 100);
+        const link = synchronize({ viewer: stage.globe.widget, map: map.map, northUp: true });
+        window.linked.link = link;
+        const moves: string[] = [];
+        link.onMove(({ origin, target }) => moves.push(`${origin} > ${target}`));
+        const events = () => moves.splice(0);
+        const found: unknown[] = [];
+        look(30, 200);
+        found.push([events(), view.getRotation()]);
+        const { heading } = camera;
+        view.setRotation(1);
+        view.setResolution(3);
+        await stage.frames(3);
+        found.push([events(), camera.heading - heading < 1e-6]);
+        link.view = "to-map";
+        events();
+        const before = onGlobe();
+        view.setResolution(4);
+        await stage.frames(3);
+        found.push([events(), onGlobe().join() === before.join()]);
+        link.view = "to-globe";
+        events();
+        const resolution = view.getResolution();
+        look(0, 300);
+        await stage.frames(3);
+        found.push([events(), view.getResolution() === resolution]);
+        link.view = "none";
+        look(0, 400);
+        view.setResolution(5);
+        await stage.frames(3);
+        found.push(events());
+        link.view = "both";
+        events();
+        // Nothing moves: whatever is drawn, nothing is carried over.
+        for (let frame = 0; frame < 5; frame++) stage.globe.frame();
+        await map.complete();
+        found.push(events());
+        link.dispose();
+        link.dispose();
+        look(0, 500);
+        view.setResolution(6);
+        await stage.frames(3);
+        const listeners = [stage.globe.scene.preRender.numberOfListeners, view.hasListener("change:center")];
+        return { found: [...found, events()], listeners, resolution: view.getResolution() };
+      }, MIDDLE);
+      expect(seen.found).toEqual([
+        [["globe > map"], 0],
+        [["map > globe"], true],
+        [[], true],
+        [[], true],
+        ...[[], [], []],
+      ]);
+      expect(seen.resolution).toBe(6);
+      expect(seen.listeners[0]).toBe(0);
+    });
+
+    it("refuses what is no globe, no map and no mode by name", async () => {
+      const codes = await stage.page.evaluate(() => {
+        const { stage, synchronize } = window.linked;
+        const viewer = stage.globe.widget;
+        const map = stage.addMap({ projection: "EPSG:3857", center: [0, 0], resolution: 1 }).map;
+        return [
+          {},
+          { viewer },
+          { viewer: map, map },
+          { viewer, map, view: "bth" },
+          { viewer, map, norhUp: true },
+        ].map((options) => {
+          try {
+            synchronize(options as Parameters<typeof synchronize>[0]);
+            return "";
+          } catch (thrown) {
+            return (thrown as Error).message;
+          }
+        });
+      });
+      expect(codes.map((message) => message.split(":")[0])).toEqual(Array(5).fill("STYLE_OPTION"));
+      expect(codes[3]).toContain('Did you mean "both"');
+      expect(codes[4]).toContain("northUp");
+    });
+  },
+);
