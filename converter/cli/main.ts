@@ -151,6 +151,10 @@ program
     "--points <FILE>",
     "file of one x y z per line in the coordinates of the scan; - for standard input",
   )
+  .option(
+    "--inverse <FROM>",
+    "points are given elsewhere and their coordinates in the scan wanted: ecef (metres), geodetic (longitude, latitude, height), or a map projection such as EPSG:3857",
+  )
   .option("--json", "print JSON")
   .action(async (file: string, options) => (await import("./commands/locate.js")).runLocate(file, options));
 

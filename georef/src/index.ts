@@ -39,6 +39,7 @@ export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
 export { eastNorthUp, type Frame, levelFrame, pointIn, pointOf, turnIn, turnOut } from "./ellipsoid/frame.js";
 export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
 export { ENGINE, type ExactTransform, exactTransform } from "./engines/exact.js";
+export { type SourceTransform, sourceTransform } from "./engines/inverse-truth.js";
 export { isOwnPlane, type MapPlane, planeTransform, truthOnMap } from "./engines/map-plane.js";
 export { type GridPlane, gridPlane, type PlaneInverse } from "./engines/projection.js";
 export {

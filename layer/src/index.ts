@@ -42,6 +42,7 @@ export {
   type GeoreferenceOptions,
   guessHeights,
   type HeightData,
+  type PlaneOfMap,
   PointCloud,
   type PointCloudOptions,
   type PointRecord,

@@ -7,7 +7,7 @@ import { projMissing } from "../proj.js";
 import { data } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { coreMissing } from "./core.js";
-import { distance, groma, gromaJson, locate } from "./groma.js";
+import { distance, groma, gromaJson, type Located, locate } from "./groma.js";
 
 const grids = data("grids");
 
@@ -128,6 +128,57 @@ describe.skipIf(missing ?? projMissing ?? grids.missing)("groma locate after a c
       ],
       bytes: transformationBytes,
     });
+  });
+
+  it("finds the coordinates of rows again, from wherever they are given", { timeout: 120_000 }, () => {
+    const table = tables[0];
+    const { out } = converted(table);
+    const rows = rowsOf(table.path).slice(0, 300);
+    const placed = locate(out, rows);
+    const inverse = (from: string, points: readonly (readonly number[])[]) => {
+      const text = points.map((point) => point.join(" ")).join("\n");
+      return gromaJson<{ points: Located[] }>(
+        ["locate", out, "--points", "-", "--inverse", from, "--json"],
+        text,
+      ).points;
+    };
+    const geodetic = placed.map((point) => point.geodetic);
+    const found = {
+      ecef: inverse(
+        "ecef",
+        placed.map(({ ecef }) => ecef),
+      ),
+      geodetic: inverse("geodetic", geodetic),
+      // In its own plane x and y are those of the scan.
+      own: inverse(
+        "EPSG:28992",
+        rows.map(([x, y], i) => [x, y, geodetic[i][2]]),
+      ),
+    };
+    for (const points of Object.values(found)) {
+      const worst = Math.max(...points.map(({ source }, i) => distance(source, rows[i])));
+      // Degrees as they are printed are right to a few nanometres.
+      expect(worst).toBeLessThanOrEqual(1e-6);
+    }
+    const truth = inverse(
+      "ecef",
+      rows.map((row) => row.slice(3)),
+    );
+    expect(Math.max(...truth.map(({ source }, i) => distance(source, rows[i])))).toBeLessThanOrEqual(1e-3);
+  });
+
+  it("refuses a place by its line that no coordinates of the scan lead to", () => {
+    const { out } = converted(tables[0]);
+    const far = groma(
+      ["locate", out, "--points", "-", "--inverse", "geodetic"],
+      "5.4 52.1 40\n\n8.5 47.3 400\n",
+    );
+    expect(far.code).toBe(1);
+    expect(far.stderr).toMatch(/^PLACE_DOMAIN: .*line 3: /);
+    const unknown = groma(["locate", out, "--points", "-", "--inverse", "mars"], "1 2 3\n");
+    expect(unknown.stderr).toMatch(/^OPTION_INVERSE: --inverse: "mars" is no projection/);
+    const { stdout } = groma(["locate", out, "--points", "-", "--inverse", "geodetic"], "5.4 52.1 46\n");
+    expect(stdout.trimEnd().split("\n").at(-1)).toMatch(/^15\d{4}\.\d{6} 4\d{5}\.\d{6} \d\.\d{6}$/);
   });
 
   it("says by name what lies outside, and tells the line", () => {

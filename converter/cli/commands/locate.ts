@@ -5,25 +5,29 @@ import {
   GromaError,
   PlacementError,
   placePoint,
+  sourceTransform,
   statedAccuracy,
 } from "@groma/georef";
 import { type Scan, scanFile } from "../core/core.js";
 import { type Row, readRows } from "../given/rows.js";
 import { placeInWords } from "../place/describe.js";
+import { givenPlaces } from "../place/given-places.js";
 import { type Placed, placed } from "../place/placed.js";
 import { print, printJson } from "../terminal/output.js";
 
 const DEGREE = Math.PI / 180;
 
 export interface LocateOptions {
-  /** File of source coordinates, `-` for standard input. */
+  /** File of source coordinates, or of what `inverse` says; `-` for standard input. */
   readonly points: string;
+  /** What the points are given in, where they are to be found in source coordinates. */
+  readonly inverse?: string;
   readonly json?: boolean;
 }
 
 /** Where one point is. */
 export interface Located {
-  /** Source coordinates as they were asked for; z is the middle of the bounds where none was given. */
+  /** Source coordinates as they were asked for, or as they were found; z is the middle of the bounds where none was given. */
   readonly source: readonly [number, number, number];
   /** EPSG:4978, metres. */
   readonly ecef: readonly [number, number, number];
@@ -65,6 +69,32 @@ export function locate({ truth, accuracy, engine }: Placed, rows: readonly Row[]
   });
 }
 
+/**
+ * The source coordinates of places, to 1 µm.
+ *
+ * @param from `ecef`, `geodetic`, or a map projection, see {@link givenPlaces}
+ * @throws PlacementError PLACE_DOMAIN with the line of the first place that no coordinates within the bounds lead to
+ * @throws OptionError OPTION_INVERSE
+ */
+export function locateInverse(place: Placed, rows: readonly Row[], scan: Scan, from: string): Located[] {
+  const { truth, targets } = givenPlaces(place, rows, scan, from);
+  const { min, max, file } = scan;
+  const box = { minX: min[0], minY: min[1], maxX: max[0], maxY: max[1] };
+  const toSource = sourceTransform(truth, box, file);
+  const source = new Float64Array(3);
+  const found = targets.map(([x, y, z], index) => {
+    const { line } = rows[index]!;
+    try {
+      toSource(x, y, z, source);
+    } catch (error) {
+      if (!(error instanceof GromaError)) throw error;
+      throw new PlacementError({ ...error.toWire(), file, cause: `line ${line}: ${error.cause}` });
+    }
+    return { line, values: [...source] };
+  });
+  return locate(place, found, scan);
+}
+
 /** @throws PlacementError PLACE_DOMAIN */
 function refuseOutside(point: readonly number[], line: number, { min, max, scale, file }: Scan): void {
   const inside = point.every((value, axis) => {
@@ -90,23 +120,48 @@ function refuseOutside(point: readonly number[], line: number, { min, max, scale
  * @throws PlacementError PLACE_DOMAIN
  * @throws CoreError, CrsError, RecordError
  */
-export async function runLocate(file: string, { points, json = false }: LocateOptions): Promise<void> {
-  const rows = await readRows(points, { kind: "POINTS", columns: "x y z", fewest: 2, most: 3 });
+export async function runLocate(
+  file: string,
+  { points, inverse, json = false }: LocateOptions,
+): Promise<void> {
+  const fewest = inverse === undefined ? 2 : 3;
+  const rows = await readRows(points, { kind: "POINTS", columns: "x y z", fewest, most: 3 });
   const scan = await scanFile(file);
   const place = await placed(scan);
-  const located = locate(place, rows, scan);
+  const located =
+    inverse === undefined ? locate(place, rows, scan) : locateInverse(place, rows, scan, inverse);
   if (json) printJson(locatedJson(place, located));
-  else print(locatedLines(place, located));
+  else if (inverse === undefined) print(locatedLines(place, located));
+  else print(sourceLines(place, located));
 }
 
 function locatedJson({ engine, operation, basis }: Placed, points: readonly Located[]) {
   return { points, engine, operation: operation ?? null, crsFrom: basis };
 }
 
-function locatedLines(place: Placed, points: readonly Located[]): string[] {
-  const whence = place.basis === "Groma's record" ? "" : `, derived here from the file's ${place.basis}`;
+/** Digits below the micrometre that the coordinates are right to. */
+const ANGULAR_DIGITS = 12;
+const LINEAR_DIGITS = 6;
+
+function sourceLines(place: Placed, points: readonly Located[]): string[] {
+  const digits = place.crs.horizontalUnit.kind === "angular" ? ANGULAR_DIGITS : LINEAR_DIGITS;
   return [
-    `# ${placeInWords(place)}${whence}`,
+    whence(place),
+    "# x y z (coordinates of the scan)",
+    ...points.map(
+      ({ source: [x, y, z] }) => `${x.toFixed(digits)} ${y.toFixed(digits)} ${z.toFixed(LINEAR_DIGITS)}`,
+    ),
+  ];
+}
+
+function whence(place: Placed): string {
+  const derived = place.basis === "Groma's record" ? "" : `, derived here from the file's ${place.basis}`;
+  return `# ${placeInWords(place)}${derived}`;
+}
+
+function locatedLines(place: Placed, points: readonly Located[]): string[] {
+  return [
+    whence(place),
     "# X Y Z (ECEF, m)  longitude latitude (degrees)  height (m)  accuracy (m)",
     ...points.map(({ ecef, geodetic: [longitude, latitude, height], accuracy }) => {
       const degrees = `${longitude.toFixed(10)} ${latitude.toFixed(10)}`;

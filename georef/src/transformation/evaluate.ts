@@ -16,6 +16,8 @@ export interface StepwiseTruth {
   readonly stretch?: number;
   /** Units of the place per source unit, where x and y stay those of the source whatever the steps say. */
   readonly own?: number;
+  /** The place to source coordinates, where the steps themselves can be solved for them; see {@link CompiledTransformation}. */
+  readonly inverse?: CompiledTransformation["inverse"];
 }
 
 /** A transformation ready for use. */
@@ -101,8 +103,7 @@ export function compileTransformation(
     },
     inverse(x, y, z, out, offset = 0) {
       starts ??= startingPoints(domain, evaluate);
-      if (!invert(differentiate, domain, starts, [x, y, z], out, offset))
-        throw outside("the ECEF point", x, y, z);
+      if (!invert(differentiate, domain, starts, [x, y, z], out, offset)) throw outside("the place", x, y, z);
     },
   };
 }

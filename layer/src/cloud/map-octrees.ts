@@ -14,8 +14,11 @@ import type { Appearance, DataSetSpec, NodeVertices } from "../workers/index.js"
 import { NodeGeometry } from "./node-geometry.js";
 import { type OctreeParts, PlacedOctree, SHARED_PAGES } from "./placed-octree.js";
 
+/** The plane of a map, for any data set. */
+export type PlaneOfMap = Pick<MapPlane, "code" | "definition" | "metresPerUnit" | "wraps">;
+
 /** A projection that a map is shown in. */
-export interface MapProjection extends Pick<MapPlane, "code" | "definition" | "metresPerUnit" | "wraps"> {
+export interface MapProjection extends PlaneOfMap {
   /** Greatest distance of a drawn point from its exact place, nominal metres. */
   readonly tolerance: number;
 }
@@ -81,6 +84,14 @@ export class MapOctrees {
     }
   }
 
+  /** Source coordinates → the plane of a projection. @throws CrsError CRS_UNSUPPORTED */
+  truthIn(projection: PlaneOfMap): Truth {
+    const { truth, spec, crs, now } = this.#map;
+    const [low, high] = spec.heights;
+    const plane = this.#planeOf(projection, now().boundingBox);
+    return truthOnMap(truth, plane, (low + high) / 2, crs.verticalUnit.size, this.#parts.source.name);
+  }
+
   /** A view ends; what only it used is given up. */
   release(octree: PlacedOctree): void {
     for (const [key, entry] of this.#entries) {
@@ -129,7 +140,7 @@ export class MapOctrees {
     }
   }
 
-  #planeOf({ code, definition, metresPerUnit, wraps }: MapProjection, { min, max }: SourceBox): MapPlane {
+  #planeOf({ code, definition, metresPerUnit, wraps }: PlaneOfMap, { min, max }: SourceBox): MapPlane {
     const [x, y, z] = [0, 1, 2].map((axis) => (min[axis] + max[axis]) / 2);
     const place = new Float64Array(3);
     pointTransform(this.#map.truth)(x, y, z, place, 0);

@@ -1,4 +1,10 @@
-import { encodeRecord, exactTransform, type GeoreferenceRecord, resolveCrs } from "@groma/georef";
+import {
+  ecefToGeodetic,
+  encodeRecord,
+  exactTransform,
+  type GeoreferenceRecord,
+  resolveCrs,
+} from "@groma/georef";
 import { describe, expect, it, vi } from "vitest";
 import type { View } from "../octree/index.js";
 import { pageBytes, type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
@@ -176,6 +182,38 @@ describe("PointCloud", () => {
     const { bounds } = cloud;
     expect(Math.hypot(at[0] - bounds.x, at[1] - bounds.y, at[2] - bounds.z)).toBeLessThan(bounds.radius);
     expect(() => cloud.place(-1, 0, 0)).toThrow(expect.objectContaining({ code: "PLACE_DOMAIN" }));
+  });
+
+  it("gives the source coordinates of places in space, on the ellipsoid and on maps", async () => {
+    const third = await transformationBytes(crs, { minX: 0, minY: 0, maxX: 100, maxY: 100 }, 40);
+    const engine = { name: "PROJ", version: "9.5.0" } as const;
+    const records: TinyCopc["records"] = [
+      ["groma", 1, encodeRecord({ ...record, crs, engine })],
+      ["groma", 3, third],
+    ];
+    const { cloud: carried } = await open({ records });
+    const { cloud: derived } = await open({}, { crs: UTM, vertical: "ellipsoidal" });
+    const point = [50.125, 60.25, 7] as const;
+    const feet = {
+      code: "feet",
+      definition: `${UTM.replace("+units=m", "+units=ft")} +no_defs`,
+      ...{ metresPerUnit: 0.3048, wraps: false },
+    };
+    for (const cloud of [carried, derived]) {
+      const [x, y, z] = cloud.place(...point);
+      const geodetic = new Float64Array(3);
+      ecefToGeodetic(x, y, z, geodetic);
+      const [longitude, latitude, height] = geodetic;
+      const found = [
+        cloud.sourceOf([x, y, z]),
+        cloud.sourceOf([longitude, latitude, height], "geodetic"),
+        cloud.sourceOf([point[0] / 0.3048, point[1] / 0.3048, height], feet),
+      ];
+      for (const source of found) {
+        expect(Math.max(...point.map((value, axis) => Math.abs(source[axis] - value)))).toBeLessThan(1e-6);
+      }
+    }
+    expect(() => carried.sourceOf([0, 6.4e6, 0])).toThrow(expect.objectContaining({ code: "PLACE_DOMAIN" }));
   });
 
   it("PLACE_DOMAIN where the transformation covers other places than the file's box", async () => {

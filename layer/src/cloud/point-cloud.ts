@@ -1,11 +1,13 @@
 import {
   type Crs,
   type GeoreferenceRecord,
+  geodeticToEcef,
   type HeightReference,
   type OperationReport,
   PlacementError,
   placePoint,
   type StatedAccuracy,
+  sourceTransform,
   type Truth,
 } from "@groma/georef";
 import { FormatError } from "../errors/index.js";
@@ -39,7 +41,7 @@ import type { AttributeInfo, PointRecord } from "./attribute-info.js";
 import { attributesOf } from "./attributes.js";
 import { checkCloudOptions, type PointCloudOptions } from "./cloud-options.js";
 import { type Georeference, georeferenceOf } from "./georeference.js";
-import { MapOctrees } from "./map-octrees.js";
+import { MapOctrees, type PlaneOfMap } from "./map-octrees.js";
 import { NodeGeometry } from "./node-geometry.js";
 import type { NodeStream } from "./node-stream.js";
 import { type OctreeParts, PlacedOctree, sharedReads } from "./placed-octree.js";
@@ -226,6 +228,30 @@ export class PointCloud implements PointOrigin {
    */
   place(x: number, y: number, z: number, out: Float64Array = new Float64Array(3)): Float64Array {
     placePoint(this.#truth, x, y, z, out, this.#source.name);
+    return out;
+  }
+
+  /**
+   * The source coordinates of a place, to 1 µm: {@link place} backwards. Whether points lie there is not asked.
+   * @param from what the place is given in. `ecef`: X, Y, Z, metres. `geodetic`: longitude, latitude (radians, WGS 84) and
+   *   height above the ellipsoid (metres). The projection of a map: x and y in its units, height above the ellipsoid (metres)
+   * @param out receives x, y, z, source units
+   * @throws PlacementError PLACE_DOMAIN where no coordinates of the data set lead there
+   * @throws CrsError CRS_UNSUPPORTED where proj4js does not know the projection
+   */
+  sourceOf(
+    [x, y, z]: readonly [number, number, number],
+    from: "ecef" | "geodetic" | PlaneOfMap = "ecef",
+    out: Float64Array = new Float64Array(3),
+  ): Float64Array {
+    const { min, max } = this.#boundingBox;
+    const box = { minX: min[0], minY: min[1], maxX: max[0], maxY: max[1] };
+    const truth = typeof from === "object" ? this.maps.truthIn(from) : this.#truth;
+    const toSource = sourceTransform(truth, box, this.#source.name);
+    if (from === "geodetic") geodeticToEcef(x, y, z, out);
+    else if (from === "ecef") out.set([x, y, z]);
+    else out.set([x * from.metresPerUnit, y * from.metresPerUnit, z]);
+    toSource(out[0], out[1], out[2], out);
     return out;
   }
 
