@@ -143,6 +143,19 @@ program
   .option("--verify", "read all points and verify their checksums")
   .action(async (file: string, options) => (await import("./commands/info.js")).runInfo(file, options));
 
+const georef = program
+  .command("georef")
+  .description(
+    "write where the points of a COPC file or address are to a file beside it, for a page that shows it; only its header is read",
+  )
+  .argument("<file>", "COPC file or its address")
+  .argument("[output]", "file to write (default: the name of the input with .georef)")
+  .option("--overwrite", "replace an existing output")
+  .option("--json", "print JSON")
+  .action(async (file: string, output: string | undefined, options) =>
+    (await import("./commands/georef.js")).runGeoref(file, output, options),
+  );
+
 program
   .command("locate")
   .description("convert points to ECEF, longitude, latitude and height as the page does, with their accuracy")
@@ -242,9 +255,10 @@ const view = program
     (await import("./commands/view.js")).runView(file, serving(options)),
   );
 
-for (const command of [convert, view]) {
-  for (const option of [...placing(), ...reading()]) command.addOption(option);
+for (const command of [convert, view, georef]) {
+  for (const option of placing()) command.addOption(option);
 }
+for (const command of [convert, view]) for (const option of reading()) command.addOption(option);
 for (const command of program.commands) command.copyInheritedSettings(program);
 
 endWithReader();

@@ -89,6 +89,14 @@ export {
 export type { GeoreferenceRecord } from "./record/georeference-record.js";
 export type { OperationReport } from "./record/operation-report.js";
 export { decodeRecord, encodeRecord } from "./record/record.js";
+export {
+  type DataSetIdentity,
+  decodeRecordFile,
+  encodeRecordFile,
+  RECORD_FILE_MOST,
+  type RecordFile,
+  requireSame,
+} from "./record/record-file.js";
 export { type Anchor, anchorSimilarity } from "./similarity/anchor.js";
 export { type ControlPoint, type FittedSimilarity, fitSimilarity } from "./similarity/fit.js";
 export { localCrs } from "./similarity/local-crs.js";

@@ -153,6 +153,9 @@ describe("hostile names and contents", () => {
     ["locate", locate(fileName, "points.txt"), 0],
     ["locate --json", locate(fileName, "points.txt", "--json"), 0],
     ["locate with odd points", locate(fileName, "bad-points.txt"), 1],
+    ["locate from an odd system", locate(fileName, "points.txt", "--inverse", HOSTILE), 1],
+    ["georef", ["georef", `${HOSTILE}.copc.laz`], 0],
+    ["georef of what is no COPC", ["georef", fileName], 1],
     ["serve", ["serve", `sub${HOSTILE}`, "--port", "0"], 0, /http:/],
     ["view", ["view", fileName, "--port", "0", "--progress", "plain"], 0, /http:/],
   ])("%s: shows nothing raw and changes nothing that objects inherit", async (_what, args, code, until) => {

@@ -6,6 +6,7 @@ import { type Conversion, type CoreEvent, convertFiles, type RecordMaker, scanFi
 import { withScratch } from "../core/scratch.js";
 import type { Planned } from "../pdal/bring.js";
 import { type PdalReport, pdalReport } from "../pdal/report.js";
+import { projString } from "../place/engine.js";
 import type { Georeferenced } from "../place/georeference.js";
 import { type GeoreferenceRecords, makeRecords } from "../place/records.js";
 import type { Whereabouts } from "../place/whereabouts.js";
@@ -107,9 +108,4 @@ function plannedOf({ inputs }: Preparation): Planned[] {
 function firstOf({ inputs: [first] }: Preparation): { file: string; scale: readonly number[] } {
   if (first!.reader === "core") return { file: first!.file, scale: first!.scan.scale };
   return { file: first!.planned.probe.job.name, scale: first!.planned.form.scale };
-}
-
-/** A PROJ string says more to PROJ than what was read from it: its grids above all. */
-function projString(crs: string | undefined): string | undefined {
-  return crs?.trim().startsWith("+") ? crs : undefined;
 }

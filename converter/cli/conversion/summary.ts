@@ -35,21 +35,35 @@ export function summaryInWords(converted: Converted): string[] {
 
 /** Location, accuracy and notes, a line each; a data set far from where it belongs was warned of by then. */
 export function placeSummary(converted: Converted): string[] {
-  const { georeferenced, whereabouts, records, rgbBits, pdal, skipped } = converted;
-  const { crs, engine, operation, accuracy } = records.georeference;
-  const lines: [string, string][] = [
-    ["place", placeInWords({ crs, engine, operation, accuracy, fitBound: records.fitBound })],
-    ...centreRow(whereabouts),
-    ["accuracy", accuracyInWords(accuracy, crs)],
-    ...remarks(operation).map((text): [string, string] => ["note", text]),
-    ...pdal.flatMap(pdalInWords).map((text): [string, string] => ["pdal", text]),
+  const { rgbBits, pdal, skipped } = converted;
+  const lines: Row[] = [
+    ...placeRows(converted),
+    ...pdal.flatMap(pdalInWords).map((text): Row => ["pdal", text]),
   ];
-  for (const [index, residual] of (georeferenced.local?.fitted?.residuals ?? []).entries()) {
-    lines.push(["control", `point ${index + 1}: residual ${length(residual)}`]);
-  }
   if (rgbBits === 8) {
     lines.push(["colours", "8-bit colours in 16-bit fields; values unchanged"]);
   }
   lines.push(...skipped.map(skippedRow));
   return labelled(lines);
+}
+
+type Row = [label: string, text: string];
+
+/** Where a data set was put and by what, row by row. */
+export function placeRows({
+  georeferenced,
+  whereabouts,
+  records,
+}: Pick<Converted, "georeferenced" | "whereabouts" | "records">): Row[] {
+  const { crs, engine, operation, accuracy } = records.georeference;
+  const residuals = georeferenced.local?.fitted?.residuals ?? [];
+  return [
+    ["place", placeInWords({ crs, engine, operation, accuracy, fitBound: records.fitBound })],
+    ...centreRow(whereabouts),
+    ["accuracy", accuracyInWords(accuracy, crs)],
+    ...remarks(operation).map((text): Row => ["note", text]),
+    ...residuals.map(
+      (residual, index): Row => ["control", `point ${index + 1}: residual ${length(residual)}`],
+    ),
+  ];
 }

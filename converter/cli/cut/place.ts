@@ -3,6 +3,7 @@ import type { PointSelection } from "@groma/layer/export";
 import type { RecordedPoints } from "@groma/layer/query";
 import { geodesicLengths, sourceLine } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
+import { declarationOf } from "../place/declaration.js";
 import { placed } from "../place/placed.js";
 import type { Position } from "./geojson.js";
 
@@ -58,24 +59,6 @@ export async function inSource(
   };
   const radians = positions.map(([longitude, latitude]) => [longitude * DEGREE, latitude * DEGREE] as const);
   return { positions: sourceLine(space, radians, given), unit: 1 / named.horizontalUnit.size };
-}
-
-/** What an opened file says of its coordinates, as the core would tell it. */
-function declarationOf({ name, boundingBox, scale, crs }: RecordedPoints["source"]) {
-  const { wkt, geoTiff, las, georeference, transformation } = crs;
-  const base64 = (bytes: Uint8Array | undefined) => bytes && Buffer.from(bytes).toString("base64");
-  const records = [
-    ["1", base64(georeference)],
-    ["3", base64(transformation)],
-  ].filter(([, content]) => content !== undefined);
-  return {
-    ...{ file: name, ...boundingBox, scale, groma: Object.fromEntries(records) },
-    ...(wkt !== undefined && { wkt }),
-    ...(geoTiff && {
-      geoTiff: { directory: [...geoTiff.directory], doubles: [...geoTiff.doubles], ascii: geoTiff.ascii },
-    }),
-    ...(las && las),
-  };
 }
 
 /**

@@ -1,5 +1,6 @@
 import { GromaError } from "@groma/georef";
 import { RecordedPoints } from "@groma/layer/query";
+import { type OpenedSource, openSource } from "@groma/layer/sources";
 import { FileSource } from "./file-source.js";
 import { lazPerf } from "./laz-perf.js";
 
@@ -22,10 +23,31 @@ const isAddress = (input: string): boolean => /^https?:\/\//i.test(input);
  * @throws InputFileError, SourceError, FormatError; the signal's reason when aborted
  */
 export async function openPoints(input: string, signal: AbortSignal): Promise<OpenedPoints> {
-  if (isAddress(input)) {
-    const points = await RecordedPoints.open(input, { createLazPerf: lazPerf, signal });
-    return { points, close: async () => undefined };
-  }
+  return withBytes(input, async (from, close) => {
+    const points = await RecordedPoints.open(from, { createLazPerf: lazPerf, signal });
+    return { points, close };
+  });
+}
+
+/**
+ * What a COPC file of this machine or of a server says of itself: its header, its records and the first page of its
+ * hierarchy are read, no points.
+ * @throws InputFileError, SourceError, FormatError; the signal's reason when aborted
+ */
+export async function readHead(input: string, signal: AbortSignal): Promise<OpenedSource> {
+  return withBytes(input, async (from, close) => {
+    const source = await openSource(from, { signal });
+    await close();
+    return source;
+  });
+}
+
+/** Opens a file or leaves an address as it is; the file is closed where the use of it fails. */
+async function withBytes<T>(
+  input: string,
+  use: (from: string | FileSource, close: () => Promise<void>) => Promise<T>,
+): Promise<T> {
+  if (isAddress(input)) return use(input, async () => undefined);
   const file = await FileSource.open(input).catch((error: NodeJS.ErrnoException) => {
     const missing = error.code === "ENOENT";
     throw new InputFileError({
@@ -35,8 +57,7 @@ export async function openPoints(input: string, signal: AbortSignal): Promise<Op
     });
   });
   try {
-    const points = await RecordedPoints.open(file, { createLazPerf: lazPerf, signal });
-    return { points, close: () => file.close() };
+    return await use(file, () => file.close());
   } catch (error) {
     await file.close();
     throw error;

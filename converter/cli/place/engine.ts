@@ -94,3 +94,8 @@ async function withoutProj(
     throw error instanceof CrsError ? refusal : error;
   }
 }
+
+/** A PROJ string says more to PROJ than what was read from it: its grids above all. */
+export function projString(crs: string | undefined): string | undefined {
+  return crs?.trim().startsWith("+") ? crs : undefined;
+}

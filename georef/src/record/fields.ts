@@ -25,27 +25,27 @@ const ENGINES = ["PROJ", "proj4js", "similarity"] as const;
 
 /** The record in a JSON value, member by member. @throws FieldError */
 export function readRecord(json: unknown): GeoreferenceRecord {
-  const record = object(json, "the record");
+  const record = readObject(json, "the record");
   if (record.version !== 1) throw new FieldError("version", "1, the only one that is known");
-  const engine = object(record.engine, "engine");
+  const engine = readObject(record.engine, "engine");
   const name = ENGINES.find((known) => known === engine.name);
   if (!name) throw new FieldError("engine.name", `one of ${ENGINES.join(", ")}`);
   return {
     version: 1,
-    crs: readCrs(object(record.crs, "crs")),
+    crs: readCrs(readObject(record.crs, "crs")),
     engine: { name, version: text(engine.version, "engine.version") },
     ...(record.operation === undefined
       ? {}
-      : { operation: readOperation(object(record.operation, "operation")) }),
+      : { operation: readOperation(readObject(record.operation, "operation")) }),
     ...(record.similarity === undefined
       ? {}
-      : { similarity: readSimilarity(object(record.similarity, "similarity")) }),
+      : { similarity: readSimilarity(readObject(record.similarity, "similarity")) }),
     accuracy: readAccuracy(record.accuracy),
   };
 }
 
 function readCrs(crs: Json): Crs {
-  const declared = object(crs.verticalUnit, "crs.verticalUnit").declared;
+  const declared = readObject(crs.verticalUnit, "crs.verticalUnit").declared;
   if (typeof declared !== "boolean") throw new FieldError("crs.verticalUnit.declared", "true or false");
   const proj4 = text(crs.proj4, "crs.proj4");
   if (!/^\+proj=[a-z]/.test(proj4)) throw new FieldError("crs.proj4", "a PROJ string");
@@ -58,13 +58,13 @@ function readCrs(crs: Json): Crs {
     ...(crs.wkt === undefined ? {} : { wkt: text(crs.wkt, "crs.wkt") }),
     horizontalUnit: readUnit(crs.horizontalUnit, "crs.horizontalUnit"),
     verticalUnit: { ...verticalUnit, declared },
-    height: readHeight(object(crs.height, "crs.height")),
-    ...(crs.datum === undefined ? {} : { datum: readDatum(object(crs.datum, "crs.datum")) }),
+    height: readHeight(readObject(crs.height, "crs.height")),
+    ...(crs.datum === undefined ? {} : { datum: readDatum(readObject(crs.datum, "crs.datum")) }),
   };
 }
 
 function readUnit(value: unknown, member: string): Unit {
-  const unit = object(value, member);
+  const unit = readObject(value, member);
   if (unit.kind !== "linear" && unit.kind !== "angular")
     throw new FieldError(`${member}.kind`, "linear or angular");
   const size = number(unit.size, `${member}.size`);
@@ -95,7 +95,7 @@ function readOperation(operation: Json): OperationReport {
   if (typeof ballpark !== "boolean") throw new FieldError("operation.ballpark", "true or false");
   const lacking = list(operation.lacking, "operation.lacking").map((item, i) => {
     const member = `operation.lacking[${i}]`;
-    const better = object(item, member);
+    const better = readObject(item, member);
     return {
       name: text(better.name, `${member}.name`),
       accuracy: metresOrNull(better.accuracy, `${member}.accuracy`),
@@ -114,26 +114,29 @@ function readOperation(operation: Json): OperationReport {
 }
 
 function readSimilarity(similarity: Json): Similarity {
-  const numbers = (value: unknown, member: string, count: number) => {
-    const values = list(value, member);
-    if (values.length !== count) throw new FieldError(member, `${count} numbers`);
-    return values.map((item, i) => number(item, `${member}[${i}]`));
-  };
-  const [x, y, z] = numbers(similarity.translation, "similarity.translation", 3);
-  return { translation: [x, y, z], matrix: numbers(similarity.matrix, "similarity.matrix", 9) };
+  const [x, y, z] = readNumbers(similarity.translation, "similarity.translation", 3);
+  return { translation: [x, y, z], matrix: readNumbers(similarity.matrix, "similarity.matrix", 9) };
+}
+
+/** @throws FieldError */
+export function readNumbers(value: unknown, member: string, count: number): number[] {
+  const values = list(value, member);
+  if (values.length !== count) throw new FieldError(member, `${count} numbers`);
+  return values.map((item, i) => number(item, `${member}[${i}]`));
 }
 
 function readAccuracy(value: unknown): AccuracyPart[] {
   return list(value, "accuracy").map((item, i) => {
     const member = `accuracy[${i}]`;
-    const part = object(item, member);
+    const part = readObject(item, member);
     const note = part.note === undefined ? {} : { note: text(part.note, `${member}.note`) };
     const name = text(part.name, `${member}.name`);
     return { name, metres: metresOrNull(part.metres, `${member}.metres`), ...note };
   });
 }
 
-function object(value: unknown, member: string): Json {
+/** @throws FieldError */
+export function readObject(value: unknown, member: string): Json {
   if (typeof value === "object" && value !== null && !Array.isArray(value)) return value as Json;
   throw new FieldError(member, "an object");
 }

@@ -43,6 +43,13 @@ export const CLOUD_OPTIONS: Kinds<PointCloudOptions> = {
   epsg: callback,
   epsgTable: callback,
   heightData: withMethods<HeightData>("an object with the methods systems and egm96", "systems", "egm96"),
+  transformation: kindOf(
+    "an address, a File or Blob, or the bytes of a georeference",
+    (given): given is NonNullable<PointCloudOptions["transformation"]> =>
+      typeof given === "string" ||
+      typeof given === "function" ||
+      (typeof given === "object" && given !== null && !Array.isArray(given)),
+  ),
   tolerance: above(0),
   headers: kindOf(
     "an object of headers, or a function that gives them",

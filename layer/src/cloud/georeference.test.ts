@@ -1,10 +1,12 @@
 import {
   type Crs,
+  type DataSetIdentity,
   EGM96,
   EGM96_ACCURACY,
   ENGINE,
   egm96Grid,
   encodeRecord,
+  encodeRecordFile,
   type GeoreferenceRecord,
   packEpsg,
   placePoint,
@@ -110,6 +112,59 @@ const distance = (a: readonly number[], b: readonly number[]) =>
 
 const datumNote = ({ accuracy }: Awaited<ReturnType<typeof open>>) =>
   accuracy.parts.find(({ name }) => name === "datum operation")?.note;
+
+describe("georeferenceOf a file with a georeference that the application gives", () => {
+  let of: DataSetIdentity;
+  const given = () => encodeRecordFile({ of, record, transformation });
+
+  beforeAll(async () => {
+    const blob = new Blob([tinyCopc({}).slice()]);
+    const {
+      pointCount: points,
+      scale,
+      offset,
+      boundingBox,
+    } = await CopcSource.open(new BlobSource(blob, "a"));
+    of = { points, scale, offset, ...boundingBox };
+  });
+
+  /** A file that declares another system; what is given goes before it. */
+  const foreign: TinyCopc = { records: [["LASF_Projection", 2112, new TextEncoder().encode("EPSG:2056")]] };
+
+  it("places by it as if the file carried it, whatever the file declares", async () => {
+    const own = await open(withRecords(record, transformation));
+    const bytes = given();
+    for (const [file, from] of [
+      [{}, bytes],
+      [foreign, new Blob([bytes.slice()])],
+      [withRecords({ ...record, similarity: SIMILARITY }), bytes],
+    ] as const) {
+      const beside = await open(file, { transformation: from });
+      expect(placed(beside, 30, 70, 5)).toEqual(placed(own, 30, 70, 5));
+      expect(beside).toMatchObject({
+        ...{ basis: "record", engine: record.engine, operation: record.operation, geoids: ["flat.tif"] },
+        accuracy: own.accuracy,
+      });
+    }
+  });
+
+  it("leaves it where the application names the system, and keeps its plane where it gives heights", async () => {
+    const named = await open({}, { transformation: given(), crs: UTM, vertical: "ellipsoidal" });
+    expect([named.basis, named.engine.name]).toEqual(["given", "proj4js"]);
+    const heights = await open({}, { transformation: given(), vertical: "ellipsoidal" });
+    expect([heights.basis, heights.engine.name, heights.geoids]).toEqual(["given", "PROJ", []]);
+  });
+
+  it("RECORD_OTHER for that of another file, RECORD_* for what is none", async () => {
+    const other = encodeRecordFile({ of: { ...of, points: of.points + 1 }, record, transformation });
+    await expect(open({}, { transformation: other })).rejects.toMatchObject({
+      ...{ code: "RECORD_OTHER", file: "tiny.copc.laz" },
+    });
+    await expect(open({}, { transformation: Uint8Array.of(1) })).rejects.toMatchObject({
+      code: "RECORD_JSON",
+    });
+  });
+});
 
 describe("georeferenceOf a file with a transformation", () => {
   it("places by it, geoid included", async () => {

@@ -4,16 +4,20 @@ import {
   type Crs,
   type CrsNote,
   decodeRecord,
+  decodeRecordFile,
   decodeTransformation,
   ENGINE,
   type EpsgLookup,
+  encodeRecord,
   fitPlacement,
   type GeoreferenceRecord,
   GromaError,
   type OperationReport,
   type PackedEpsg,
   PlacementError,
+  RECORD_FILE_MOST,
   RecordError,
+  requireSame,
   type StatedAccuracy,
   sameHeights,
   statedAccuracy,
@@ -22,10 +26,12 @@ import {
   truthOf,
 } from "@groma/georef";
 import type { PointSource } from "../sources/contract/point-source.js";
+import { type OpenOptions, readWhole, type SourceLike } from "../sources/open-source.js";
 import { declaredCrs, packagedEpsg } from "./declared-crs.js";
 import { type HeightData, packagedHeights } from "./height-data.js";
 import {
   crsWithHeights,
+  type Declared,
   derivedByEgm96,
   lookupFor,
   operationRegiven,
@@ -49,6 +55,11 @@ export interface GeoreferenceOptions {
   readonly epsgTable?: (() => Promise<PackedEpsg>) | undefined;
   /** Where height systems and the geoid come from. Default: the files beside this library, fetched when needed. */
   readonly heightData?: HeightData | undefined;
+  /**
+   * A georeference made by `groma georef` for this data set: an address, a file, or its bytes. It goes before what the
+   * file says; `crs` and `vertical` go before it as before the file's own. Default: none.
+   */
+  readonly transformation?: SourceLike | Uint8Array | undefined;
   /** Greatest distance of a drawn point from its exact place, metres. Default: 0.001. */
   readonly tolerance?: number | undefined;
 }
@@ -84,9 +95,10 @@ const LOST = "the transformation of the conversion is no longer in the file; der
  * @throws SourceError SOURCE_HEIGHTS, SOURCE_EPSG where a height reference or a code needs data which cannot be had
  */
 export async function georeferenceOf(
-  source: PointSource,
-  options: GeoreferenceOptions,
+  given: PointSource,
+  options: GeoreferenceOptions & OpenOptions,
 ): Promise<Georeference> {
+  const source = await withGivenRecord(given, options);
   const { name: file, crs: declared } = source;
   const record = declared.georeference && decodeRecord(declared.georeference, file);
   const { crs: named, vertical, heightData = packagedHeights } = options;
@@ -111,12 +123,35 @@ export async function georeferenceOf(
   return fromCrs(crs, source, options, notes);
 }
 
+/**
+ * What is known of a data set by its georeference: with the record that the application gives in place of its own.
+ * @throws RecordError RECORD_* where it cannot be read or is of another file; SourceError
+ */
+async function withGivenRecord(
+  source: PointSource,
+  { transformation: given, ...options }: GeoreferenceOptions & OpenOptions,
+): Promise<Declared> {
+  const { name, crs, boundingBox, scale, offset, pointCount } = source;
+  if (given === undefined) return source;
+  const { headers, credentials, timeout, retry, signal } = options;
+  const { name: file, bytes } =
+    given instanceof Uint8Array
+      ? { name: "transformation", bytes: given }
+      : await readWhole(given, RECORD_FILE_MOST, { headers, credentials, timeout, retry, signal });
+  const { of, record, transformation } = decodeRecordFile(bytes, file);
+  requireSame(of, { points: pointCount, scale, offset, ...boundingBox }, name);
+  const { transformation: _, ...declared } = crs;
+  const georeference = encodeRecord(record);
+  const own = { ...declared, georeference, ...(transformation && { transformation }) };
+  return { name, boundingBox, scale, crs: own };
+}
+
 /** As the conversion settled it in plane, with the heights that the application gives. */
 async function withOtherHeights(
   { engine, operation }: GeoreferenceRecord,
   bytes: Uint8Array,
   { crs, notes }: ReturnType<typeof crsWithHeights>,
-  source: PointSource,
+  source: Declared,
   { tolerance = 0.001, heightData = packagedHeights }: GeoreferenceOptions,
 ): Promise<Georeference> {
   const egm96 = crs.height.kind === "geoid" ? await heightData.egm96() : undefined;
@@ -140,7 +175,7 @@ const GIVEN = "given by the user";
 /** By proj4js in the page, heights above a geoid by EGM96. */
 async function fromCrs(
   crs: Crs,
-  source: PointSource,
+  source: Declared,
   options: GeoreferenceOptions,
   notes: readonly CrsNote[] = [],
 ): Promise<Georeference> {
@@ -178,7 +213,7 @@ async function fromCrs(
  */
 async function transformationByEgm96(
   crs: Crs,
-  source: PointSource,
+  source: Declared,
   { vertical, heightData = packagedHeights }: GeoreferenceOptions,
 ): Promise<{ transformation?: Uint8Array; lack?: string }> {
   if (crs.height.kind !== "geoid") return {};
@@ -193,7 +228,7 @@ async function transformationByEgm96(
 /** As the conversion settled it. */
 function recorded(
   record: GeoreferenceRecord,
-  source: PointSource,
+  source: Declared,
   { tolerance = 0.001 }: GeoreferenceOptions,
 ): Georeference {
   const { crs, similarity, engine, operation } = record;
@@ -216,7 +251,7 @@ function recorded(
  * How far a drawn point may be from its exact place, metres: the tolerance, but for data sets so wide that float32
  * alone costs more in their greatest nodes.
  */
-function greatestBound(truth: Truth, { name, boundingBox }: PointSource, tolerance: number): number {
+function greatestBound(truth: Truth, { name, boundingBox }: Declared, tolerance: number): number {
   const [minX, minY, minZ] = boundingBox.min;
   const [maxX, maxY, maxZ] = boundingBox.max;
   try {
@@ -232,7 +267,7 @@ function greatestBound(truth: Truth, { name, boundingBox }: PointSource, toleran
 /** The map, and what follows from it. */
 function derived(
   sources: TruthSources,
-  { name, boundingBox }: PointSource,
+  { name, boundingBox }: Declared,
 ): Pick<Georeference, "sources" | "truth" | "geoids"> {
   const truth = truthOf(sources, (boundingBox.min[2] + boundingBox.max[2]) / 2, name);
   const steps = typeof truth === "function" ? [] : truth.transformation.steps;

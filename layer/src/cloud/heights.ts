@@ -29,6 +29,9 @@ import {
 import type { PointSource } from "../sources/contract/point-source.js";
 import type { HeightData } from "./height-data.js";
 
+/** What of a data set its georeference is made from. */
+export type Declared = Pick<PointSource, "name" | "boundingBox" | "scale" | "crs">;
+
 const DEGREE = Math.PI / 180;
 const CODE = /^\s*EPSG:(\d{1,6})\s*$/i;
 
@@ -114,7 +117,7 @@ export function crsWithHeights(
 export async function systemAbroad(
   truth: Truth,
   { height }: Crs,
-  { boundingBox: { min, max } }: PointSource,
+  { boundingBox: { min, max } }: Declared,
   data: HeightData,
 ): Promise<string | undefined> {
   if (height.kind !== "geoid" || height.epsg === undefined) return undefined;
@@ -136,7 +139,7 @@ export async function systemAbroad(
 export function regiven(
   transformation: Transformation,
   crs: Crs,
-  source: PointSource,
+  source: Declared,
   egm96: Grid | undefined,
 ): Uint8Array {
   const geoid = egm96 && egm96Step(egm96, boundsOf(transformation, source));
@@ -168,20 +171,20 @@ export function operationRegiven(
  *
  * @throws PlacementError PLACE_POLE, PLACE_ANTIMERIDIAN, PLACE_DOMAIN, PLACE_PATCHWORK
  */
-export async function derivedByEgm96(crs: Crs, source: PointSource, egm96: Grid): Promise<Uint8Array> {
+export async function derivedByEgm96(crs: Crs, source: Declared, egm96: Grid): Promise<Uint8Array> {
   const file = source.name;
   return encodeTransformation(await deriveTransformation(crs, domainOf(source), { egm96, file }));
 }
 
 /** The bounds of the points, and one step of their integers around. */
-function domainOf({ boundingBox: { min, max }, scale }: PointSource): Domain {
+function domainOf({ boundingBox: { min, max }, scale }: Declared): Domain {
   const [minX, minY, minZ] = min.map((least, axis) => least - scale[axis]);
   const [maxX, maxY, maxZ] = max.map((greatest, axis) => greatest + scale[axis]);
   return { minX, minY, minZ, maxX, maxY, maxZ };
 }
 
 /** Where the data set lies on the earth. */
-function boundsOf(transformation: Transformation, source: PointSource) {
+function boundsOf(transformation: Transformation, source: Declared) {
   const { evaluate } = compileTransformation(transformation, source.name);
   const { min, max } = source.boundingBox;
   const points = spread({

@@ -39,6 +39,29 @@ export async function openSource(from: SourceLike, options: OpenOptions = {}): P
   return (format ?? CopcSource).open(bytes, { signal });
 }
 
+/**
+ * Reads a file that belongs to a data set whole, as the data set itself is read.
+ * @param most bytes that it may have
+ * @throws SourceError; SOURCE_SIZE where it is longer, or its length is not told
+ */
+export async function readWhole(
+  from: SourceLike,
+  most: number,
+  options: OpenOptions = {},
+): Promise<{ readonly name: string; readonly bytes: Uint8Array }> {
+  const source = await openBytes(from, options);
+  const { name, size } = source;
+  if (size === undefined || size > most) {
+    throw new SourceError({
+      ...{ code: "SOURCE_SIZE", file: name },
+      cause:
+        size === undefined ? "the server does not tell how long the file is" : `it is ${size} bytes long`,
+      fix: "Check the address",
+    });
+  }
+  return { name, bytes: await source.read(0, size, { signal: options.signal }) };
+}
+
 function emptyFile(file: string): SourceError {
   return new SourceError({
     code: "SOURCE_EMPTY",
