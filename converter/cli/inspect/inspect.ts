@@ -99,7 +99,9 @@ async function placeOf(scan: Scan): Promise<Place> {
     const place = await placed(scan);
     const bounds = geodeticBounds(scan, place.truth);
     const where = scan.points > 0 ? whereabouts(place.crs, place.truth, scan) : nowhere;
-    return { place, problem: undefined, bounds, whereabouts: where, accuracy: place.accuracy };
+    // A bound of an error is worth nothing where there is no place at all.
+    const accuracy = bounds || scan.points === 0 ? place.accuracy : [];
+    return { place, problem: undefined, bounds, whereabouts: where, accuracy };
   } catch (error) {
     if (!(error instanceof CrsError)) throw error;
     return { place: undefined, problem: error, bounds: undefined, whereabouts: nowhere, accuracy: [] };

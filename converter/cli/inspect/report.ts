@@ -71,7 +71,7 @@ function placeRows({ place, problem, whereabouts, accuracy }: Inspection): Row[]
     ),
     ["units", `${horizontalUnit.name} in plane, ${verticalUnit.name} in height${assumed}`],
     ["height", heightInWords(crs, place.geoids)],
-    ["accuracy", accuracyInWords(accuracy, crs)],
+    ["accuracy", accuracy.length > 0 ? accuracyInWords(accuracy, crs) : "none, as there is no place"],
     ...accuracy.map(({ name, metres, note }): Row => {
       const worth = metres === null ? "unknown" : atMost(metres);
       return [`  ${name}`, `${worth}${note ? `  ${note}` : ""}`];

@@ -43,7 +43,8 @@ export interface Whereabouts {
  */
 export function whereabouts(crs: Crs, truth: Truth, bounds: PointBounds): Whereabouts {
   const centre = centreOf(truth, bounds);
-  return { centre, notes: centre ? (areaNote(crs, centre, bounds) ?? heightNote(crs, centre) ?? []) : [] };
+  if (!centre) return { centre, notes: [placelessNote(crs, bounds)] };
+  return { centre, notes: areaNote(crs, centre, bounds) ?? heightNote(crs, centre) ?? [] };
 }
 
 /** As {@link whereabouts} before an engine has placed anything: by proj4js, to some metres. */
@@ -73,6 +74,13 @@ function anchorNote({ horizontalUnit }: Crs, at: LocalPlace["at"], bounds: Point
   const point = at.some((value) => value !== 0) ? `the point ${at.join(", ")}` : "the origin";
   const text = `the middle of the data set lies ${length(far)} from ${point} of its coordinates, which stands at the anchor; name the point of the scan that stands there with --anchor-at x,y,z`;
   return [{ code: "ANCHOR_FAR", text }];
+}
+
+/** `CRS_PLACELESS`: the projection ends before it reaches the data set. */
+function placelessNote({ name }: Crs, bounds: PointBounds): CrsNote {
+  const [x, y] = middleOf(bounds).map((value) => Number(value.toFixed(3)));
+  const text = `the middle of the data set (x ${x}, y ${y}) has no place in ${name}; check that the scan was made in this system, or name the right one with --crs`;
+  return { code: "CRS_PLACELESS", text };
 }
 
 /** `CRS_AREA`: how far outside of the area of use of its system the data set lies, and what its numbers would fit. */

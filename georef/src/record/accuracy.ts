@@ -11,7 +11,7 @@ export interface AccuracyPart {
   readonly note?: string;
 }
 
-/** The parts and their sum; the sum is `null` as soon as one part is not known. */
+/** The parts and their sum; the sum is `null` as soon as one part is not known, and where there is none. */
 export interface StatedAccuracy {
   readonly total: number | null;
   readonly parts: readonly AccuracyPart[];
@@ -19,7 +19,7 @@ export interface StatedAccuracy {
 
 /** Sums the parts linearly: they are bounds and stated accuracies, not independent deviations. */
 export function statedAccuracy(parts: readonly AccuracyPart[]): StatedAccuracy {
-  let total: number | null = 0;
+  let total: number | null = parts.length === 0 ? null : 0;
   for (const { metres } of parts) total = total === null || metres === null ? null : total + metres;
   return { total, parts };
 }
