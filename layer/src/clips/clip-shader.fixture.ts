@@ -1,7 +1,14 @@
 import { HAS_BOTTOM, HAS_TOP, PRISM_HEADER, STARTS_INSIDE } from "./clip-roles.js";
 import { clipTexture, type NodeClips } from "./clip-volumes.js";
+import type { SourceSpace } from "./volume.js";
 
 const f = Math.fround;
+
+/** For volumes that are given in geodetic coordinates. */
+export const EARTH: SourceSpace = {
+  place: (_x, _y, _z, out) => out,
+  boundingBox: { min: [0, 0, 0], max: [1, 1, 1] },
+};
 
 /**
  * What the shader makes of a point of a node, in float32 as it computes: numbers of records that keep, of these around the

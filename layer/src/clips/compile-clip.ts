@@ -22,6 +22,12 @@ const PROPERTIES: ReadonlyMap<unknown, readonly string[]> = new Map<Clip["kind"]
 ]);
 
 /**
+ * Metres from a data set as far as which its map, carried on linearly, still tells a direction: what is farther has been
+ * written in other coordinates more often than not.
+ */
+const REACH = 100_000;
+
+/**
  * Checks what can be checked of a volume without a data set.
  * @throws StyleError STYLE_CLIP
  */
@@ -102,7 +108,13 @@ function inEcef(rotation: Float64Array, [e, n, u]: Vector): Vector {
 function placeOf(place: ClipPlace, space: SourceSpace): Vector {
   if ("source" in place) {
     const there = placed(extendedPlace(space), ...place.source);
-    if (there.every(Number.isFinite)) return there;
+    const { min, max } = space.boundingBox;
+    const [low, high] = [min, max].map((corner) => placed(extendedPlace(space), ...corner)) as [
+      Vector,
+      Vector,
+    ];
+    // Not a number where the place is none either.
+    if (distance(low, there) < REACH + distance(low, high)) return there;
     return fail(
       `(${place.source.join(", ")}) lies too far from the data set`,
       "Give source coordinates near its points",
@@ -111,6 +123,10 @@ function placeOf(place: ClipPlace, space: SourceSpace): Vector {
   const ecef = new Float64Array(3);
   geodeticToEcef(place.longitude, place.latitude, place.height, ecef);
   return [ecef[0], ecef[1], ecef[2]];
+}
+
+function distance([ax, ay, az]: Vector, [bx, by, bz]: Vector): number {
+  return Math.hypot(bx - ax, by - ay, bz - az);
 }
 
 function checkPlace(place: ClipPlace): void {
