@@ -136,7 +136,7 @@ module.exports = {
       "sources",
       "options",
       "errors",
-      "index.ts",
+      "every-view.ts",
     ]),
     layer("openlayers", [
       "tools",
@@ -149,7 +149,7 @@ module.exports = {
       "sources",
       "options",
       "errors",
-      "index.ts",
+      "every-view.ts",
     ]),
     layer("link", ["cesium", "openlayers", "options", "errors"]),
     layer("link/geometry", []),

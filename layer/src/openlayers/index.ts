@@ -1,31 +1,4 @@
-export type { Vector } from "@groma/georef";
-export type { DrawingOptions } from "../drawing/drawing-options.js";
-export type { GpuCounts, GpuKind } from "../drawing/gpu.js";
-export {
-  ASPRS_CLASSES,
-  type ClassTable,
-  type ColourBy,
-  EFFECT_NAMES,
-  type EffectName,
-  type EyeDomeLighting,
-  type EyeDomeStyle,
-  eyeDomeOf,
-  type Forced,
-  GRADIENTS,
-  type GradientName,
-  type GradientStop,
-  type LedgerRow,
-  type MeasuredCost,
-  type PointClass,
-  type PointCloudStyle,
-  type PointFilter,
-  type PointShape,
-  type ReturnKind,
-  type SizeMode,
-  type StyleParts,
-} from "../effects/index.js";
-export * from "../index.js";
-export type { MeasuredCloud, ScreenPoint, Vertex, VertexRecord, ViewAdapter } from "../tools/index.js";
+export * from "../every-view.js";
 export type { PointCloudLayerOptions } from "./layer-options.js";
 export { measureView } from "./measure-view.js";
 export {
