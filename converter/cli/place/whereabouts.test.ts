@@ -77,7 +77,10 @@ describe("where a data set lies", () => {
 
   it("is nowhere beyond the end of its projection, and that is told", () => {
     const text = expect.stringMatching(/\(x 1000000, y 1000000\) has no place in WGS 84; .*--crs/);
-    expect(at("EPSG:4326", 1e6, 1e6)).toEqual({ centre: undefined, notes: [{ code: "CRS_PLACELESS", text }] });
+    expect(at("EPSG:4326", 1e6, 1e6)).toEqual({
+      centre: undefined,
+      notes: [{ code: "CRS_PLACELESS", text }],
+    });
   });
 });
 

@@ -111,7 +111,10 @@ describe("stated accuracy", () => {
       { name: "b", metres: 0.5 },
     ];
     expect(statedAccuracy(parts)).toEqual({ total: 0.75, parts });
-    expect(statedAccuracy([]), "nothing is promised of what has no place").toEqual({ total: null, parts: [] });
+    expect(statedAccuracy([]), "nothing is promised of what has no place").toEqual({
+      total: null,
+      parts: [],
+    });
   });
 
   it("is not known where a part is not", () => {
