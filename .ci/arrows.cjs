@@ -121,8 +121,19 @@ module.exports = {
     layer("tools/measure", ["query", "options", "errors"]),
     layer("tools/draw", ["tools/measure", "errors"]),
     layer("tools/profile", ["tools/exact", "query", "clips", "options", "errors"]),
-    layer("export", ["query", "workers", CONTRACT, "options", "errors"]),
+    layer("tools/terrain", []),
+    layer("export", [
+      "tools/sections",
+      "tools/terrain",
+      "query",
+      "octree",
+      "workers",
+      CONTRACT,
+      "options",
+      "errors",
+    ]),
     layer("tools/exact", []),
+    layer("tools/sections", ["tools/profile", "query"]),
     layer("tools/area", ["tools/exact", "query"]),
     // A view hands out all that every application needs, beside its own.
     layer("cesium", [

@@ -1,5 +1,18 @@
 // What a command needs is loaded when it is run, so that help and refused options come at once.
-import { Command, CommanderError, InvalidArgumentError, Option } from "commander";
+import { Command, CommanderError, Option } from "commander";
+import {
+  boxNumbers,
+  classNumbers,
+  finite,
+  notNegative,
+  numbers,
+  originList,
+  portNumber,
+  positive,
+  sectionFormats,
+  statistic,
+  threadCount,
+} from "./given/arguments.js";
 import { PROGRESS_KINDS, SAMPLINGS } from "./given/choices.js";
 import type { EngineChoice } from "./place/engine.js";
 import { complain, endWithReader, fail } from "./terminal/output.js";
@@ -50,57 +63,10 @@ const reading = () => [
   ).argParser(positive),
 ];
 
-function positive(text: string): number {
-  const number = Number(text);
-  if (Number.isFinite(number) && number > 0) return number;
-  throw new InvalidArgumentError("Expected a number greater than 0");
-}
-
-function finite(text: string): number {
-  const number = text.trim() === "" ? Number.NaN : Number(text);
-  if (Number.isFinite(number)) return number;
-  throw new InvalidArgumentError("Expected a number");
-}
-
-function boxNumbers(text: string): number[] {
-  const numbers = text.split(",").map((word) => (word.trim() === "" ? Number.NaN : Number(word)));
-  if ((numbers.length === 4 || numbers.length === 6) && numbers.every(Number.isFinite)) return numbers;
-  throw new InvalidArgumentError("Expected four or six numbers separated by commas");
-}
-
-function classNumbers(text: string): number[] {
-  const numbers = text.split(",").map((word) => (/^\s*\d+\s*$/.test(word) ? Number(word) : Number.NaN));
-  if (numbers.every((number) => number <= 255)) return numbers;
-  throw new InvalidArgumentError("Expected whole numbers from 0 to 255 separated by commas");
-}
-
-function threadCount(text: string): number {
-  const number = Number(text);
-  if (Number.isInteger(number) && number >= 1 && number <= 1024) return number;
-  throw new InvalidArgumentError("Expected a whole number from 1 to 1024");
-}
-
-function portNumber(text: string): number {
-  const number = Number(text);
-  if (Number.isInteger(number) && number >= 0 && number <= 65535) return number;
-  throw new InvalidArgumentError("Expected a whole number from 0 to 65535");
-}
-
 /** Options with `--cors` alone read as all origins. */
 function serving<T extends { cors?: true | string[] }>(options: T) {
   const { cors, ...others } = options;
   return { ...others, ...(cors !== undefined && { cors: cors === true ? ("any" as const) : cors }) };
-}
-
-/** Origins as browsers send them. */
-function originList(text: string): string[] {
-  return text.split(",").map((piece) => {
-    const origin = URL.canParse(piece) ? new URL(piece).origin : "null";
-    if (origin !== "null" && piece.replace(/\/$/, "").toLowerCase() === origin) return origin;
-    throw new InvalidArgumentError(
-      `${piece} is not an origin such as https://maps.example; to let all read, put --cors at the end of the line`,
-    );
-  });
 }
 
 const program = new Command("groma")
@@ -181,7 +147,7 @@ const givenCrs = (flag: string, what: string) =>
 const cutting = () => [
   new Option(
     "--out <FILE>",
-    "output; its ending says the format: .las, .laz, .csv, .geojson, .dxf",
+    "output; its ending says the format: .las, .laz, .csv, .geojson, .dxf; of profiles .svg, .pdf, .xml (LandXML) too",
   ).makeOptionMandatory(),
   new Option("--overwrite", "replace an existing output"),
   progress(),
@@ -206,9 +172,61 @@ const profile = program
   .addOption(new Option("--start <S>", "chainage at the start of the line").argParser(finite).default(0))
   .option("--chainage", "add chainage and offset along the line to each LAS record, as extra bytes")
   .option("--straightened", "lay the points of DXF along the line: x is the chainage, y the height")
-  .action(async (files: string[], options) =>
-    (await import("./commands/profile.js")).runProfile(files, options),
-  );
+  .option("--sections", "cut across the line instead: to a .zip of files, a .pdf of pages, or .xml (LandXML)")
+  .addOption(
+    new Option("--interval <D>", "sections at the ends of the line and at round multiples of D").argParser(
+      positive,
+    ),
+  )
+  .addOption(new Option("--at <chainages>", "sections there, e.g. 12.5,40").argParser(numbers))
+  .addOption(
+    new Option("--left <L>", "how far sections reach to the left (half the width)").argParser(notNegative),
+  )
+  .addOption(new Option("--right <R>", "how far to the right (half the width)").argParser(notNegative))
+  .addOption(
+    new Option("--thickness <T>", "of the strip of each section, in the unit of the width")
+      .argParser(positive)
+      .default(0.5),
+  )
+  .addOption(
+    new Option("--files <formats>", "of each section in a .zip: las, laz, csv, geojson, dxf, svg, pdf")
+      .argParser(sectionFormats)
+      .default(["las", "svg"], "las,svg"),
+  )
+  .addOption(new Option("--scale <N>", "draw .svg and .pdf 1:N (what fits onto A3)").argParser(positive))
+  .addOption(new Option("--exaggeration <E>", "draw heights stretched by E").argParser(positive).default(1))
+  .addOption(
+    new Option(
+      "--ground <how>",
+      "ground in .svg, .pdf, .xml: min, max, mean, or a percentile such as p25",
+    ).argParser(statistic),
+  )
+  .addOption(
+    new Option("--ground-interval <D>", "distance between its stations (1 unit of the scan)").argParser(
+      positive,
+    ),
+  )
+  .addOption(
+    new Option("--ground-classes <numbers>", "classes of its points, e.g. 2 (all)").argParser(classNumbers),
+  )
+  .addOption(
+    new Option("--spacing <S>", "a thinner level: one point in about S units of the scan suffices").argParser(
+      positive,
+    ),
+  )
+  .action(async (files: string[], given, command: Command) => {
+    const { ground: statistic, groundInterval, groundClasses, ...options } = given;
+    const { sections, interval, at } = options;
+    if (sections && interval === undefined && at === undefined)
+      command.error("error: --sections requires --interval or --at");
+    if (!sections && (interval ?? at) !== undefined)
+      command.error("error: --interval and --at require --sections");
+    const asked = (statistic ?? groundInterval ?? groundClasses) !== undefined;
+    const classes = groundClasses && new Set<number>(groundClasses);
+    const ground = asked && { interval: groundInterval ?? 1, statistic: statistic ?? 25, classes };
+    const { runProfile } = await import("./commands/profile.js");
+    return runProfile(files, { ...options, ...(ground && { ground }) });
+  });
 
 const clip = program
   .command("clip")

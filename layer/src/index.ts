@@ -60,6 +60,7 @@ export type {
   PointQuery,
   QueryOptions,
   QueryVolume,
+  RecordQuery,
 } from "./query/index.js";
 export type {
   Address,

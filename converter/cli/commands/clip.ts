@@ -1,3 +1,4 @@
+import type { CutRequest } from "../cut/cut.js";
 import { readPolygon } from "../cut/geojson.js";
 import { type GivenCrs, inSource } from "../cut/place.js";
 import { box, polygon } from "../cut/volumes.js";
@@ -22,7 +23,7 @@ export async function runClip(files: readonly string[], options: ClipCommandOpti
   const rings = file === undefined ? undefined : await readPolygon(file);
   const upright = options.box && box(options.box);
   const classes = options.classes && new Set(options.classes);
-  await tellCut("clip", files, options, async (origin) => {
+  const select: CutRequest["select"] = async (origin) => {
     if (!rings || file === undefined) return { origin, volume: upright, classes };
     const inPlane = await Promise.all(rings.map((ring) => inSource(ring, polygonCrs, origin, file)));
     const volume = polygon(
@@ -30,5 +31,6 @@ export async function runClip(files: readonly string[], options: ClipCommandOpti
       file,
     );
     return { origin, volume, classes };
-  });
+  };
+  await tellCut("clip", files, options, { select });
 }

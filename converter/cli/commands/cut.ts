@@ -1,5 +1,5 @@
 import type { ExportProgress } from "@groma/layer/export";
-import { type Cut, cut } from "../cut/cut.js";
+import { type Cut, type CutRequest, cut } from "../cut/cut.js";
 import type { CutOptions } from "../cut/writers.js";
 import type { ProgressKind } from "../given/choices.js";
 import { interruptible } from "../terminal/interruption.js";
@@ -11,14 +11,14 @@ export async function tellCut(
   label: string,
   files: readonly string[],
   options: CutOptions & { readonly progress?: ProgressKind },
-  select: Parameters<typeof cut>[1],
+  request: CutRequest,
 ): Promise<void> {
   const work = { label, stages: [{ stage: "read", share: 1 }] };
   const progress = await createProgress(options.progress ?? defaultProgress(), work);
   const onProgress = ({ read, total }: ExportProgress) =>
     progress.show({ event: "progress", stage: "read", done: read, total });
   try {
-    const done = await interruptible((signal) => cut(files, select, options, onProgress, signal));
+    const done = await interruptible((signal) => cut(files, request, options, onProgress, signal));
     progress.stop();
     if (options.progress === "json") printJson({ event: "done", ...done });
     else print(inWords(done));

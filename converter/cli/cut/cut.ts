@@ -1,10 +1,11 @@
+import { basename } from "node:path";
 import { GromaError } from "@groma/georef";
-import type { ExportProgress, PointSelection } from "@groma/layer/export";
+import type { CutFacts, ExportProgress } from "@groma/layer/export";
 import { type OpenedPoints, openPoints } from "../files/points.js";
 import { requirePlace } from "../given/output-place.js";
 import { writeWhole } from "./output-file.js";
-import { geodeticOf } from "./place.js";
-import { type CutOptions, writerOf } from "./writers.js";
+import { factsOf, geodeticOf } from "./place.js";
+import { type CutOptions, type CutSelection, writerOf } from "./writers.js";
 
 /** No point is where points are asked for. Code: SELECTION_EMPTY. */
 class SelectionError extends GromaError {
@@ -22,46 +23,57 @@ export interface Cut {
   readonly seconds: number;
 }
 
+/** What is wanted of files. */
+export interface CutRequest {
+  /** What the result is called in documents. Default: as the first input. */
+  readonly title?: string | undefined;
+  /** Whether cross-sections are selected. */
+  readonly sections?: true | undefined;
+  /** Says what is wanted of an opened file. */
+  readonly select: (opened: OpenedPoints["points"]) => Promise<CutSelection>;
+}
+
 /**
  * Writes what is selected of files into one file, which stands whole or not at all.
  *
- * @param select says what is wanted of an opened file
  * @throws OptionError OPTION_FORMAT; OutputError; InputFileError, SourceError, FormatError, DecodeError
- * @throws SelectionError SELECTION_EMPTY; what `select` throws; the signal's reason when aborted
+ * @throws SelectionError SELECTION_EMPTY; what the request's `select` throws; the signal's reason when aborted
  */
 export async function cut(
   inputs: readonly string[],
-  select: (opened: OpenedPoints["points"]) => Promise<PointSelection>,
+  request: CutRequest,
   options: CutOptions,
   onProgress: (progress: ExportProgress) => void,
   signal: AbortSignal,
 ): Promise<Cut> {
-  const { out, overwrite = false, chainage, straightened } = options;
+  const { out, overwrite = false } = options;
+  const { select, sections, title } = request;
   const began = performance.now();
-  const writer = writerOf(options.out);
+  const writer = writerOf(out, sections ?? false);
   requirePlace(out, overwrite);
   const opened: OpenedPoints[] = [];
   try {
-    const selections: PointSelection[] = [];
+    const selections: CutSelection[] = [];
     for (const input of inputs) {
       const one = await openPoints(input, signal);
       opened.push(one);
       const selection = await select(one.points);
-      selections.push(writer.placed ? { ...selection, geodetic: await geodeticOf(one.points) } : selection);
+      selections.push(
+        writer.placed?.(options) ? { ...selection, geodetic: await geodeticOf(one.points) } : selection,
+      );
     }
+    const named = title ?? basename(inputs[0]!);
+    const unknown = { text: "units", size: 1 };
+    const facts: CutFacts = writer.documents
+      ? await factsOf(opened[0]!.points, named)
+      : { title: named, unit: unknown, heightUnit: unknown };
     let [points, read] = [0, 0];
     await writeWhole(out, overwrite, async (unfinished) => {
       const told = (progress: ExportProgress) => {
         read = progress.read;
         onProgress(progress);
       };
-      points = await writer.write(selections, unfinished, {
-        out,
-        chainage,
-        straightened,
-        signal,
-        onProgress: told,
-      });
+      points = await writer.write(selections, unfinished, { ...options, facts, signal, onProgress: told });
       if (points === 0) throw empty(out);
     });
     return { output: out, points, read, inputs: inputs.length, seconds: (performance.now() - began) / 1000 };

@@ -1,4 +1,11 @@
-import { BoxVolume, Corridor, PolygonVolume, type Stationing } from "@groma/layer/tools";
+import {
+  BoxVolume,
+  Corridor,
+  CrossSections,
+  PolygonVolume,
+  type SectionWidths,
+  type Stationing,
+} from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
 import type { InSource } from "./place.js";
 
@@ -27,6 +34,21 @@ export function corridor(
 ): Corridor {
   const fix = "give a line with two or more different vertices";
   return made(() => new Corridor(positions, width * unit, stationing), "OPTION_LINE", given, fix);
+}
+
+/**
+ * Cross-sections of a line.
+ * @param chainages says where, given both ends of the line
+ * @throws OptionError OPTION_SECTIONS where there is none, one lies beyond the line, or a width is none
+ */
+export function crossSections(
+  line: Corridor,
+  chainages: (from: number, to: number) => readonly number[],
+  widths: SectionWidths,
+): CrossSections {
+  const { chainages: own } = line;
+  const make = () => new CrossSections(line, chainages(own[0]!, own[own.length - 1]!), widths);
+  return made(make, "OPTION_SECTIONS", "--sections", "give --interval, or --at with chainages of the line");
 }
 
 /** All that stands on a polygon. @throws OptionError OPTION_POLYGON where a ring has no area */

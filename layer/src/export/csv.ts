@@ -1,6 +1,6 @@
 import type { ByteSink } from "./byte-sink.js";
 import { attributeColumns, CoordinateText, SLICE, type TextColumn } from "./columns.js";
-import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from "./selection.js";
 import { TextSink } from "./text-sink.js";
 
 /** Digits of chainage and offset: a hundredth of a millimetre in metres. */
@@ -9,7 +9,8 @@ const ALONG_DIGITS = 5;
 /**
  * Writes points as CSV (RFC 4180, UTF-8, lines end in CR LF): x, y and z with every digit of the record, chainage and
  * offset where the selection has a line, then all attributes in full, by their names. Of several data sets the columns
- * are those of the first with points; what another does not have stays empty.
+ * are those of the first with points; what another does not have stays empty. Where points were left out, the last column
+ * says at which spacing.
  *
  * @returns number of points
  * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what the sink throws
@@ -21,6 +22,7 @@ export async function exportCsv(
 ): Promise<number> {
   const text = new TextSink(sink);
   const withLine = selections.some(({ along }) => along !== undefined);
+  const spacing = spacingOf(selections);
   const place = new Float64Array(2);
   let names: readonly string[] | undefined;
   const count = await eachBatch(selections, options, async (batch, wanted, { origin, along }) => {
@@ -28,7 +30,8 @@ export async function exportCsv(
     if (!names) {
       names = found.map(({ name }) => name);
       const line = withLine ? ["chainage", "offset"] : [];
-      text.add(`${["x", "y", "z", ...line, ...names].map(quoted).join(",")}\r\n`);
+      const thinned = spacing > 0 ? ["spacing"] : [];
+      text.add(`${["x", "y", "z", ...line, ...names, ...thinned].map(quoted).join(",")}\r\n`);
     }
     const columns = names.map((name) => found.find((column) => column.name === name));
     const coordinates = new CoordinateText(origin);
@@ -41,7 +44,7 @@ export async function exportCsv(
         along?.locate(coordinates.value(xyz[at], 0), coordinates.value(xyz[at + 1], 1), place);
         row += `,${alongText(place[0])},${alongText(place[1])}`;
       }
-      text.add(`${row}${valuesText(columns, batch, point)}\r\n`);
+      text.add(`${row}${valuesText(columns, batch, point)}${spacing > 0 ? `,${spacing}` : ""}\r\n`);
       if (index % SLICE === 0) await text.rest();
     }
   });

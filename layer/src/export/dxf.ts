@@ -1,6 +1,12 @@
 import type { ByteSink } from "./byte-sink.js";
 import { CoordinateText, SLICE } from "./columns.js";
-import { type AlongLine, type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import {
+  type AlongLine,
+  type ExportOptions,
+  eachBatch,
+  type PointSelection,
+  spacingOf,
+} from "./selection.js";
 import { TextSink } from "./text-sink.js";
 
 /** How DXF is written. */
@@ -35,6 +41,8 @@ export async function exportDxf(
 ): Promise<number> {
   const { layout = "space" } = options;
   const text = new TextSink(sink);
+  const spacing = spacingOf(selections);
+  if (spacing > 0) text.add(groups([999, `thinned: one point in about ${spacing}`]));
   text.add(front());
   text.add(polyline(selections.find(({ along }) => along)?.along, layout));
   const place = new Float64Array(2);

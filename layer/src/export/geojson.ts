@@ -1,6 +1,6 @@
 import type { ByteSink } from "./byte-sink.js";
 import { attributeColumns, CoordinateText, SLICE } from "./columns.js";
-import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from "./selection.js";
 import { TextSink } from "./text-sink.js";
 
 /** Digits of longitude and latitude: a hundredth of a millimetre. */
@@ -9,7 +9,8 @@ const HEIGHT_DIGITS = 5;
 
 /**
  * Writes points as a GeoJSON FeatureCollection of Points (RFC 7946), one feature a line: longitude, latitude and height
- * where every selection tells them, else source coordinates, which the file then says of itself (`coordinates`), with all attributes as properties; of those
+ * where every selection tells them, else source coordinates, which the file then says of itself (`coordinates`; and
+ * `spacing` where points were left out), with all attributes as properties; of those
  * in full, integers beyond float64 as text. Chainage and offset come first where the selection has a line.
  *
  * @returns number of points
@@ -24,7 +25,9 @@ export async function exportGeoJson(
   // RFC 7946 knows no other coordinates than WGS 84: whoever reads these must know that they are none.
   const placed = selections.every(({ geodetic }) => geodetic !== undefined);
   const what = placed ? "" : `"coordinates":"source",`;
-  text.add(`{"type":"FeatureCollection",${what}"features":[`);
+  const spacing = spacingOf(selections);
+  const thinned = spacing > 0 ? `"spacing":${spacing},` : "";
+  text.add(`{"type":"FeatureCollection",${what}${thinned}"features":[`);
   const place = new Float64Array(3);
   let separator = "\n";
   const count = await eachBatch(selections, options, async (batch, wanted, { origin, along, geodetic }) => {

@@ -1,6 +1,25 @@
+export { type ArchiveEntry, writeArchive } from "./archive.js";
+export { BlobStore, type BlockStore } from "./block-store.js";
 export { type ByteSink, MemorySink } from "./byte-sink.js";
+export { collectParts, type PartedSelection, type PartedVolume } from "./collect.js";
 export { exportCsv } from "./csv.js";
+export type { CutFacts, LengthUnit } from "./cut-facts.js";
+export { type DatedOptions, exportLandXml, exportPicture, type PictureFileOptions } from "./documents.js";
 export { type DxfOptions, exportDxf } from "./dxf.js";
 export { exportGeoJson } from "./geojson.js";
+export type { DocumentOptions, GroundOptions } from "./ground.js";
+export type { GroundRuns, LandXmlSection } from "./landxml.js";
 export { exportLas, type LasOptions } from "./las.js";
+export type { PictureScale } from "./picture/profile-picture.js";
+export {
+  exportSectionLandXml,
+  exportSectionSheets,
+  exportSections,
+  type SectionArchiveOptions,
+  type SectionFormat,
+  type SectionOptions,
+  type SectionPlace,
+  type SectionSelection,
+  type SectionSet,
+} from "./sections.js";
 export type { AlongLine, ExportOptions, ExportProgress, PointSelection } from "./selection.js";

@@ -2,7 +2,7 @@ import { FormatError } from "../errors/index.js";
 import type { LasEnvelope } from "../sources/contract/point-source.js";
 import type { ByteSink } from "./byte-sink.js";
 import { type AddedAttribute, LasFrame } from "./las-file.js";
-import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from "./selection.js";
 
 /** How LAS is written. */
 export interface LasOptions extends ExportOptions {
@@ -41,7 +41,7 @@ export async function exportLas(
   sink: ByteSink,
   options: LasOptions = {},
 ): Promise<number> {
-  const envelope = await commonEnvelope(selections, options.signal);
+  const envelope = withSpacing(await commonEnvelope(selections, options.signal), selections);
   const { pointFormat, recordLength } = envelope;
   const chainage = options.chainage === true;
   const frame = new LasFrame(envelope, BASE_LENGTH[pointFormat], chainage ? ALONG : []);
@@ -61,6 +61,24 @@ export async function exportLas(
   if (back.length > 0) await sink.write(back);
   await sink.overwrite(0, frame.front(points.summary(selections[0].origin)));
   return points.count;
+}
+
+/** Record of a file of which points were left out: user and number. */
+const THINNED = { user: "groma", id: 10 } as const;
+
+/** Names the spacing that was asked for, in a record of its own, so that nobody takes the file for a complete one. */
+function withSpacing(envelope: LasEnvelope, selections: readonly PointSelection[]): LasEnvelope {
+  const spacing = spacingOf(selections);
+  if (spacing === 0) return envelope;
+  const content = new TextEncoder().encode(`thinned: one point in about ${spacing}\0`);
+  const header = new Uint8Array(54);
+  header.set(new TextEncoder().encode(THINNED.user), 2);
+  header.set(new TextEncoder().encode("points were left out"), 22);
+  const view = new DataView(header.buffer);
+  view.setUint16(18, THINNED.id, true);
+  view.setUint16(20, content.length, true);
+  const record = { userId: THINNED.user, recordId: THINNED.id, extended: false, header, content };
+  return { ...envelope, records: [...envelope.records, record] };
 }
 
 function copyRecords(from: Uint8Array, length: number, wanted: Uint32Array, step: number): Uint8Array {

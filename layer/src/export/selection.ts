@@ -2,8 +2,8 @@ import {
   ofClasses,
   type PointBatch,
   type PointOrigin,
-  type PointQuery,
   type QueryVolume,
+  type RecordQuery,
 } from "../query/index.js";
 
 /** How points lie along a line: what a profile adds to their records. */
@@ -68,7 +68,7 @@ export async function eachBatch(
   { signal, onProgress }: ExportOptions,
   take: (batch: PointBatch, wanted: Wanted, selection: PointSelection) => Promise<void>,
 ): Promise<number> {
-  const queries: { readonly query: PointQuery; readonly selection: PointSelection }[] = [];
+  const queries: { readonly query: RecordQuery; readonly selection: PointSelection }[] = [];
   let [read, total, written] = [0, 0, 0];
   for (const selection of selections) {
     const query = selection.origin.query({ volume: selection.volume, spacing: selection.spacing });
@@ -88,4 +88,9 @@ export async function eachBatch(
   }
   onProgress?.({ read: total, total, written });
   return written;
+}
+
+/** The spacing at which points were left out, which files of them name; 0 where none were. */
+export function spacingOf(selections: readonly PointSelection[]): number {
+  return Math.max(0, ...selections.map(({ spacing }) => spacing ?? 0));
 }

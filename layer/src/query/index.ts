@@ -13,4 +13,9 @@ export {
   type QueryParts,
   type QueryVolume,
 } from "./point-query.js";
-export { type PointOrigin, RecordedPoints, type RecordedPointsOptions } from "./recorded-points.js";
+export {
+  type PointOrigin,
+  RecordedPoints,
+  type RecordedPointsOptions,
+  type RecordQuery,
+} from "./recorded-points.js";

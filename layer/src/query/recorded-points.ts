@@ -20,6 +20,9 @@ export interface RecordedPointsOptions extends OpenOptions {
   readonly createLazPerf: () => Promise<LazPerf>;
 }
 
+/** The points of a part of a data set. */
+export type RecordQuery = Pick<PointQuery, "bracket" | "batches">;
+
 /**
  * Whatever recorded points can be taken from: their integers, what these mean, and what a LAS file of them says besides.
  * A `PointCloud` is one, and so are {@link RecordedPoints}.
@@ -32,7 +35,7 @@ export interface PointOrigin {
   /** Source units, per axis. */
   readonly offset: readonly [number, number, number];
   /** The recorded points of a part of it. @throws RangeError where the spacing is not a number from 0 on */
-  query(options?: QueryOptions): PointQuery;
+  query(options?: QueryOptions): RecordQuery;
   /**
    * What a LAS file of some of the points begins and ends with; undefined where they are no LAS records.
    * @throws SourceError, FormatError; the signal's reason when aborted

@@ -21,6 +21,7 @@ export type {
   PointQuery,
   QueryOptions,
   QueryVolume,
+  RecordQuery,
 } from "../query/index.js";
 export type { NumberType, PointAttribute } from "../sources/contract/point-attribute.js";
 export type { LasEnvelope, LasVariableRecord } from "../sources/contract/point-source.js";
@@ -30,7 +31,7 @@ export { PolygonVolume } from "./area/polygon-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
 export * from "./measure/index.js";
-export { Corridor, type Stationing } from "./profile/corridor.js";
+export { Corridor, type LinePlace, type Stationing } from "./profile/corridor.js";
 export {
   geodesicLengths,
   Profile,
@@ -39,3 +40,11 @@ export {
   type ProfilePoints,
 } from "./profile/profile.js";
 export { sourceLine } from "./profile/source-line.js";
+export { type CrossSection, CrossSections, type SectionWidths } from "./sections/cross-sections.js";
+export { type StationOptions, stations, stationText } from "./sections/station.js";
+export {
+  TerrainLine,
+  type TerrainOptions,
+  type TerrainStation,
+  type TerrainStatistic,
+} from "./terrain/terrain-line.js";

@@ -22,4 +22,5 @@ export type {
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";
-export { exactValue, type StoredAttribute } from "./stored-attribute.js";
+export { readCoordinates } from "./records.js";
+export { exactValue, readerOf, type StoredAttribute, viewOf } from "./stored-attribute.js";

@@ -1,0 +1,79 @@
+import { InvalidArgumentError } from "commander";
+
+/** Values of options as they are typed; each throws InvalidArgumentError for what is none. */
+
+export function positive(text: string): number {
+  const number = Number(text);
+  if (Number.isFinite(number) && number > 0) return number;
+  throw new InvalidArgumentError("Expected a number greater than 0");
+}
+
+export function finite(text: string): number {
+  const number = text.trim() === "" ? Number.NaN : Number(text);
+  if (Number.isFinite(number)) return number;
+  throw new InvalidArgumentError("Expected a number");
+}
+
+export function boxNumbers(text: string): number[] {
+  const numbers = text.split(",").map((word) => (word.trim() === "" ? Number.NaN : Number(word)));
+  if ((numbers.length === 4 || numbers.length === 6) && numbers.every(Number.isFinite)) return numbers;
+  throw new InvalidArgumentError("Expected four or six numbers separated by commas");
+}
+
+export function classNumbers(text: string): number[] {
+  const numbers = text.split(",").map((word) => (/^\s*\d+\s*$/.test(word) ? Number(word) : Number.NaN));
+  if (numbers.every((number) => number <= 255)) return numbers;
+  throw new InvalidArgumentError("Expected whole numbers from 0 to 255 separated by commas");
+}
+
+export function notNegative(text: string): number {
+  const number = finite(text);
+  if (number >= 0) return number;
+  throw new InvalidArgumentError("Expected a number from 0 on");
+}
+
+export function numbers(text: string): number[] {
+  return text.split(",").map(finite);
+}
+
+/** Files that are made of each cross-section. */
+const SECTION_FORMATS = ["las", "laz", "csv", "geojson", "dxf", "svg", "pdf"] as const;
+
+export function sectionFormats(text: string): (typeof SECTION_FORMATS)[number][] {
+  return text.split(",").map((word) => {
+    const found = SECTION_FORMATS.find((format) => format === word.trim().toLowerCase());
+    if (found) return found;
+    throw new InvalidArgumentError(`Expected some of ${SECTION_FORMATS.join(", ")}, separated by commas`);
+  });
+}
+
+/** `min`, `max`, `mean`, or a percentile such as `p25`. */
+export function statistic(text: string): "min" | "max" | "mean" | number {
+  if (text === "min" || text === "max" || text === "mean") return text;
+  const percentile = /^p(\d+(?:\.\d+)?)$/.exec(text)?.[1];
+  if (percentile !== undefined && Number(percentile) <= 100) return Number(percentile);
+  throw new InvalidArgumentError("Expected min, max, mean, or a percentile from p0 to p100");
+}
+
+export function threadCount(text: string): number {
+  const number = Number(text);
+  if (Number.isInteger(number) && number >= 1 && number <= 1024) return number;
+  throw new InvalidArgumentError("Expected a whole number from 1 to 1024");
+}
+
+export function portNumber(text: string): number {
+  const number = Number(text);
+  if (Number.isInteger(number) && number >= 0 && number <= 65535) return number;
+  throw new InvalidArgumentError("Expected a whole number from 0 to 65535");
+}
+
+/** Origins as browsers send them. */
+export function originList(text: string): string[] {
+  return text.split(",").map((piece) => {
+    const origin = URL.canParse(piece) ? new URL(piece).origin : "null";
+    if (origin !== "null" && piece.replace(/\/$/, "").toLowerCase() === origin) return origin;
+    throw new InvalidArgumentError(
+      `${piece} is not an origin such as https://maps.example; to let all read, put --cors at the end of the line`,
+    );
+  });
+}

@@ -1,0 +1,78 @@
+import { Pace, type PointBatch } from "../query/index.js";
+import { readerOf, type StoredAttribute, viewOf } from "../workers/index.js";
+import { SLICE } from "./columns.js";
+import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+
+/** A point as it lies along a line. */
+export interface PointAlong {
+  chainage: number;
+  /** From the line, left positive. */
+  offset: number;
+  /** Source z. */
+  height: number;
+  /** The scan's own colour as it is recorded, or a grey. */
+  red: number;
+  green: number;
+  blue: number;
+  /** Undefined where the data set has no classes. */
+  classification: number | undefined;
+}
+
+/** Colour of points without one. */
+const GREY = 70;
+
+/**
+ * Goes through the points of selections with a line, in a fixed order.
+ * @param take is given the same object each time
+ * @returns number of points
+ * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what `take` throws
+ */
+export async function eachAlong(
+  selections: readonly PointSelection[],
+  options: ExportOptions,
+  take: (point: PointAlong) => void,
+): Promise<number> {
+  const point: PointAlong = {
+    ...{ chainage: 0, offset: 0, height: 0, red: GREY, green: GREY, blue: GREY },
+    classification: undefined,
+  };
+  const place = new Float64Array(2);
+  const pace = new Pace(options.signal);
+  return eachBatch(selections, options, async (batch, wanted, { origin: { scale, offset }, along }) => {
+    const { xyz } = batch.records;
+    const [red, green, blue, classification] = numbersOf(batch, ["red", "green", "blue", "classification"]);
+    for (let index = 0; index < wanted.length; index++) {
+      const record = wanted[index];
+      const at = 3 * record;
+      along?.locate(xyz[at] * scale[0] + offset[0], xyz[at + 1] * scale[1] + offset[1], place);
+      point.chainage = place[0];
+      point.offset = place[1];
+      point.height = xyz[at + 2] * scale[2] + offset[2];
+      if (red && green && blue) {
+        point.red = red(record);
+        point.green = green(record);
+        point.blue = blue(record);
+      }
+      point.classification = classification?.(record);
+      take(point);
+      if (index % SLICE === 0) await pace.rest();
+    }
+  });
+}
+
+/** Reads the first number of attributes of a batch, as it is recorded; undefined where the batch lacks one. */
+function numbersOf(
+  { records }: PointBatch,
+  names: readonly string[],
+): (((record: number) => number) | undefined)[] {
+  return names.map((name) => {
+    const found = records.attributes.find((one) => one.name === name);
+    return found && numberOf(found);
+  });
+}
+
+function numberOf({ bytes, type, at, stride, shift, mask }: StoredAttribute): (record: number) => number {
+  const [view, read] = [viewOf(bytes), readerOf(type)];
+  if (mask === -1) return (record) => read(view, at + record * stride);
+  return (record) => (read(view, at + record * stride) >> shift) & mask;
+}

@@ -1,0 +1,102 @@
+import { TerrainLine, type TerrainOptions, type TerrainStatistic } from "../tools/terrain/terrain-line.js";
+import { eachAlong } from "./along.js";
+import { type CutFacts, coordinatesInWords, type LengthUnit } from "./cut-facts.js";
+import type { GroundRuns } from "./landxml.js";
+import { type PictureScale, ProfilePicture } from "./picture/profile-picture.js";
+import type { Sheet } from "./picture/sheet.js";
+import { type ExportOptions, type PointSelection, spacingOf } from "./selection.js";
+
+/** How the ground is found that documents show. */
+export interface GroundOptions extends TerrainOptions {
+  /** Classes of its points. Default: all. */
+  readonly classes?: ReadonlySet<number> | undefined;
+}
+
+/** What documents about a cut are made with. */
+export interface DocumentOptions extends ExportOptions, PictureScale {
+  readonly facts: CutFacts;
+  /** Default of LandXML: stations every metre, the percentile 25. Of pictures: none is drawn. */
+  readonly ground?: GroundOptions | undefined;
+}
+
+/** The ends of a line along which points lie. */
+export interface AlongSpan {
+  readonly from: number;
+  readonly to: number;
+}
+
+/** The ground along a line. @throws as {@link eachAlong}; RangeError where the options are none */
+export async function groundOf(
+  selections: readonly PointSelection[],
+  { from, to }: AlongSpan,
+  { classes, ...terrain }: GroundOptions,
+  options: ExportOptions = {},
+): Promise<GroundRuns> {
+  const line = new TerrainLine(from, to, terrain);
+  await eachAlong(selections, options, ({ chainage, height, classification }) => {
+    if (!classes || (classification !== undefined && classes.has(classification))) line.add(chainage, height);
+  });
+  return line.runs();
+}
+
+/**
+ * Draws the points of selections along a line.
+ * @param along word for the horizontal axis
+ * @returns the sheet, and the ground where it was asked for
+ * @throws as {@link eachAlong}; RangeError where the options are none; FormatError EXPORT_PICTURE
+ */
+export async function drawSheet(
+  selections: readonly PointSelection[],
+  { from, to }: AlongSpan,
+  title: string,
+  along: string,
+  { facts, ground, scale, exaggeration, ...options }: DocumentOptions,
+): Promise<{ readonly sheet: Sheet; readonly ground: GroundRuns | undefined }> {
+  const file = selections[0]?.origin.name ?? facts.title;
+  const [unit, heightUnit] = [facts.unit.size, facts.heightUnit.size];
+  const picture = new ProfilePicture({ from, to, unit, heightUnit, scale, exaggeration, file });
+  const line = ground && new TerrainLine(from, to, ground);
+  const count = await eachAlong(selections, options, (point) => {
+    const { chainage, height, offset, red, green, blue, classification } = point;
+    picture.add(chainage, height, offset, red, green, blue);
+    const { classes } = ground ?? {};
+    if (!classes || (classification !== undefined && classes.has(classification)))
+      line?.add(chainage, height);
+  });
+  const runs = line?.runs();
+  const thinned = spacingOf(selections);
+  const words = {
+    title,
+    facts: [
+      [...new Set(selections.map(({ origin }) => origin.name.split(/[\\/]/).pop()))].join(", "),
+      coordinatesInWords(facts),
+      `${count.toLocaleString("en")} points${thinned === 0 ? "" : `, ${thinnedInWords(thinned, facts.unit)}`}`,
+      ...(ground ? [`line: ${groundInWords(ground, facts.unit)}`] : []),
+    ],
+    unit: facts.unit.text,
+    along: `${along} (${facts.unit.text})`,
+    up: `height (${[facts.heightUnit.text, facts.heights].filter(Boolean).join(", ")})`,
+  };
+  return { sheet: picture.sheet(words, runs), ground: runs };
+}
+
+/** What documents say of points that were left out. */
+export function thinnedInWords(spacing: number, { text }: LengthUnit): string {
+  return `thinned: one in about ${spacing} ${text}`;
+}
+
+/** How the ground follows from the points. */
+export function groundInWords(
+  { interval, statistic = 25, classes }: GroundOptions,
+  { text }: LengthUnit,
+): string {
+  const which = classes
+    ? `points of ${classes.size === 1 ? "class" : "classes"} ${[...classes].join(", ")}`
+    : "all points";
+  return `${statisticInWords(statistic)} of the heights of ${which}, every ${interval} ${text}`;
+}
+
+function statisticInWords(statistic: TerrainStatistic): string {
+  if (typeof statistic === "number") return `percentile ${statistic}`;
+  return { min: "least", max: "greatest", mean: "mean" }[statistic];
+}

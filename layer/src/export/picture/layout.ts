@@ -1,0 +1,222 @@
+import {
+  BLACK,
+  type Colour,
+  GRID,
+  GROUND,
+  type Pixels,
+  type Sheet,
+  type SheetLine,
+  type SheetText,
+} from "./sheet.js";
+
+/** Places of the plot on the sheet, millimetres. */
+const MARGIN = { left: 24, right: 8, bottom: 20 } as const;
+
+/** Below the upper edge: the title, and each line of facts. */
+const TITLE = 14;
+const FACT = 3.2;
+
+/** Sheets of ISO 216, lying, from A4 on; a drawing that is larger than A0 gets a sheet of its own size. */
+const PAPERS = [
+  [297, 210],
+  [420, 297],
+  [594, 420],
+  [841, 594],
+  [1189, 841],
+] as const;
+
+/** Width of a plot on A3, which the default scale is chosen for. */
+const PLOT_WIDTH = 420 - MARGIN.left - MARGIN.right;
+
+/** Scales are 1 to one of these, times a power of ten. */
+const STEPS = [1, 2, 2.5, 5] as const;
+
+/** Millimetres between lines of the grid, at least. */
+const GRID_DISTANCE = 15;
+
+/** What stands on a sheet in words. */
+export interface PictureWords {
+  readonly title: string;
+  /** Lines below the title: data set, coordinate reference system, number of points. */
+  readonly facts: readonly string[];
+  /** Unit of lengths. */
+  readonly unit: string;
+  /** Of the horizontal axis, with its unit. */
+  readonly along: string;
+  /** Of the vertical axis, with its unit and the height reference. */
+  readonly up: string;
+}
+
+/** What a plot shows, in the units of its axes. */
+export interface PlotFrame {
+  /** Chainage at the left and right edge. */
+  readonly from: number;
+  readonly to: number;
+  /** Millimetres per unit of either axis. */
+  readonly along: number;
+  readonly up: number;
+}
+
+/** The largest of the round scales 1 : n at which a length fits onto A3. @param metres length of the line */
+export function fittingScale(metres: number): number {
+  const least = (1000 * metres) / PLOT_WIDTH;
+  for (let power = 10 ** Math.floor(Math.log10(Math.max(least, 1e-3))); ; power *= 10) {
+    const found = STEPS.find((step) => step * power >= least);
+    if (found !== undefined) return found * power;
+  }
+}
+
+/** The least round number (1, 2 or 5 times a power of ten) that is not below another. */
+export function roundStep(least: number): number {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return [1, 2, 5, 10].map((step) => step * power).find((step) => step >= least * (1 - 1e-12))!;
+}
+
+/** A number with as many digits as a step of the axis has. */
+function axisText(value: number, step: number): string {
+  return value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+}
+
+/**
+ * Puts a plot onto a sheet: dots, grid in round numbers, axes, terrain line, scale bar, words.
+ *
+ * @param dots pixels and the height at their lower edge, and how large a pixel is, millimetres
+ * @param scale of lengths and of heights, 1 : n, for the words
+ */
+export function layOut(
+  frame: PlotFrame,
+  dots: { readonly pixels: Pixels; readonly bottom: number; readonly pitch: number },
+  runs: readonly (readonly (readonly [number, number])[])[],
+  words: PictureWords,
+  scale: { readonly along: number; readonly up: number },
+): Sheet {
+  const top = dots.bottom + (dots.pixels.rows * dots.pitch) / frame.up;
+  const step = {
+    along: roundStep(GRID_DISTANCE / frame.along),
+    up: roundStep(GRID_DISTANCE / frame.up / 1.5),
+  };
+  const low = Math.floor(dots.bottom / step.up) * step.up;
+  const high = Math.max(Math.ceil(top / step.up), Math.floor(low / step.up + 1.5)) * step.up;
+  const size = { x: (frame.to - frame.from) * frame.along, y: (high - low) * frame.up };
+  const scales =
+    scale.along === scale.up
+      ? `1:${scaleText(scale.along)}`
+      : `lengths 1:${scaleText(scale.along)}, heights 1:${scaleText(scale.up)}`;
+  const facts = [...words.facts, scales];
+  const head = TITLE + FACT * facts.length;
+  const [width, height] = paperFor(MARGIN.left + size.x + MARGIN.right, MARGIN.bottom + size.y + head);
+  const left = MARGIN.left;
+  const base = height - head - size.y;
+  const x = (chainage: number) => left + (chainage - frame.from) * frame.along;
+  const y = (z: number) => base + (z - low) * frame.up;
+  const lines: SheetLine[] = [];
+  const texts: SheetText[] = [];
+  const line = (places: SheetLine["places"], thickness: number, colour: Colour) =>
+    lines.push({ places, width: thickness, colour });
+  const [right, ceiling] = [left + size.x, base + size.y];
+  for (const chainage of multiples(frame.from, frame.to, step.along)) {
+    line(
+      [
+        [x(chainage), base],
+        [x(chainage), ceiling],
+      ],
+      0.1,
+      GRID,
+    );
+    texts.push({
+      text: axisText(chainage, step.along),
+      x: x(chainage),
+      y: base - 4,
+      size: 2.5,
+      anchor: "middle",
+    });
+  }
+  for (const z of multiples(low, high, step.up)) {
+    line(
+      [
+        [left, y(z)],
+        [right, y(z)],
+      ],
+      0.1,
+      GRID,
+    );
+    texts.push({ text: axisText(z, step.up), x: left - 1.5, y: y(z) - 0.9, size: 2.5, anchor: "end" });
+  }
+  line(
+    [
+      [left, base],
+      [right, base],
+      [right, ceiling],
+      [left, ceiling],
+      [left, base],
+    ],
+    0.2,
+    BLACK,
+  );
+  for (const run of runs) {
+    const places = run.map(([chainage, z]) => [x(chainage), y(z)] as const);
+    if (places.length > 1) line(places, 0.25, GROUND);
+  }
+  texts.push({ text: words.along, x: left + size.x / 2, y: base - 8, size: 2.8, anchor: "middle" });
+  texts.push({
+    text: words.up,
+    x: left - 14,
+    y: base + size.y / 2,
+    size: 2.8,
+    anchor: "middle",
+    upwards: true,
+  });
+  texts.push({ text: words.title, x: left, y: height - 9, size: 4.2, anchor: "start" });
+  for (const [index, text] of facts.entries())
+    texts.push({ text, x: left, y: height - TITLE - FACT * index, size: 2.3, anchor: "start" });
+  scaleBar(frame.along, words.unit, left, base - 14, lines, texts);
+  const { pixels, pitch, bottom } = dots;
+  const image = {
+    ...pixels,
+    x: left,
+    y: y(bottom),
+    width: pixels.columns * pitch,
+    height: pixels.rows * pitch,
+  };
+  return { width, height, title: words.title, images: [image], lines, texts };
+}
+
+/** A bar of a round length of some four centimetres, for whoever has a ruler. */
+function scaleBar(
+  along: number,
+  unit: string,
+  x: number,
+  y: number,
+  lines: SheetLine[],
+  texts: SheetText[],
+): void {
+  const length = roundStep(30 / along);
+  const end = x + length * along;
+  const places = [
+    [x, y + 1],
+    [x, y],
+    [end, y],
+    [end, y + 1],
+  ] as const;
+  lines.push({ places, width: 0.3, colour: BLACK });
+  texts.push({
+    text: `${axisText(length, length)} ${unit}`,
+    x: end + 1.5,
+    y: y - 0.5,
+    size: 2.3,
+    anchor: "start",
+  });
+}
+
+function paperFor(width: number, height: number): readonly [number, number] {
+  return PAPERS.find(([w, h]) => w >= width && h >= height) ?? [Math.ceil(width), Math.ceil(height)];
+}
+
+function multiples(from: number, to: number, step: number): number[] {
+  const [first, last] = [Math.ceil(from / step - 1e-9), Math.floor(to / step + 1e-9)];
+  return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => (first + index) * step);
+}
+
+function scaleText(scale: number): string {
+  return String(Number(scale.toPrecision(6)));
+}

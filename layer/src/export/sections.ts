@@ -1,0 +1,240 @@
+import { stationText } from "../tools/sections/station.js";
+import { type ArchiveEntry, writeArchive } from "./archive.js";
+import { BlobStore, type BlockStore } from "./block-store.js";
+import { type ByteSink, MemorySink } from "./byte-sink.js";
+import { collectParts, type PartedSelection, type PartedVolume } from "./collect.js";
+import { exportCsv } from "./csv.js";
+import { type DatedOptions, spanOf, USUAL_GROUND } from "./documents.js";
+import { exportDxf } from "./dxf.js";
+import { exportGeoJson } from "./geojson.js";
+import { drawSheet, groundInWords, groundOf } from "./ground.js";
+import { type LandXmlSection, landXmlOf } from "./landxml.js";
+import { exportLas } from "./las.js";
+import { pdfOf } from "./picture/pdf.js";
+import type { Sheet } from "./picture/sheet.js";
+import { svgOf } from "./picture/svg.js";
+import type { AlongLine, PointSelection } from "./selection.js";
+import { TextSink } from "./text-sink.js";
+
+/** A cross-section, as `CrossSections` of `@groma/layer/tools` has it. */
+export interface SectionPlace {
+  readonly station: number;
+  /** x and y on the line, source units. */
+  readonly centre: readonly [number, number];
+  /** From its left end to its right one; chainages are distances from the line, right positive. */
+  readonly strip: AlongLine;
+}
+
+/** Cross-sections of one line. */
+export interface SectionSet extends PartedVolume {
+  readonly sections: readonly SectionPlace[];
+}
+
+/** Files that are made of each section. */
+export type SectionFormat = "las" | "laz" | "csv" | "geojson" | "dxf" | "svg" | "pdf";
+
+/** How cross-sections are written. */
+export interface SectionOptions extends DatedOptions {
+  /** The line that they cross. */
+  readonly line: AlongLine;
+  /** Keeps points between reading and writing. Default: in `Blob`s. */
+  readonly store?: BlockStore | undefined;
+}
+
+/** How an archive of them is written. */
+export interface SectionArchiveOptions extends SectionOptions {
+  /** Files of each section. Default: LAS and SVG. */
+  readonly files?: readonly SectionFormat[] | undefined;
+  /** Compresses a LAS file to LAZ; needed for `laz`. */
+  readonly compress?: ((las: Uint8Array) => Promise<Uint8Array>) | undefined;
+}
+
+/** Points of data sets, all with the same sections. */
+export type SectionSelection = Omit<PartedSelection, "volume"> & { readonly volume: SectionSet };
+
+/** A section whose points were read. */
+interface ReadSection {
+  readonly name: string;
+  readonly place: SectionPlace;
+  readonly selections: readonly PointSelection[];
+}
+
+/**
+ * Writes cross-sections as one ZIP archive: the files asked for of each, `sections.csv` with their places, and
+ * `sections.xml`, LandXML 1.2 of all of them. Points are read in one pass over the data sets, whatever the number of sections
+ * is; those of LAS are in the order in which an export of the section alone writes them.
+ *
+ * DXF is straightened: x is the distance from the line, right positive, y the height, z the distance ahead of the station.
+ *
+ * @returns number of points in all sections, each as often as sections have it
+ * @throws FormatError EXPORT_NO_LAS, EXPORT_PICTURE; RangeError where a scale or the ground's options are none
+ * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what the sink throws
+ */
+export async function exportSections(
+  selections: readonly SectionSelection[],
+  sink: ByteSink,
+  options: SectionArchiveOptions,
+): Promise<number> {
+  const { files = ["las", "svg"], date = new Date() } = options;
+  const sections = await readSections(selections, options);
+  const counts: number[] = [];
+  const grounds: LandXmlSection[] = [];
+  async function* entries(): AsyncGenerator<ArchiveEntry> {
+    for (const section of sections) {
+      options.signal?.throwIfAborted();
+      const { name, selections: own, place } = section;
+      counts.push(await countOf(own));
+      grounds.push(await groundOfSection(section, options));
+      if (own.length === 0) continue;
+      for (const format of files) {
+        yield { name: `${fileName(name, place)}.${format}`, content: await fileOf(section, format, options) };
+      }
+    }
+    yield { name: "sections.csv", content: listOf(sections, counts) };
+    yield { name: "sections.xml", content: [...landXml(grounds, { ...options, date })].join("") };
+  }
+  await writeArchive(entries(), sink, date);
+  return counts.reduce((sum, count) => sum + count, 0);
+}
+
+/**
+ * Writes cross-sections as one PDF, a page each, to scale. Sections without points have none.
+ * @returns number of points in all sections
+ * @throws as {@link exportSections}
+ */
+export async function exportSectionSheets(
+  selections: readonly SectionSelection[],
+  sink: ByteSink,
+  options: SectionOptions,
+): Promise<number> {
+  const sections = await readSections(selections, options);
+  let count = 0;
+  async function* sheets(): AsyncGenerator<Sheet> {
+    for (const section of sections) {
+      if (section.selections.length === 0) continue;
+      count += await countOf(section.selections);
+      yield await sheetOf(section, options);
+    }
+  }
+  const bytes = await pdfOf(sheets(), options.facts.title);
+  if (count > 0) await sink.write(bytes);
+  return count;
+}
+
+/**
+ * Writes cross-sections as LandXML 1.2: the line, and the ground of each section.
+ * @returns number of points in all sections
+ * @throws as {@link exportSections}
+ */
+export async function exportSectionLandXml(
+  selections: readonly SectionSelection[],
+  sink: ByteSink,
+  options: SectionOptions,
+): Promise<number> {
+  const sections = await readSections(selections, options);
+  const grounds: LandXmlSection[] = [];
+  let count = 0;
+  for (const section of sections) {
+    count += await countOf(section.selections);
+    grounds.push(await groundOfSection(section, options));
+  }
+  const text = new TextSink(sink);
+  for (const part of landXml(grounds, options)) {
+    text.add(part);
+    await text.rest();
+  }
+  await text.end();
+  return count;
+}
+
+async function readSections(
+  selections: readonly SectionSelection[],
+  { store = new BlobStore(), signal, onProgress }: SectionOptions,
+): Promise<ReadSection[]> {
+  const parts = await collectParts(selections, store, { signal, onProgress });
+  const { sections } = selections[0].volume;
+  return sections.map((place, index) => {
+    const along = place.strip;
+    const number = String(index + 1).padStart(String(sections.length).length, "0");
+    return { name: number, place, selections: parts[index].map((one) => ({ ...one, along })) };
+  });
+}
+
+async function countOf(selections: readonly PointSelection[]): Promise<number> {
+  let count = 0;
+  for (const { origin } of selections) count += (await origin.query().bracket()).least;
+  return count;
+}
+
+/** What a reader calls a section: its number and its station. */
+function titleOf({ name, place }: ReadSection, { facts }: SectionOptions): string {
+  return `${facts.title}, section ${name}, station ${stationText(place.station, 3)}`;
+}
+
+function fileName(name: string, { station }: SectionPlace): string {
+  return `section-${name}_${stationText(station, 3)}`;
+}
+
+async function groundOfSection(section: ReadSection, options: SectionOptions): Promise<LandXmlSection> {
+  const { place, selections, name } = section;
+  const { ground = USUAL_GROUND, signal } = options;
+  const runs = await groundOf(selections, spanOf(place.strip), ground, { signal });
+  return { station: place.station, name: `section ${name}`, ground: runs };
+}
+
+function landXml(sections: readonly LandXmlSection[], options: SectionOptions): Generator<string> {
+  const { facts, line, ground = USUAL_GROUND, date = new Date() } = options;
+  return landXmlOf({ facts, line, sections, method: groundInWords(ground, facts.unit), date });
+}
+
+async function sheetOf(section: ReadSection, options: SectionOptions): Promise<Sheet> {
+  const along = "distance from the line, right positive";
+  const quiet = { ...options, onProgress: undefined };
+  const span = spanOf(section.place.strip);
+  return (await drawSheet(section.selections, span, titleOf(section, options), along, quiet)).sheet;
+}
+
+async function fileOf(
+  section: ReadSection,
+  format: SectionFormat,
+  options: SectionArchiveOptions,
+): Promise<ArchiveEntry["content"]> {
+  const { selections } = section;
+  const { signal, compress } = options;
+  switch (format) {
+    case "svg":
+      return svgOf(await sheetOf(section, options));
+    case "pdf":
+      return pdfOf([await sheetOf(section, options)], titleOf(section, options));
+    case "las":
+      return inMemory((sink) => exportLas(selections, sink, { signal }));
+    case "laz": {
+      if (!compress) throw new RangeError("this program does not compress LAS");
+      const las = await inMemory((sink) => exportLas(selections, sink, { signal }));
+      return compress(new Uint8Array(await las.arrayBuffer()));
+    }
+    case "csv":
+      return inMemory((sink) => exportCsv(selections, sink, { signal }));
+    case "geojson":
+      return inMemory((sink) => exportGeoJson(selections, sink, { signal }));
+    case "dxf":
+      return inMemory((sink) => exportDxf(selections, sink, { signal, layout: "straightened" }));
+  }
+}
+
+async function inMemory(fill: (sink: ByteSink) => Promise<unknown>): Promise<Blob> {
+  const sink = new MemorySink();
+  await fill(sink);
+  return sink.blob();
+}
+
+/** Places of all sections as CSV, with every digit, so that anyone can cut them again. */
+function listOf(sections: readonly ReadSection[], counts: readonly number[]): string {
+  const rows = sections.map(({ name, place }, index) => {
+    const { vertices } = place.strip;
+    const numbers = [place.station, ...place.centre, ...vertices[0], ...vertices[1], counts[index]];
+    return `${name},${stationText(place.station, 3)},${numbers.join(",")}`;
+  });
+  const names = "section,station,chainage,x,y,left_x,left_y,right_x,right_y,points";
+  return `${[names, ...rows].join("\r\n")}\r\n`;
+}

@@ -1,0 +1,164 @@
+import type { BoxRelation } from "../../query/index.js";
+import { isNear } from "../exact/exact.js";
+import { SegmentGrid, type Segments } from "./segment-grid.js";
+
+/** Relative error of a float64 operation. */
+const EPSILON = 2 ** -53;
+
+/** Ends of a segment at which its strip ends squarely; at the others it goes on round the end. */
+export const SQUARE_START = 1;
+export const SQUARE_END = 2;
+
+/**
+ * All points no farther than a distance from segments in the plane of the source coordinates. Whether a point is one is
+ * decided without any rounding, on the float64 coordinates of the point and of the segments.
+ */
+export class Strip {
+  readonly segments: Segments;
+  /** Half the width, source units. */
+  readonly reach: number;
+  /** Square ends of each segment. */
+  readonly #square: Uint8Array;
+  readonly #grid: SegmentGrid;
+
+  /** @param square {@link SQUARE_START} and {@link SQUARE_END} of each segment, which has a length */
+  constructor(segments: Segments, reach: number, square: Uint8Array) {
+    this.segments = segments;
+    this.reach = reach;
+    this.#square = square;
+    this.#grid = new SegmentGrid(segments, reach);
+  }
+
+  /** Numbers of the segments that a point may be near, rising: those of `members` from `begin` to `end`. */
+  near(x: number, y: number): Pick<SegmentGrid, "members" | "begin" | "end"> {
+    this.#grid.at(x, y);
+    return this.#grid;
+  }
+
+  contains(x: number, y: number): boolean {
+    const { members, begin, end } = this.near(x, y);
+    let doubt = false;
+    for (let at = begin; at < end; at++) {
+      const nearness = this.#nearness(members[at], x, y);
+      if (nearness > 0) return true;
+      doubt ||= nearness === 0;
+    }
+    if (!doubt) return false;
+    for (let at = begin; at < end; at++) if (this.#isExactlyNear(members[at], x, y)) return true;
+    return false;
+  }
+
+  /** Whether a point lies within reach of one segment. */
+  isNear(segment: number, x: number, y: number): boolean {
+    const nearness = this.#nearness(segment, x, y);
+    return nearness > 0 || (nearness === 0 && this.#isExactlyNear(segment, x, y));
+  }
+
+  /** How a box lies to all of it. */
+  toBox(box: Float64Array): BoxRelation {
+    const [minX, minY, , maxX, maxY] = box;
+    // What rounding may take from the differences of coordinates.
+    const slack = 16 * EPSILON * Math.max(Math.abs(minX), Math.abs(maxX), Math.abs(minY), Math.abs(maxY));
+    let met = false;
+    for (let segment = 0; 4 * segment < this.segments.length; segment++) {
+      if (this.#covers(segment, box)) return "in";
+      met ||= this.#gap(segment, box) <= this.reach * (1 + 16 * EPSILON) + slack;
+    }
+    return met ? "crossing" : "out";
+  }
+
+  /** Above 0 where a point lies within reach of a segment, below where it does not, 0 where rounding leaves it open. */
+  #nearness(segment: number, x: number, y: number): number {
+    const from = 4 * segment;
+    const square = this.#square[segment];
+    const ax = this.segments[from];
+    const ay = this.segments[from + 1];
+    const bx = this.segments[from + 2];
+    const by = this.segments[from + 3];
+    const ux = bx - ax;
+    const uy = by - ay;
+    const vx = x - ax;
+    const vy = y - ay;
+    const length = ux * ux + uy * uy;
+    const along = ux * vx + uy * vy;
+    // Each product has an error of some units in the last place of its factors; 16 is generous.
+    const doubt = 16 * EPSILON * (Math.abs(ux * vx) + Math.abs(uy * vy) + length);
+    if (Math.abs(along) <= doubt || Math.abs(along - length) <= doubt) return 0;
+    if (along < 0) return square & SQUARE_START ? -1 : this.#compare(vx * vx + vy * vy, this.reach ** 2);
+    if (along > length) {
+      const wx = x - bx;
+      const wy = y - by;
+      return square & SQUARE_END ? -1 : this.#compare(wx * wx + wy * wy, this.reach ** 2);
+    }
+    const across = ux * vy - uy * vx;
+    const uncertain = 16 * EPSILON * (Math.abs(ux * vy) + Math.abs(uy * vx));
+    const limit = this.reach * Math.sqrt(length);
+    const left = limit - Math.abs(across);
+    return Math.abs(left) > uncertain + 16 * EPSILON * limit ? left : 0;
+  }
+
+  /** Limit minus a square, 0 where rounding leaves open which is greater. */
+  #compare(square: number, limit: number): number {
+    const left = limit - square;
+    return Math.abs(left) > 16 * EPSILON * (limit + square) ? left : 0;
+  }
+
+  #isExactlyNear(segment: number, x: number, y: number): boolean {
+    const [ax, ay, bx, by] = this.segments.subarray(4 * segment, 4 * segment + 4);
+    const square = this.#square[segment];
+    const flat = { start: (square & SQUARE_START) !== 0, end: (square & SQUARE_END) !== 0 };
+    return isNear(x, y, [ax, ay, bx, by], this.reach, flat);
+  }
+
+  /** Whether a box lies in the rectangle of one segment, with certainty. */
+  #covers(segment: number, [minX, minY, , maxX, maxY]: Float64Array): boolean {
+    const [ax, ay, bx, by] = this.segments.subarray(4 * segment, 4 * segment + 4);
+    const [ux, uy] = [bx - ax, by - ay];
+    const length = Math.hypot(ux, uy);
+    const safe = 1e-9 * (length + this.reach);
+    for (const x of [minX, maxX]) {
+      for (const y of [minY, maxY]) {
+        const along = (ux * (x - ax) + uy * (y - ay)) / length;
+        const across = (ux * (y - ay) - uy * (x - ax)) / length;
+        if (!(along > safe && along < length - safe && Math.abs(across) < this.reach - safe)) return false;
+      }
+    }
+    return true;
+  }
+
+  /** Distance between a segment and a box. */
+  #gap(segment: number, [minX, minY, , maxX, maxY]: Float64Array): number {
+    const [ax, ay, bx, by] = this.segments.subarray(4 * segment, 4 * segment + 4);
+    const [ux, uy] = [bx - ax, by - ay];
+    // Shares of the segment within the box's stretch of each axis: they overlap where it passes through.
+    let [from, to] = [0, 1];
+    for (const [start, step, least, greatest] of [
+      [ax, ux, minX, maxX],
+      [ay, uy, minY, maxY],
+    ]) {
+      if (step === 0) {
+        if (start < least || start > greatest) to = -1;
+        continue;
+      }
+      const [s, t] = [(least - start) / step, (greatest - start) / step];
+      from = Math.max(from, Math.min(s, t));
+      to = Math.min(to, Math.max(s, t));
+    }
+    if (from <= to) return 0;
+    let gap = Number.POSITIVE_INFINITY;
+    for (const [x, y] of [
+      [ax, ay],
+      [bx, by],
+    ]) {
+      gap = Math.min(gap, Math.hypot(Math.max(0, minX - x, x - maxX), Math.max(0, minY - y, y - maxY)));
+    }
+    const square = ux * ux + uy * uy;
+    for (const x of [minX, maxX]) {
+      for (const y of [minY, maxY]) {
+        const share = Math.min(1, Math.max(0, (ux * (x - ax) + uy * (y - ay)) / square));
+        gap = Math.min(gap, Math.hypot(x - ax - share * ux, y - ay - share * uy));
+      }
+    }
+    return gap;
+  }
+}

@@ -1,0 +1,135 @@
+/** How the height of a station follows from those of its points: one of them, their mean, or a percentile of them, 0 to 100. */
+export type TerrainStatistic = "min" | "max" | "mean" | number;
+
+/** How a terrain line is made. */
+export interface TerrainOptions {
+  /** Distance between stations, in the unit of the chainage. */
+  readonly interval: number;
+  /** Default: 25, the percentile below which a quarter of the heights are. */
+  readonly statistic?: TerrainStatistic | undefined;
+}
+
+/** One station of a terrain line. */
+export interface TerrainStation {
+  /** Of its middle: points up to half the interval before and behind it count. */
+  readonly chainage: number;
+  /** By the statistic; NaN where no point is. */
+  readonly height: number;
+  readonly least: number;
+  readonly greatest: number;
+  readonly mean: number;
+  /** Standard deviation of the heights of the points; NaN of fewer than two. */
+  readonly deviation: number;
+  /** Number of points. */
+  readonly count: number;
+}
+
+/** Stations at most. */
+const MOST = 10_000_000;
+
+/**
+ * The ground along a line, station by station, from points in any order. Stations without points are gaps: nothing is
+ * drawn between their neighbours.
+ */
+export class TerrainLine {
+  readonly interval: number;
+  readonly statistic: TerrainStatistic;
+  readonly #from: number;
+  readonly #count: Uint32Array;
+  readonly #least: Float64Array;
+  readonly #greatest: Float64Array;
+  /** Means and sums of squares of what is left of them, by Welford's recurrence. */
+  readonly #mean: Float64Array;
+  readonly #squares: Float64Array;
+  /** All heights of each station, where a percentile is asked for. */
+  readonly #heights: Float64Array[] | undefined;
+
+  /**
+   * @param from chainage of the first station
+   * @param to chainage up to which stations are made
+   * @throws RangeError where the interval is none, too small for the length, or the statistic none
+   */
+  constructor(from: number, to: number, { interval, statistic = 25 }: TerrainOptions) {
+    const count = Math.floor((to - from) / interval + 1e-9) + 1;
+    if (!(interval > 0 && count >= 1 && count <= MOST))
+      throw new RangeError(`the interval of the terrain line cannot be ${interval}`);
+    if (typeof statistic === "number" && !(statistic >= 0 && statistic <= 100))
+      throw new RangeError(`there is no percentile ${statistic}`);
+    this.interval = interval;
+    this.statistic = statistic;
+    this.#from = from;
+    this.#count = new Uint32Array(count);
+    this.#least = new Float64Array(count).fill(Number.POSITIVE_INFINITY);
+    this.#greatest = new Float64Array(count).fill(Number.NEGATIVE_INFINITY);
+    this.#mean = new Float64Array(count);
+    this.#squares = new Float64Array(count);
+    this.#heights = typeof statistic === "number" ? new Array(count) : undefined;
+  }
+
+  /** Takes a point into the station that is nearest to it, of two the one behind; points beyond are passed over. */
+  add(chainage: number, height: number): void {
+    const station = Math.floor((chainage - this.#from) / this.interval + 0.5);
+    if (!(station >= 0 && station < this.#count.length)) return;
+    const count = ++this.#count[station];
+    if (height < this.#least[station]) this.#least[station] = height;
+    if (height > this.#greatest[station]) this.#greatest[station] = height;
+    const difference = height - this.#mean[station];
+    this.#mean[station] += difference / count;
+    this.#squares[station] += difference * (height - this.#mean[station]);
+    if (this.#heights) this.#keep(this.#heights, station, count, height);
+  }
+
+  #keep(heights: Float64Array[], station: number, count: number, height: number): void {
+    let kept = heights[station];
+    if (!kept || kept.length < count) {
+      const larger = new Float64Array(Math.max(8, 2 * count));
+      if (kept) larger.set(kept);
+      heights[station] = larger;
+      kept = larger;
+    }
+    kept[count - 1] = height;
+  }
+
+  stations(): TerrainStation[] {
+    return Array.from(this.#count, (count, station) => {
+      const [least, greatest, mean] = [this.#least[station], this.#greatest[station], this.#mean[station]];
+      return {
+        chainage: this.#from + station * this.interval,
+        height: count === 0 ? Number.NaN : this.#height(station, count),
+        ...(count === 0
+          ? { least: Number.NaN, greatest: Number.NaN, mean: Number.NaN }
+          : { least, greatest, mean }),
+        deviation: count < 2 ? Number.NaN : Math.sqrt(this.#squares[station] / (count - 1)),
+        count,
+      };
+    });
+  }
+
+  /** Chainage and height of the stations with points, a list for each stretch without a gap. */
+  runs(): (readonly [chainage: number, height: number])[][] {
+    const runs: (readonly [number, number])[][] = [];
+    let open = false;
+    for (const { chainage, height, count } of this.stations()) {
+      if (count > 0 && !open) runs.push([]);
+      open = count > 0;
+      if (open) runs[runs.length - 1].push([chainage, height]);
+    }
+    return runs;
+  }
+
+  #height(station: number, count: number): number {
+    const { statistic } = this;
+    if (statistic === "min") return this.#least[station];
+    if (statistic === "max") return this.#greatest[station];
+    if (statistic === "mean") return this.#mean[station];
+    return percentile(this.#heights![station].slice(0, count).sort(), statistic);
+  }
+}
+
+/** A percentile of sorted numbers, linear between two of them (Hyndman & Fan 1996, definition 7). */
+function percentile(sorted: Float64Array, share: number): number {
+  const at = ((sorted.length - 1) * share) / 100;
+  const below = Math.floor(at);
+  const above = Math.min(sorted.length - 1, below + 1);
+  return sorted[below] + (at - below) * (sorted[above] - sorted[below]);
+}

@@ -1,0 +1,88 @@
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { converted } from "../converted.js";
+import { data } from "../project.js";
+import { pythonMissing, runPython } from "../python.js";
+import { coreMissing } from "./core.js";
+import { groma } from "./groma.js";
+
+const road = data("vol_total.laz");
+const REFUSED = road.missing ?? coreMissing ?? pythonMissing;
+
+describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: ${REFUSED})` : ""}`, () => {
+  let folder = "";
+  let axis = "";
+  beforeAll(() => {
+    folder = mkdtempSync(join(tmpdir(), "groma-sections-"));
+    axis = join(folder, "axis.geojson");
+    const coordinates = [
+      [589600, 231350],
+      [589800, 231450],
+      [589900, 231450],
+    ];
+    writeFileSync(axis, JSON.stringify({ type: "LineString", coordinates }));
+  });
+  afterAll(() => rmSync(folder, { recursive: true }));
+
+  const cut = (out: string, ...options: string[]) =>
+    groma([
+      ...["profile", converted(road.path), "--line", axis, "--line-crs", "source", "--width", "60"],
+      ...["--out", join(folder, out), "--overwrite", ...options],
+    ]);
+
+  it("have just the records in their rectangles, and the ground of these, in one archive", () => {
+    const options = ["--sections", "--interval", "5", "--thickness", "1", "--ground", "p10"];
+    const run = cut("sections.zip", ...options, "--files", "las,dxf,laz");
+    expect(run).toMatchObject({ code: 0 });
+    const zip = join(folder, "sections.zip");
+    const found = runPython<Record<string, unknown>>("interop/sections.py", [road.path, zip, "1"]);
+    expect(found).toMatchObject({ sections: 66, same: true, faults: [], grounds: true, drawn: true });
+    expect(found.points).toBeGreaterThan(8000);
+    // Sections at round coordinates have points of the lattice of 1 cm on their edges.
+    expect(found.doubtful).toBeGreaterThan(0);
+  });
+
+  it("are what a profile along the section alone is, byte for byte", () => {
+    expect(cut("one.zip", "--sections", "--at", "40,260", "--files", "las")).toMatchObject({ code: 0 });
+    execFileSync("python3", ["-m", "zipfile", "-e", join(folder, "one.zip"), folder]);
+    const rows = readFileSync(join(folder, "sections.csv"), "utf8").trim().split("\r\n").slice(1);
+    expect(rows).toHaveLength(2);
+    for (const row of rows) {
+      const [number, station, , , , ...ends] = row.split(",");
+      const [leftX, leftY, rightX, rightY] = ends.map(Number);
+      const line = join(folder, "section.geojson");
+      const coordinates = [
+        [leftX, leftY],
+        [rightX, rightY],
+      ];
+      writeFileSync(line, JSON.stringify({ type: "LineString", coordinates }));
+      const out = join(folder, "alone.las");
+      const run = groma([
+        ...["profile", converted(road.path), "--line", line, "--line-crs", "source", "--width", "0.5"],
+        ...["--out", out, "--overwrite"],
+      ]);
+      expect(run).toMatchObject({ code: 0 });
+      const together = readFileSync(join(folder, `section-${number}_${station}.las`));
+      expect(Buffer.compare(together, readFileSync(out))).toBe(0);
+    }
+  });
+
+  it("are refused in formats and at stations that there are not, before anything is read", () => {
+    const refusals: [string[], RegExp][] = [
+      [["sections.las", "--sections", "--interval", "5"], /OPTION_FORMAT.*cross-sections/s],
+      [["sections.zip", "--sections"], /--sections requires --interval or --at/],
+      [["profile.pdf", "--interval", "5"], /--interval and --at require --sections/],
+      [["sections.zip", "--sections", "--at", "5000"], /OPTION_SECTIONS.*no chainage 5000/s],
+      [["sections.zip", "--sections", "--at", "5", "--files", "tiff"], /Expected some of las/],
+      [["profile.xml", "--ground", "p101"], /percentile from p0 to p100/],
+    ];
+    for (const [[out, ...options], message] of refusals) {
+      const run = cut(out!, ...options);
+      expect(run.code).not.toBe(0);
+      expect(run.stderr).toMatch(message);
+    }
+  });
+});
