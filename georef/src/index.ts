@@ -33,6 +33,7 @@ export type {
 export { epsgLookup, type PackedEpsg, packEpsg } from "./crs/epsg-table.js";
 export { resolveCrs, resolveWithNotes } from "./crs/resolve.js";
 export { sameHeights, samePlane, sameSize } from "./crs/same.js";
+export { publishedAccuracy } from "./crs/shift-worth.js";
 export { type CurvatureRadii, curvatureRadii, radiusAlong } from "./ellipsoid/curvature.js";
 export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";
@@ -68,7 +69,7 @@ export {
   type GeodesicPolygon,
   geodesicPolygon,
 } from "./geodesic/polygon.js";
-export { boundsOfPlaces, spread } from "./georeference/area.js";
+export { areaOfDomain, boundsOfPlaces, spread, withWorthThere } from "./georeference/area.js";
 export { type DerivedOptions, deriveTransformation } from "./georeference/derive.js";
 export { fitPlacement } from "./georeference/fit.js";
 export { place } from "./georeference/place.js";

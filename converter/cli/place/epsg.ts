@@ -1,7 +1,13 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
-import type { EpsgEntry, EpsgLookup, EpsgRow } from "@groma/georef";
+import {
+  type EpsgEntry,
+  type EpsgLookup,
+  type EpsgRow,
+  type VerticalSystem,
+  verticalSystems,
+} from "@groma/georef";
 
 const folder = join(dirname(createRequire(import.meta.url).resolve("epsg-index/package.json")), "s");
 
@@ -19,6 +25,14 @@ export const epsg: EpsgLookup = (code) => {
 export function epsgRows(): EpsgRow[] {
   const table = JSON.parse(readFileSync(join(folder, "../all.json"), "utf8")) as Record<string, TableRow>;
   return Object.values(table).map((row) => ({ code: Number(row.code), ...entryOf(row) }));
+}
+
+let heights: readonly VerticalSystem[] | undefined;
+
+/** The vertical systems of the table; read once. */
+export function heightSystems(): readonly VerticalSystem[] {
+  heights ??= verticalSystems(epsgRows());
+  return heights;
 }
 
 /** A row as the table writes it. */

@@ -12,12 +12,11 @@ import {
   samePlane,
   sameSize,
   similarSystems,
-  verticalSystems,
 } from "@groma/georef";
 import type { Scan } from "../core/core.js";
 import { knownCrs } from "../proj/known-crs.js";
 import { chosenProj, type EngineChoice } from "./engine.js";
-import { epsg, epsgRows } from "./epsg.js";
+import { epsg, heightSystems } from "./epsg.js";
 import { type GivenPlace, isPlaced, type LocalPlace, localPlace } from "./local.js";
 import { expectedWhereabouts } from "./whereabouts.js";
 
@@ -187,7 +186,7 @@ function placeOf(scan: Named, given: Given): Place | undefined {
 
 /** The same refusal with the height systems that may be meant, else those in use at the place. */
 function withSuggestions(refusal: CrsError, text: string, place: Place | undefined): CrsError {
-  const systems = verticalSystems(epsgRows());
+  const systems = heightSystems();
   const similar = similarSystems(systems, text, place);
   const local = similar.length === 0 && place ? likelySystems(systems, { ...place, unit: 1 }) : [];
   const names = [...similar, ...local].map((system) => `EPSG:${system.code} (${system.name})`).join(", ");

@@ -5,8 +5,10 @@ import {
   EGM96,
   ecefToGeodetic,
   pointTransform,
+  publishedAccuracy,
   type Truth,
   truthOf,
+  withWorthThere,
 } from "@groma/georef";
 import type { EngineReport } from "../proj/report.js";
 import { geoidsOf } from "./geoids.js";
@@ -25,14 +27,16 @@ const RADIUS = 6.4e6;
  */
 export function withKnownShift(report: EngineReport, crs: Crs, truth: Truth, domain: Domain): EngineReport {
   const { datum } = crs;
-  if (!datum || datum.accuracy === null || report.ballpark) return report;
-  if (report.accuracy !== null && report.accuracy >= datum.accuracy) return report;
+  const published = datum && publishedAccuracy(datum);
+  if (!datum || typeof published !== "number" || report.ballpark) return report;
+  if (report.accuracy !== null && report.accuracy >= published) return report;
   // The accuracy of a way through a country's geoid is that of heights too, which the shift says nothing of.
   const ownGeoid = geoidsOf(truth).some((grid) => grid !== EGM96);
   if (report.accuracy === null && ownGeoid) return report;
   if (!isSamePlace(truth, crs, domain)) return report;
-  const operation = report.accuracy === null ? datum.operation : report.operation;
-  return { ...report, operation, accuracy: datum.accuracy };
+  if (report.accuracy !== null) return { ...report, accuracy: published };
+  const accuracy = withWorthThere(crs, truth, domain).datum?.accuracy ?? null;
+  return { ...report, operation: datum.operation, accuracy };
 }
 
 /** Whether the corners and the middle of a domain have the longitude and latitude that the CRS's own shift gives them. */

@@ -8,11 +8,12 @@ import {
   type GeoreferenceRecord,
   type OperationReport,
   truthOf,
+  withWorthThere,
 } from "@groma/georef";
 import type { Scan } from "../core/core.js";
 import { fitBoundOf, geoidsOf } from "./geoids.js";
 import { type Georeferenced, georeference, georeferenceRecord, type Named } from "./georeference.js";
-import { TOLERANCE } from "./records.js";
+import { domainOf, TOLERANCE } from "./records.js";
 
 /** Where a file's points are, as the file itself says it: by the same code that a page uses, without PROJ. */
 export interface Placed {
@@ -43,7 +44,7 @@ export async function placed(scan: Named & Pick<Scan, "min" | "max" | "scale">):
   if (!record) {
     const { crs, basis, notes } = await georeference(scan, { engine: "proj4js" });
     const truth = truthOf({ crs }, middle, scan.file);
-    const accuracy = accuracyParts(crs, scan.scale, TOLERANCE);
+    const accuracy = accuracyParts(withWorthThere(crs, truth, domainOf(scan)), scan.scale, TOLERANCE);
     return { crs, basis, notes, truth, ...noReport, accuracy };
   }
   const { crs, similarity, engine, operation, accuracy } = record;
@@ -52,7 +53,7 @@ export async function placed(scan: Named & Pick<Scan, "min" | "max" | "scale">):
   const transformation = bytes === undefined ? undefined : Buffer.from(bytes, "base64");
   const truth = truthOf({ crs, similarity, transformation }, middle, scan.file);
   if (operation && !transformation) {
-    const accuracy = accuracyParts(crs, scan.scale, TOLERANCE);
+    const accuracy = accuracyParts(withWorthThere(crs, truth, domainOf(scan)), scan.scale, TOLERANCE);
     return { crs, basis, notes: [], truth, ...noReport, accuracy };
   }
   return {

@@ -15,13 +15,12 @@ import {
   similarityParts,
   type Truth,
   truthOf,
-  verticalSystems,
 } from "@groma/georef";
 import type { PointBounds } from "../core/core.js";
 import { egm96 } from "../proj/egm96.js";
 import { type EngineReport, UNKNOWN_HEIGHT_NOTE } from "../proj/report.js";
 import { type EngineChoice, type EngineSurroundings, engineTransformation } from "./engine.js";
-import { epsgRows } from "./epsg.js";
+import { heightSystems } from "./epsg.js";
 import { geoidsOf } from "./geoids.js";
 import type { Georeferenced } from "./georeference.js";
 import { withKnownShift } from "./known-shift.js";
@@ -66,7 +65,7 @@ export async function makeRecords(
   if (isInSpace(crs)) {
     return encoded({ version: 1, crs, engine: ENGINE, accuracy: accuracyParts(crs, scale, TOLERANCE) });
   }
-  const domain = domainOf(min, max, scale);
+  const domain = domainOf({ min, max, scale });
   const { minZ, maxZ } = domain;
   const { transformation, report: own } = await engineTransformation(crs, domain, choice, surroundings);
   const bytes = encodeTransformation(transformation);
@@ -86,7 +85,7 @@ export async function makeRecords(
  * The bounds of the points and one step of their integers around: whoever asks for a surveyed point of the scan asks
  * with the digits that rounding to the steps has taken.
  */
-function domainOf(min: readonly number[], max: readonly number[], scale: ArrayLike<number>): Domain {
+export function domainOf({ min, max, scale }: PointBounds & { readonly scale: ArrayLike<number> }): Domain {
   const [minX, minY, minZ] = min.map((least, axis) => least - scale[axis]);
   const [maxX, maxY, maxZ] = max.map((greatest, axis) => greatest + scale[axis]);
   return { minX, minY, minZ, maxX, maxY, maxZ };
@@ -144,6 +143,5 @@ async function guessFor(
   ecefToGeodetic(ecef[0], ecef[1], ecef[2], geodetic);
   const code = /^EPSG:(\d+)/.exec(crs.code ?? "")?.[1];
   const countries = countriesOf(code === undefined ? undefined : Number(code));
-  const systems = verticalSystems(epsgRows());
-  return guessHeight(await egm96(), systems, crs, geodetic[0], geodetic[1], countries).note;
+  return guessHeight(await egm96(), heightSystems(), crs, geodetic[0], geodetic[1], countries).note;
 }

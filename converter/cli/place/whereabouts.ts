@@ -13,11 +13,10 @@ import {
   pointTransform,
   type Truth,
   truthOf,
-  verticalSystems,
 } from "@groma/georef";
 import type { PointBounds } from "../core/core.js";
 import { length } from "../terminal/output.js";
-import { epsg, epsgRows } from "./epsg.js";
+import { epsg, epsgRows, heightSystems } from "./epsg.js";
 import { likelyCrs } from "./likely-crs.js";
 import type { LocalPlace } from "./local.js";
 
@@ -119,7 +118,7 @@ function heightNote(crs: Crs, centre: Place): CrsNote[] | undefined {
   const horizontal = planeCode(crs);
   const countries = countriesOf(horizontal);
   const clues = { ...centre, unit: crs.verticalUnit.size, horizontal, countries };
-  const likely = likelySystems(verticalSystems(epsgRows()), clues);
+  const likely = likelySystems(heightSystems(), clues);
   const hint = likely.length === 0 ? "" : `; in use there: ${named(likely)}`;
   const where = `the middle of the data set (${pointInWords(centre)}) lies ${length(far)} outside of the area of use`;
   const text = `${where} of the height system ${system.name} (${shown(system)})${hint}`;

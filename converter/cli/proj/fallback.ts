@@ -1,4 +1,12 @@
-import { type Crs, type Domain, deriveTransformation, EGM96, EGM96_NOTE } from "@groma/georef";
+import {
+  type Crs,
+  compileTransformation,
+  type Domain,
+  deriveTransformation,
+  EGM96,
+  EGM96_NOTE,
+  withWorthThere,
+} from "@groma/georef";
 import proj4 from "proj4";
 import { egm96 } from "./egm96.js";
 import { type EngineOptions, type EngineResult, UNKNOWN_HEIGHT_NOTE } from "./report.js";
@@ -23,6 +31,7 @@ export async function proj4jsTransformation(
   const geoid = crs.height.kind === "geoid" ? await egm96() : undefined;
   const transformation = await deriveTransformation(crs, domain, { egm96: geoid, tolerance, file });
   const [projection] = transformation.steps;
+  const { datum } = withWorthThere(crs, compileTransformation(transformation, file), domain);
   const notes = [WITHOUT_PROJ_NOTE];
   if (geoid) notes.push(EGM96_NOTE);
   if (crs.height.kind === "unknown") notes.push(UNKNOWN_HEIGHT_NOTE);
@@ -30,8 +39,8 @@ export async function proj4jsTransformation(
     transformation,
     report: {
       engine: { name: "proj4js", version: proj4.version },
-      operation: crs.datum?.operation ?? "datum shift of the PROJ string",
-      accuracy: crs.datum?.accuracy ?? null,
+      operation: datum?.operation ?? "datum shift of the PROJ string",
+      accuracy: datum?.accuracy ?? null,
       ballpark: false,
       grids: geoid ? [EGM96] : [],
       lacking: [],

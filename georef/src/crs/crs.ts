@@ -18,8 +18,13 @@ export interface Unit {
 export interface DatumOperation {
   /** Name of the operation with its EPSG code where it has one, in words where nothing is known. */
   readonly operation: string;
-  /** Accuracy of the operation in metres as its publisher states it; `null` when nobody has stated one. */
+  /**
+   * Metres: as its publisher states it; where one operation stands for a whole datum, no less than its distance from
+   * those for parts of the datum's area. `null` when nobody has stated an accuracy.
+   */
   readonly accuracy: number | null;
+  /** EPSG code of the datum whose one operation this is; absent for a shift that the CRS itself names. */
+  readonly datum?: number;
 }
 
 /**

@@ -20,7 +20,8 @@ type Row = readonly [number, number, number, readonly number[], readonly string[
 /**
  * Datums with a shift, by EPSG code. Where EPSG lists several transformations it is the one that PROJ 9.5 uses over
  * most of the datum's land when it has no grids (NAD83(HARN): the conterminous states); parameters and accuracies are those
- * of EPSG v11. Datums whose transformations differ from country to country (Pulkovo 1942(58) and (83)) are left out.
+ * of EPSG v11; what that is worth in the parts of a datum's area stands in datum-spread.ts. Datums whose
+ * transformations differ from country to country (Pulkovo 1942(58) and (83)) are left out.
  */
 const SHIFTED: readonly Row[] = [
   [6149, 1766, 1.5, [674.374, 15.056, 405.346], ["CH1903"]],
@@ -177,7 +178,8 @@ const GEOCENTRIC: readonly (readonly [number, number, number, readonly string[]]
 
 const NONE = [0, 0, 0] as const;
 
-const TABLE: readonly DatumShift[] = [
+/** All datums with a way to WGS 84. */
+export const DATUM_SHIFTS: readonly DatumShift[] = [
   ...SHIFTED,
   ...GEOCENTRIC.map(([code, operation, accuracy, names]): Row => [code, operation, accuracy, NONE, names]),
 ].map(([code, operation, accuracy, towgs84, names]) => ({ code, operation, accuracy, towgs84, names }));
@@ -191,12 +193,12 @@ function plain(name: string): string {
 }
 
 const BY_NAME: ReadonlyMap<string, DatumShift> = new Map(
-  TABLE.flatMap((shift) => shift.names.map((name) => [plain(name), shift] as const)),
+  DATUM_SHIFTS.flatMap((shift) => shift.names.map((name) => [plain(name), shift] as const)),
 );
 
 /** The shift of a datum, by EPSG code if it has one, else by name. */
 export function findDatumShift(name: string, code?: number): DatumShift | undefined {
-  return TABLE.find((shift) => shift.code === code) ?? BY_NAME.get(plain(name));
+  return DATUM_SHIFTS.find((shift) => shift.code === code) ?? BY_NAME.get(plain(name));
 }
 
 /** A shift if it is a translation alone, else undefined. */

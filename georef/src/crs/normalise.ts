@@ -5,6 +5,7 @@ import { projectionOf } from "./methods.js";
 import type { CrsModel, HorizontalModel, VerticalModel } from "./model.js";
 import { NO_DATUM, readProjString, shiftOfProjString } from "./proj-string.js";
 import { unsupported } from "./refusal.js";
+import { shiftAccuracy } from "./shift-worth.js";
 import { METRE, projUnit } from "./units.js";
 import { WEB_MERCATOR } from "./web-mercator.js";
 
@@ -120,7 +121,8 @@ function findShift(model: HorizontalModel, lookup?: EpsgLookup): Shift {
   if (known && (!datum.towgs84 || sameShift(datum.towgs84, known.towgs84))) {
     const code = known.operation === 0 ? "" : ` (EPSG:${known.operation})`;
     const operation = `${known.names[0]} to WGS 84${code}`;
-    return { towgs84: known.towgs84, datum: { operation, accuracy: known.accuracy } };
+    const accuracy = shiftAccuracy(known);
+    return { towgs84: known.towgs84, datum: { operation, accuracy, datum: known.code } };
   }
   if (datum.towgs84) {
     return {

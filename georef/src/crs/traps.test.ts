@@ -42,6 +42,7 @@ describe("traps of proj4js that are closed", () => {
     expect(read({ wkt: datum("", "D_MGI") }).datum).toEqual({
       operation: "Militar-Geographische Institut to WGS 84 (EPSG:1618)",
       accuracy: 1.5,
+      datum: 6312,
     });
     expect(refusal({ wkt: datum("", "Mars_2000") })).toMatch(
       /^CRS_UNSUPPORTED: no shift from the datum "Mars_2000"/,

@@ -1,4 +1,9 @@
 import type { Domain } from "../cartesian/domain.js";
+import type { AreaOfUse } from "../crs/area-of-use.js";
+import type { Crs } from "../crs/crs.js";
+import { accuracyIn } from "../crs/shift-worth.js";
+import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
+import { pointTransform, type Truth } from "../engines/truth.js";
 import type { Bounds } from "../grid/window.js";
 
 /** Points along each side; between two of them a side bends by less than the margin for anything that is a scan. */
@@ -56,6 +61,31 @@ export function boundsOfPlaces(places: Float64Array): Bounds | undefined {
     east: east + x,
     north: Math.min(Math.PI / 2, north + y),
   };
+}
+
+/** The area that a domain covers on the earth, degrees; undefined where none of it has a place. */
+export function areaOfDomain(truth: Truth, domain: Domain): AreaOfUse | undefined {
+  const evaluate = pointTransform(truth);
+  const points = spread(domain);
+  const ecef = new Float64Array(3);
+  for (let i = 0; i < points.length; i += 3) {
+    evaluate(points[i], points[i + 1], points[i + 2], ecef, 0);
+    ecefToGeodetic(ecef[0], ecef[1], ecef[2], points, i);
+  }
+  const bounds = boundsOfPlaces(points);
+  if (!bounds) return undefined;
+  const { west, south, east, north } = bounds;
+  const degrees = (radians: number) => (radians * 180) / Math.PI;
+  const turned = (radians: number) => degrees(radians - TURN * Math.round(radians / TURN));
+  const around = east - west >= TURN;
+  return [around ? -180 : turned(west), degrees(south), around ? 180 : turned(east), degrees(north)];
+}
+
+/** A CRS whose way to WGS 84 is said to be worth what it is in the area of a data set, and not in all of its datum's. */
+export function withWorthThere<T extends Pick<Crs, "datum">>(crs: T, truth: Truth, domain: Domain): T {
+  const { datum } = crs;
+  if (datum?.datum === undefined) return crs;
+  return { ...crs, datum: { ...datum, accuracy: accuracyIn(datum, areaOfDomain(truth, domain)) } };
 }
 
 function middleLongitude(places: Float64Array): number | undefined {

@@ -78,16 +78,21 @@ function readHeight(height: Json): HeightReference {
   if (height.kind !== "geoid") throw new FieldError("crs.height.kind", "ellipsoidal, geoid or unknown");
   const geoid = { kind: "geoid", model: text(height.model, "crs.height.model") } as const;
   if (height.epsg === undefined) return geoid;
-  const epsg = number(height.epsg, "crs.height.epsg");
-  if (!Number.isInteger(epsg) || epsg <= 0) throw new FieldError("crs.height.epsg", "an EPSG code");
-  return { ...geoid, epsg };
+  return { ...geoid, epsg: epsgCode(height.epsg, "crs.height.epsg") };
+}
+
+function epsgCode(value: unknown, member: string): number {
+  const code = number(value, member);
+  if (!Number.isInteger(code) || code <= 0) throw new FieldError(member, "an EPSG code");
+  return code;
 }
 
 function readDatum(datum: Json): DatumOperation {
-  return {
+  const read = {
     operation: text(datum.operation, "crs.datum.operation"),
     accuracy: metresOrNull(datum.accuracy, "crs.datum.accuracy"),
   };
+  return datum.datum === undefined ? read : { ...read, datum: epsgCode(datum.datum, "crs.datum.datum") };
 }
 
 function readOperation(operation: Json): OperationReport {

@@ -24,6 +24,7 @@ import {
   type Truth,
   type TruthSources,
   truthOf,
+  withWorthThere,
 } from "@groma/georef";
 import type { PointSource } from "../sources/contract/point-source.js";
 import { type OpenOptions, readWhole, type SourceLike } from "../sources/open-source.js";
@@ -33,6 +34,7 @@ import {
   crsWithHeights,
   type Declared,
   derivedByEgm96,
+  domainOf,
   lookupFor,
   operationRegiven,
   regiven,
@@ -188,16 +190,17 @@ async function fromCrs(
   const { heightData = packagedHeights } = options;
   const outsideOf =
     vertical === undefined ? undefined : await systemAbroad(map.truth, crs, source, heightData);
+  const there = withWorthThere(crs, map.truth, domainOf(source));
   const placing = by.transformation && {
     outsideOf,
     operation: {
-      name: crs.datum?.operation ?? UNSTATED.name,
-      accuracy: crs.datum?.accuracy ?? null,
+      name: there.datum?.operation ?? UNSTATED.name,
+      accuracy: there.datum?.accuracy ?? null,
       ballpark: false,
     },
     geoids: map.geoids,
   };
-  const parts = accuracyParts(crs, source.scale, greatestBound(map.truth, source, tolerance), placing);
+  const parts = accuracyParts(there, source.scale, greatestBound(map.truth, source, tolerance), placing);
   const remarks = [whose, ...notes.map(({ text }) => text), ...(overruled ? [OVERRULED] : [])];
   const told = remarked(parts, "datum operation", remarks.join("; "));
   return {
@@ -239,7 +242,8 @@ function recorded(
   const bound = greatestBound(map.truth, source, tolerance);
   const lost = !transformation && !similarity && (engine.name === "PROJ" || operation !== undefined);
   if (lost) {
-    const parts = remarked(accuracyParts(crs, source.scale, bound), "datum operation", LOST);
+    const there = withWorthThere(crs, map.truth, domainOf(source));
+    const parts = remarked(accuracyParts(there, source.scale, bound), "datum operation", LOST);
     return { ...common, engine: ENGINE, operation: undefined, accuracy: statedAccuracy(parts) };
   }
   // The record's own fit is the converter's default; what holds here is the tolerance of this page.

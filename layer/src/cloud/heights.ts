@@ -177,7 +177,7 @@ export async function derivedByEgm96(crs: Crs, source: Declared, egm96: Grid): P
 }
 
 /** The bounds of the points, and one step of their integers around. */
-function domainOf({ boundingBox: { min, max }, scale }: Declared): Domain {
+export function domainOf({ boundingBox: { min, max }, scale }: Declared): Domain {
   const [minX, minY, minZ] = min.map((least, axis) => least - scale[axis]);
   const [maxX, maxY, maxZ] = max.map((greatest, axis) => greatest + scale[axis]);
   return { minX, minY, minZ, maxX, maxY, maxZ };
