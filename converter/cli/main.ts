@@ -122,6 +122,13 @@ const georef = program
     (await import("./commands/georef.js")).runGeoref(file, output, options),
   );
 
+const grids = program
+  .command("grids")
+  .description("show which grids PROJ lacks to place a file more accurately, and how to get them")
+  .argument("<file>", "LAS, LAZ or COPC file, or the address of a COPC file")
+  .option("--json", "print JSON")
+  .action(async (file: string, options) => (await import("./commands/grids.js")).runGrids(file, options));
+
 program
   .command("locate")
   .description("convert points to ECEF, longitude, latitude and height as the page does, with their accuracy")
@@ -273,7 +280,7 @@ const view = program
     (await import("./commands/view.js")).runView(file, serving(options)),
   );
 
-for (const command of [convert, view, georef]) {
+for (const command of [convert, view, georef, grids]) {
   for (const option of placing()) command.addOption(option);
 }
 for (const command of [convert, view]) for (const option of reading()) command.addOption(option);

@@ -156,6 +156,7 @@ describe("hostile names and contents", () => {
     ["locate from an odd system", locate(fileName, "points.txt", "--inverse", HOSTILE), 1],
     ["georef", ["georef", `${HOSTILE}.copc.laz`], 0],
     ["georef of what is no COPC", ["georef", fileName], 1],
+    ["grids", ["grids", fileName], 0],
     ["serve", ["serve", `sub${HOSTILE}`, "--port", "0"], 0, /http:/],
     ["view", ["view", fileName, "--port", "0", "--progress", "plain"], 0, /http:/],
   ])("%s: shows nothing raw and changes nothing that objects inherit", async (_what, args, code, until) => {

@@ -84,6 +84,29 @@ describe.skipIf(missing)("groma georef", () => {
     for (const cloud of [certified, derived, served]) cloud.destroy();
   });
 
+  it("says which grids a file lacks, and nothing where it has them", { timeout: 60_000 }, async () => {
+    const las = join(folder, "rows.las");
+    const told = async (...more: string[]) => {
+      const { stdout } = await groma("grids", ...more, "--json");
+      return JSON.parse(stdout) as {
+        operation: { grids: string[] };
+        better: { accuracy: number; grids: { name: string; get: string }[] }[];
+      };
+    };
+    const bare = await told(las);
+    // A machine of its own grids lacks none.
+    const known = [
+      ...bare.operation.grids,
+      ...bare.better.flatMap(({ grids }) => grids.map(({ name }) => name)),
+    ];
+    expect(known).toContain("nl_nsgi_nlgeo2018.tif");
+    for (const { grids: lacking } of bare.better) {
+      for (const { name, get } of lacking) expect(get).toBe(`projsync --file ${name}`);
+    }
+    const full = await told(server.url, "--grids", grids.path);
+    expect([full.operation.grids.includes("nl_nsgi_nlgeo2018.tif"), full.better]).toEqual([true, []]);
+  });
+
   it("does not write over a file, and says what is wrong with an input", async () => {
     const out = join(folder, "there.georef");
     writeFileSync(out, "mine");

@@ -16,7 +16,7 @@ export interface OpenedPoints {
 }
 
 /** An address that is read by Range requests. */
-const isAddress = (input: string): boolean => /^https?:\/\//i.test(input);
+export const isAddress = (input: string): boolean => /^https?:\/\//i.test(input);
 
 /**
  * Opens a COPC file of this machine or of a server.
