@@ -36,8 +36,8 @@ function between(from: number, to: number, share: number): number {
 }
 
 /**
- * Bounds of longitude, latitude, height triples (radians), points that are not finite left out; widened by a margin.
- * Longitudes are taken on the turn nearest to the middle point's.
+ * Bounds of longitude, latitude, height triples (radians) of the points of {@link spread}, those that are not finite left out;
+ * widened by a margin. Longitudes are taken on the turn nearest to the middle point's; around a pole they are all there are.
  *
  * @returns nothing when no point is finite
  */
@@ -52,6 +52,20 @@ export function boundsOfPlaces(places: Float64Array): Bounds | undefined {
     east = Math.max(east, longitude);
     south = Math.min(south, places[i + 1]);
     north = Math.max(north, places[i + 1]);
+  }
+  if (turnsAround(places) !== 0) {
+    const [pole, other] = Math.abs(north) > Math.abs(south) ? [Math.PI / 2, south] : [north, -Math.PI / 2];
+    const y = MARGIN + RELATIVE_MARGIN * (north - south);
+    return {
+      ...{ west: middle - Math.PI - MARGIN, east: middle + Math.PI + MARGIN },
+      south: Math.max(-Math.PI / 2, Math.min(pole, other) - y),
+      north: Math.min(Math.PI / 2, Math.max(pole, other) + y),
+    };
+  }
+  // What lies between two points of the raster may be missing from a whole turn.
+  if (east - west > TURN * (1 - 2 / SIDE)) {
+    west = middle - Math.PI - MARGIN;
+    east = middle + Math.PI + MARGIN;
   }
   const x = MARGIN / Math.max(0.01, Math.cos((south + north) / 2)) + RELATIVE_MARGIN * (east - west);
   const y = MARGIN + RELATIVE_MARGIN * (north - south);
@@ -86,6 +100,23 @@ export function withWorthThere<T extends Pick<Crs, "datum">>(crs: T, truth: Trut
   const { datum } = crs;
   if (datum?.datum === undefined) return crs;
   return { ...crs, datum: { ...datum, accuracy: accuracyIn(datum, areaOfDomain(truth, domain)) } };
+}
+
+/** How many times longitude goes round along the edge of the raster: not at all, unless it lies around a pole. */
+function turnsAround(places: Float64Array): number {
+  const last = SIDE - 1;
+  const at = (i: number, j: number) => places[3 * (i * SIDE + j)];
+  const ring: number[] = [];
+  for (let t = 0; t < last; t++) ring.push(at(t, 0));
+  for (let t = 0; t < last; t++) ring.push(at(last, t));
+  for (let t = last; t > 0; t--) ring.push(at(t, last));
+  for (let t = last; t > 0; t--) ring.push(at(0, t));
+  let sum = 0;
+  for (const [i, longitude] of ring.entries()) {
+    const step = ring[(i + 1) % ring.length] - longitude;
+    sum += step - TURN * Math.round(step / TURN);
+  }
+  return Math.round(sum / TURN) || 0;
 }
 
 function middleLongitude(places: Float64Array): number | undefined {

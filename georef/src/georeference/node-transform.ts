@@ -4,7 +4,7 @@ import type { ExactTransform } from "../engines/exact.js";
 import { linksOf } from "../transformation/compile.js";
 import type { StepwiseTruth } from "../transformation/evaluate.js";
 import type { Link, PointTransform } from "../transformation/link.js";
-import { holds } from "../transformation/projection.js";
+import { holds, projectionLink } from "../transformation/projection.js";
 import { patchworkOf } from "../transformation/rectangle.js";
 import type { Transformation } from "../transformation/step.js";
 import { type Unfolded, unfoldAll } from "./creases.js";
@@ -62,6 +62,7 @@ export function nodeTransform(
   const undivided = (): NodeTransform => {
     return { ...common, smooth: smoothOf(linksOf(transformation, end)), corrections: [] };
   };
+  if (hasGrid(transformation) && isTornByCut(transformation, domain)) return undivided();
   const links: Link[] = [];
   const parts: GridPart[] = [];
   for (const step of transformation.steps) {
@@ -80,6 +81,31 @@ export function nodeTransform(
   const before = patched + 0.5 * samples.curvature() * BETWEEN_SAMPLES;
   const corrections = correctionsOf(parts, links, before, own === undefined ? (part) => part : heightsOf);
   return { ...common, smooth: smoothOf(links), corrections };
+}
+
+function hasGrid({ steps }: Transformation): boolean {
+  return steps.some(({ kind }) => kind === "horizontalShift" || kind === "verticalShift");
+}
+
+/**
+ * Whether longitude jumps inside of a node, which it does in a patchwork that counts from a centre of its own, at 180° and at
+ * the poles: grids cannot be taken apart there.
+ */
+function isTornByCut(transformation: Transformation, { minX, minY, maxX, maxY }: Domain): boolean {
+  const patchwork = patchworkOf(transformation);
+  if (!patchwork.centre) return false;
+  const link = projectionLink(patchwork);
+  const state = new Float64Array(3);
+  const shares = [0, 0.5, 1];
+  const longitudes = shares.flatMap((u) =>
+    shares.map((v) => {
+      state[0] = minX * (1 - u) + maxX * u;
+      state[1] = minY * (1 - v) + maxY * v;
+      link.apply(state);
+      return state[0];
+    }),
+  );
+  return Math.max(...longitudes) - Math.min(...longitudes) > Math.PI / 2;
 }
 
 /** The same with x and y as they are in the source, times what a unit of the source is. */

@@ -1,6 +1,6 @@
 import type { GridWindow } from "../grid/window.js";
 import { ByteReader } from "./bytes.js";
-import { DIRECTIONS, KINDS, MAGIC, VERSION } from "./format.js";
+import { DIRECTIONS, KINDS, MAGIC, TURNED_PROJECTION, VERSION } from "./format.js";
 import { readGridValues } from "./grid-values.js";
 import { DEGREE_MAX } from "./projection.js";
 import type { EllipsoidAxes, Patch, Patchwork, Step, Transformation } from "./step.js";
@@ -32,15 +32,23 @@ export function decodeTransformation(bytes: Uint8Array, file: string): Transform
   const count = reader.u8();
   const steps: Step[] = [];
   for (let i = 0; i < count; i++) {
-    const kind = KINDS[reader.u8()];
+    const number = reader.u8();
+    const turned = number === TURNED_PROJECTION;
+    const kind = turned ? "projection" : KINDS[number];
     reader.check(kind !== undefined, "a step of an unknown kind");
     reader.check((kind === "projection") === (i === 0), "a projection that is not its first step");
     reader.check((kind === "geocentric") === (i === count - 1), "a last step that does not lead to ECEF");
-    steps.push(readStep(reader, kind));
+    steps.push(turned ? readTurned(reader) : readStep(reader, kind));
   }
   reader.check(steps.length > 0, "no steps");
   reader.check(reader.remaining === 0, "bytes after its end");
   return { steps };
+}
+
+function readTurned(reader: ByteReader): Step {
+  const [longitude, latitude] = [reader.f64("a centre"), reader.f64("a centre")];
+  reader.check(Math.abs(latitude) <= Math.PI / 2, `a centre at the latitude ${latitude}`);
+  return { kind: "projection", patchwork: { ...readPatchwork(reader), centre: [longitude, latitude] } };
 }
 
 function readStep(reader: ByteReader, kind: Step["kind"]): Step {

@@ -1,6 +1,6 @@
 import type { GridWindow } from "../grid/window.js";
 import { ByteWriter } from "./bytes.js";
-import { DIRECTIONS, KINDS, MAGIC, VERSION } from "./format.js";
+import { DIRECTIONS, KINDS, MAGIC, TURNED_PROJECTION, VERSION } from "./format.js";
 import { writeGridValues } from "./grid-values.js";
 import type { EllipsoidAxes, Patchwork, Step, Transformation } from "./step.js";
 
@@ -11,7 +11,8 @@ export function encodeTransformation({ steps }: Transformation): Uint8Array {
   writer.u8(VERSION);
   writer.u8(steps.length);
   for (const step of steps) {
-    writer.u8(KINDS.indexOf(step.kind));
+    const turned = step.kind === "projection" && step.patchwork.centre;
+    writer.u8(turned ? TURNED_PROJECTION : KINDS.indexOf(step.kind));
     writeStep(writer, step);
   }
   return writer.finish();
@@ -49,7 +50,8 @@ function writeEllipsoid(writer: ByteWriter, { a, f }: EllipsoidAxes): void {
   writer.f64(a, f);
 }
 
-function writePatchwork(writer: ByteWriter, { bound, patches }: Patchwork): void {
+function writePatchwork(writer: ByteWriter, { bound, patches, centre }: Patchwork): void {
+  if (centre) writer.f64(...centre);
   writer.f64(bound);
   writer.u16(patches.length);
   for (const { minX, minY, maxX, maxY, degree, coefficients } of patches) {

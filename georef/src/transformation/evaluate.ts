@@ -70,6 +70,8 @@ export function compileTransformation(
     jacobian.fill(0);
     jacobian[0] = jacobian[4] = jacobian[8] = 1;
     for (let i = 0; i < links.length; i++) links[i].differentiate(ecef, jacobian);
+    // Next to a pole derivatives are those of a place beside it.
+    evaluate(x, y, z, ecef, 0);
   };
 
   const outside = (what: string, x: number, y: number, z: number) =>

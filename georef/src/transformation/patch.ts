@@ -188,7 +188,7 @@ function truncated(coefficients: Float64Array, degree: number): Float64Array {
 
 /** Greatest deviation of a patch from all of its samples, radians. */
 function deviation(patch: Patch, places: Float64Array, cosLatitude: number): number {
-  const link = projectionLink({ patches: [patch], bound: 0 });
+  const link = projectionLink({ patches: [patch] });
   const points = samplePlaces([patch]);
   const state = new Float64Array(3);
   let greatest = 0;

@@ -183,8 +183,64 @@ describe("patchwork", () => {
     ["inside", { minX: -50e3, minY: -30e3, maxX: 40e3, maxY: 60e3 }],
     ["in the middle", { minX: -1e3, minY: -1e3, maxX: 1e3, maxY: 1e3 }],
     ["on the corner", { minX: 0, minY: 0, maxX: 1e3, maxY: 1e3 }],
-  ])("refuses a pole %s of the domain", async (_, domain) => {
+    ["on an edge", { minX: -500e3, minY: 0, maxX: 400e3, maxY: 900e3 }],
+  ])("counts from its own middle with a pole %s of the domain", async (_, domain) => {
     const sample = samplerOf("+proj=stere +lat_0=90 +lat_ts=70 +lon_0=-45 +ellps=WGS84");
+    const patchwork = await fitPatchwork(sample, domain);
+    expect(patchwork.centre).toBeDefined();
+    const fitted = onSphere(patchwork);
+    const next = random(5);
+    const points = Array.from({ length: 200 }, () => [
+      domain.minX + next() * (domain.maxX - domain.minX),
+      domain.minY + next() * (domain.maxY - domain.minY),
+    ]);
+    for (const [x, y] of [[0, 0], [1e-7, 0], [0, 1e-3], ...points]) {
+      const [longitude, latitude] = await sample(Float64Array.of(x, y));
+      expect(distance(fitted(x, y), sphere(longitude, latitude))).toBeLessThanOrEqual(patchwork.bound);
+    }
+  });
+
+  it("has derivatives and an inverse up to the pole", async () => {
+    const sample = samplerOf("+proj=stere +lat_0=90 +lat_ts=70 +lon_0=-45 +ellps=WGS84");
+    const patchwork = await fitPatchwork(sample, { minX: -1e3, minY: -2e3, maxX: 3e3, maxY: 1e3 });
+    const geocentric = { kind: "geocentric", ellipsoid: { a: WGS84.a, f: WGS84.f } } as const;
+    const compiled = compileTransformation({ steps: [{ kind: "projection", patchwork }, geocentric] });
+    const [ecef, source, plus, minus] = [0, 0, 0, 0].map(() => new Float64Array(3));
+    const jacobian = new Float64Array(9);
+    for (const [x, y] of [
+      [0, 0],
+      [1e-6, -1e-6],
+      [0, 0.001],
+      [-900, 800],
+      [0, -1],
+    ]) {
+      compiled.forward(x, y, 7, ecef);
+      compiled.inverse(ecef[0], ecef[1], ecef[2], source);
+      expect(
+        Math.max(Math.abs(source[0] - x), Math.abs(source[1] - y), Math.abs(source[2] - 7)),
+      ).toBeLessThan(1e-6);
+      compiled.jacobian(x, y, 7, jacobian);
+      for (const column of [0, 1]) {
+        compiled.forward(x + (1 - column), y + column, 7, plus);
+        compiled.forward(x - (1 - column), y - column, 7, minus);
+        for (let row = 0; row < 3; row++) {
+          expect(jacobian[3 * row + column]).toBeCloseTo((plus[row] - minus[row]) / 2, 5);
+        }
+      }
+    }
+  });
+
+  it("refuses a pole with most of the earth around it", async () => {
+    // Degrees from the pole, in all directions.
+    const sample: ProjectionSampler = async (points) => {
+      const places = new Float64Array(points.length);
+      for (let i = 0; i < points.length; i += 2) {
+        const [x, y] = points.subarray(i, i + 2);
+        places.set([Math.atan2(x, -y), Math.PI / 2 - Math.hypot(x, y) * DEGREE], i);
+      }
+      return places;
+    };
+    const domain = { minX: -100, minY: -100, maxX: 100, maxY: 100 };
     expect(await codeOf(fitPatchwork(sample, domain))).toBe("PLACE_POLE");
   });
 

@@ -4,6 +4,7 @@ import { PlacementError } from "../errors/errors.js";
 import { fitPatch, type Refusal, SAMPLES_PER_PATCH, samplePlaces } from "./patch.js";
 import type { Rectangle } from "./rectangle.js";
 import type { EllipsoidAxes, Patch, Patchwork } from "./step.js";
+import { turnedPlaces } from "./turned-sphere.js";
 
 /**
  * Takes source coordinates x, y of many points, one after the other, and gives longitude, latitude of each in radians,
@@ -23,14 +24,16 @@ const PATCHES_MAX = 1024;
 const MARGIN = 1e-9;
 
 /**
- * Fits the inverse projection over a domain, cutting it up until each piece is certified to the tolerance.
+ * Fits the inverse projection over a domain, cutting it up until each piece is certified to the tolerance. Where a pole or
+ * a jump of longitude lies inside, the pieces count from the middle of the domain, on a sphere turned there.
  *
  * @param domain source units; a domain without width is widened by 1e-9 of its coordinates, as every one is
  * @param toleranceMetres on the ground
  * @param ellipsoid of the projection's base CRS
  * @param file name for error messages
- * @throws PlacementError PLACE_POLE when a pole of the projection's grid lies inside, PLACE_ANTIMERIDIAN when longitude
- *   jumps there and cannot be unwrapped, PLACE_DOMAIN where there is no place, PLACE_PATCHWORK when no fit is good enough
+ * @throws PlacementError PLACE_POLE or PLACE_ANTIMERIDIAN when the domain reaches around the earth so far that a sphere turned
+ *   to its middle has a pole or a jump inside as well, PLACE_DOMAIN where there is no place, PLACE_PATCHWORK when no fit is
+ *   good enough
  */
 export async function fitPatchwork(
   sample: ProjectionSampler,
@@ -38,6 +41,34 @@ export async function fitPatchwork(
   toleranceMetres: number = PATCHWORK_TOLERANCE,
   ellipsoid: EllipsoidAxes = WGS84,
   file = "points",
+): Promise<Patchwork> {
+  const surroundings = [domain, toleranceMetres, ellipsoid, file] as const;
+  try {
+    return await fitFrom(sample, ...surroundings);
+  } catch (refusal) {
+    if (!(refusal instanceof PlacementError && TURNING_HELPS.has(refusal.code))) throw refusal;
+    const { minX, minY, maxX, maxY } = domain;
+    const [longitude, latitude] = await sample(Float64Array.of((minX + maxX) / 2, (minY + maxY) / 2));
+    if (!(Number.isFinite(longitude) && Number.isFinite(latitude))) throw refusal;
+    const centre = [longitude, latitude] as const;
+    const turned: ProjectionSampler = async (points) => turnedPlaces(await sample(points), centre);
+    try {
+      return { ...(await fitFrom(turned, ...surroundings)), centre };
+    } catch {
+      throw refusal;
+    }
+  }
+}
+
+const TURNING_HELPS = new Set(["PLACE_POLE", "PLACE_ANTIMERIDIAN"]);
+
+/** A patchwork in the longitudes and latitudes that the sampler gives. */
+async function fitFrom(
+  sample: ProjectionSampler,
+  domain: Rectangle,
+  toleranceMetres: number,
+  ellipsoid: EllipsoidAxes,
+  file: string,
 ): Promise<Patchwork> {
   // The greatest radius of curvature of the ellipsoid, at its poles: no angle is longer on the ground.
   const metresPerRadian = ellipsoid.a / (1 - ellipsoid.f);
@@ -108,7 +139,7 @@ function refused(why: Refusal, rectangle: Rectangle, file: string, tolerance: nu
       `part of the data set lies where its projection has no place (${bounds})`,
       check,
     ],
-    pole: ["PLACE_POLE", `a pole lies inside the data set or on its edge (${bounds})`, smaller],
+    pole: ["PLACE_POLE", `the data set reaches around a pole and far beyond it (${bounds})`, smaller],
     jump: ["PLACE_ANTIMERIDIAN", `longitude jumps inside the data set (${bounds})`, smaller],
     rough: ["PLACE_PATCHWORK", `no fit of the projection reaches ${tolerance} m (${bounds})`, check],
   }[why];

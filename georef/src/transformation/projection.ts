@@ -1,6 +1,7 @@
 import type { Link } from "./link.js";
 import { premultiply } from "./link.js";
 import type { Patch, Patchwork } from "./step.js";
+import { turnBackLink } from "./turned-sphere.js";
 
 /** Highest degree that a patch may have: what the scratch space here and the reader of records allow. */
 export const DEGREE_MAX = 16;
@@ -9,7 +10,24 @@ export const DEGREE_MAX = 16;
 const EDGE = 1e-12;
 
 /** Compiles a patchwork: (x, y, z) → (longitude, latitude, z). */
-export function projectionLink({ patches }: Patchwork): Link {
+export function projectionLink({ patches, centre }: Pick<Patchwork, "patches" | "centre">): Link {
+  const patched = patchesLink(patches);
+  if (!centre) return patched;
+  const back = turnBackLink(centre);
+  return {
+    apply(state) {
+      patched.apply(state);
+      back.apply(state);
+    },
+    differentiate(state, jacobian) {
+      patched.differentiate(state, jacobian);
+      back.differentiate(state, jacobian);
+    },
+  };
+}
+
+/** The polynomials alone. */
+function patchesLink(patches: readonly Patch[]): Link {
   const byU = new Float64Array(2 * (DEGREE_MAX + 1));
   const byV = new Float64Array(2 * (DEGREE_MAX + 1));
   const own = new Float64Array(9);

@@ -91,12 +91,19 @@ const transformation: fc.Arbitrary<Transformation> = fc
   .record({
     patches: fc.array(patch, { minLength: 1, maxLength: 4 }),
     bound: positive,
+    centre: fc.option(
+      fc.tuple(
+        fc.double({ min: -7, max: 7, noNaN: true }),
+        fc.double({ min: -Math.PI / 2, max: Math.PI / 2, noNaN: true }),
+      ),
+      { nil: undefined },
+    ),
     others: fc.array(middle, { maxLength: 4 }),
     ellipsoid: axes,
   })
-  .map(({ patches, bound, others, ellipsoid }) => ({
+  .map(({ patches, bound, centre, others, ellipsoid }) => ({
     steps: [
-      { kind: "projection", patchwork: { patches, bound } },
+      { kind: "projection", patchwork: { patches, bound, ...(centre && { centre }) } },
       ...others,
       { kind: "geocentric", ellipsoid },
     ],

@@ -75,9 +75,14 @@ export interface Patchwork {
   readonly patches: readonly Patch[];
   /** Metres on the ground: no point of the domain is put farther from where the projection has it. */
   readonly bound: number;
+  /**
+   * Longitude and latitude (radians) of the place that the patches count from, where a pole or the antimeridian lies inside:
+   * their values are then longitude and latitude on the sphere of normals, turned so that this place is its 0, 0.
+   */
+  readonly centre?: readonly [longitude: number, latitude: number] | undefined;
 }
 
-/** longitude, latitude = reference + Σ c_kl T_k(u) T_l(v), u and v from −1 to 1 over the rectangle (source units). */
+/** longitude, latitude = Σ c_kl T_k(u) T_l(v), u and v from −1 to 1 over the rectangle (source units). */
 export interface Patch {
   readonly minX: number;
   readonly minY: number;
