@@ -1,6 +1,6 @@
 /**
- * Completes layer/dist after tsc: the worker as one file without bare imports, so that any bundler and any
- * server can load it, the decoder's WebAssembly beside it, the schema of measurements, and the tables of EPSG.
+ * Completes layer/dist after tsc: the workers as one file each without bare imports, so that any bundler and
+ * any server can load them, the decoder's WebAssembly beside them, the schema of measurements, and the tables of EPSG.
  */
 import { copyFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -14,13 +14,14 @@ copyFileSync(wasm, join(workers, "laz-perf.wasm"));
 const schema = "measurements.schema.json";
 copyFileSync(join(import.meta.dirname, "../../docs", schema), join(workers, "..", schema));
 
-const bundle = await rolldown({ input: join(workers, "entry.js"), platform: "browser" });
-await bundle.write({
-  file: join(workers, "node.worker.js"),
-  format: "es",
-  sourcemap: true,
-  codeSplitting: false,
-});
-await bundle.close();
+const volume = join(workers, "..", "tools", "measure", "volume");
+for (const [folder, name] of [
+  [workers, "node.worker.js"],
+  [volume, "volume.worker.js"],
+]) {
+  const bundle = await rolldown({ input: join(folder, "entry.js"), platform: "browser" });
+  await bundle.write({ file: join(folder, name), format: "es", sourcemap: true, codeSplitting: false });
+  await bundle.close();
+}
 
 await import("./crs-assets.mjs");

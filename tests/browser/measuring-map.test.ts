@@ -104,4 +104,63 @@ describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})`
     expect(await page.evaluate(() => window.map.stage.errors)).toEqual([]);
     expect(stage.watch.errors).toEqual([]);
   });
+
+  it("works volumes out in a worker that ends with them, or with the signal", {
+    timeout: 120_000,
+  }, async () => {
+    const told = await stage.page.evaluate(async () => {
+      const { stage, tools } = window.map;
+      const cloud = await stage.source.opened();
+      const { min, max } = cloud.boundingBox;
+      const [x, y, z] = [0, 1, 2].map((axis) => (min[axis]! + max[axis]!) / 2);
+      const ring = [
+        [-300, -300],
+        [300, -200],
+        [200, 300],
+      ].map(([east, north]) => tools.sourceVertex(cloud, [x! + east!, y! + north!, z!]));
+      let [made, ended] = [0, 0];
+      const { Worker: Real } = window;
+      window.Worker = class extends Real {
+        constructor(url: string | URL, options?: WorkerOptions) {
+          super(url, options);
+          made++;
+        }
+        override terminate(): void {
+          ended++;
+          super.terminate();
+        }
+      };
+      const base = { kind: "height", height: min[2]! * 0.3048 } as const;
+      const shares: number[] = [];
+      const volume = await tools.measureVolume(cloud, ring, {
+        base,
+        onProgress: (share) => shares.push(share),
+      });
+      const counts = [made, ended];
+      const stop = new AbortController();
+      const onProgress = (share: number) => share > 0.5 && stop.abort(new Error("enough"));
+      const given = await tools.measureVolume(cloud, ring, { base, signal: stop.signal, onProgress }).then(
+        () => "done",
+        (thrown: Error) => thrown.message,
+      );
+      window.Worker = Real;
+      return {
+        cut: volume.cut.value,
+        covered: volume.covered / volume.area,
+        shares,
+        counts,
+        given,
+        after: [made, ended],
+      };
+    });
+    expect(told.counts).toEqual([1, 1]);
+    expect(told.after).toEqual([2, 2]);
+    expect(told.given).toBe("enough");
+    expect(told.covered).toBeGreaterThan(0.99);
+    expect(told.cut).toBeGreaterThan(1000);
+    expect(told.shares.at(-1)).toBe(1);
+    expect(told.shares).toEqual([...told.shares].sort((a, b) => a - b));
+    expect(told.shares.some((share) => share > 0.5 && share < 1)).toBe(true);
+    expect(stage.watch.errors).toEqual([]);
+  });
 });

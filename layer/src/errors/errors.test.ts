@@ -1,17 +1,20 @@
 import { CrsError, GromaError } from "@groma/georef";
 import { describe, expect, it } from "vitest";
-import { DecodeError, fromWire, isAbort, SourceError, toWire } from "./index.js";
+import { DecodeError, fromWire, isAbort, MeasureError, SourceError, toWire } from "./index.js";
 
 const fallback = { code: "DECODE_FAILED", file: "node 0-0-0-0", fix: "Open the file again" };
 const fault = { code: "SOURCE_HTTP", file: "a.copc.laz", cause: "it failed", fix: "Look" };
 
 describe("errors across the worker boundary", () => {
-  it.each([SourceError, DecodeError, CrsError])("%o keeps its class and all four fields", (Kind) => {
-    const error = fromWire(structuredClone(toWire(new Kind(fault), fallback)));
-    expect(error).toBeInstanceOf(Kind);
-    expect(error).toMatchObject(fault);
-    expect(error.message).toBe("SOURCE_HTTP: a.copc.laz: it failed. Look.");
-  });
+  it.each([SourceError, DecodeError, CrsError, MeasureError])(
+    "%o keeps its class and all four fields",
+    (Kind) => {
+      const error = fromWire(structuredClone(toWire(new Kind(fault), fallback)));
+      expect(error).toBeInstanceOf(Kind);
+      expect(error).toMatchObject(fault);
+      expect(error.message).toBe("SOURCE_HTTP: a.copc.laz: it failed. Look.");
+    },
+  );
 
   it("gives a code to what has none", () => {
     const error = fromWire(toWire(new RangeError("out of memory"), fallback));

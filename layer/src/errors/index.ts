@@ -47,7 +47,10 @@ export class MeasureError extends GromaError {
   static override readonly kind = "MeasureError";
 }
 
-const kinds = [SourceError, FormatError, DecodeError, StyleError, CrsError, PlacementError, RecordError];
+const kinds = [
+  ...[SourceError, FormatError, DecodeError, StyleError, MeasureError],
+  ...[CrsError, PlacementError, RecordError],
+];
 
 /**
  * Any thrown value as a plain object that survives `postMessage`. What is not Groma's own error becomes

@@ -41,8 +41,10 @@ export {
   type Vertex,
   type VertexRecord,
 } from "./vertex/vertex.js";
-export { cutAndFill, type RingVolume, type VolumeBase } from "./volume/cut-and-fill.js";
+export { cutAndFill, type Progress, type RingVolume, type VolumeBase } from "./volume/cut-and-fill.js";
+export type { VolumeReply, VolumeWorker } from "./volume/in-worker.js";
 export { measureVolume, type Volume, type VolumeCloud, type VolumeOptions } from "./volume/measure-volume.js";
 export type { CutAndFill } from "./volume/prisms.js";
+export type { VolumeJob, VolumeSums } from "./volume/volume-job.js";
 export type { Precision, WorthOptions } from "./worth/point-errors.js";
 export type { Quantity, SiUnit, UncertaintyPart } from "./worth/quantity.js";

@@ -1,7 +1,7 @@
 import { MeasureError } from "../../../errors/index.js";
 import type { PointOrigin } from "../../../query/index.js";
-import { planOf } from "../points/local-plan.js";
-import { readPoints } from "../points/read-points.js";
+import { Plan } from "../points/local-plan.js";
+import { joined, readPoints } from "../points/read-points.js";
 import { axesAt } from "../vertex/axes.js";
 import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
@@ -43,19 +43,17 @@ export async function measureHeightAboveGround(
   // About the vertex the plan has it in the middle.
   const step =
     radius / cloud.crs.horizontalUnit.size / (cloud.crs.horizontalUnit.kind === "angular" ? 6.4e6 : 1);
-  const to = planOf(cloud, [
+  const plan = new Plan(cloud, [
     [x - step, y - step, z],
     [x + step, y + step, z],
   ]);
-  const metres = [to(x + step, y, z), to(x, y + step, z)].map(([east, north]) => Math.hypot(east, north));
-  const [reachX, reachY] = metres.map((length) => (radius * step) / length);
-  const points = await readPoints(cloud, [x - reachX, y - reachY, x + reachX, y + reachY], {
-    to,
-    classes,
-    signal,
-  });
-  const plane = levelPlane(points, radius);
-  if (!plane) {
+  const [eastX, northX, , eastY, northY] = plan.take(Float64Array.of(x + step, y, z, x, y + step, z));
+  const reachX = (radius * step) / Math.hypot(eastX, northX);
+  const reachY = (radius * step) / Math.hypot(eastY, northY);
+  const around = [x - reachX, y - reachY, x + reachX, y + reachY] as const;
+  const points = joined(await readPoints(cloud, around, { plan, classes, signal }));
+  const ground = levelPlane(points, radius);
+  if (!ground) {
     throw new MeasureError({
       code: "MEASURE_GROUND",
       file: cloud.name,
@@ -63,12 +61,12 @@ export async function measureHeightAboveGround(
       fix: "give a greater radius, or the classes that the ground has in this data set",
     });
   }
-  const note = `${plane.count} points within ${radius} m`;
+  const note = `${ground.count} points within ${radius} m`;
   return quantity(
-    z * cloud.crs.verticalUnit.size - plane.height,
+    z * cloud.crs.verticalUnit.size - ground.height,
     "m",
     [[{ vertex, gradient: axesAt(vertex).up }]],
-    { ...worth, ofRecords: true, own: [{ name: "ground", standard: plane.deviation, note }] },
+    { ...worth, ofRecords: true, own: [{ name: "ground", standard: ground.deviation, note }] },
   );
 }
 

@@ -6,7 +6,7 @@ export type SourceRectangle = readonly [number, number, number, number];
 
 /** Which points are read, and to where. */
 export interface ReadPoints {
-  readonly to: Plan;
+  readonly plan: Plan;
   /** Default: all. */
   readonly classes?: ReadonlySet<number> | undefined;
   readonly signal?: AbortSignal | undefined;
@@ -16,17 +16,17 @@ export interface ReadPoints {
 
 /**
  * Recorded points of a rectangle, from the lowest to the highest, in a plan.
- * @returns x, y, z of each, metres
+ * @returns x, y, z of each, metres; several arrays, so that none of millions need be made
  * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted
  */
 export async function readPoints(
   origin: PointOrigin,
   rectangle: SourceRectangle,
-  { to, classes, signal, onProgress }: ReadPoints,
-): Promise<Float64Array> {
-  const { scale, offset } = origin;
+  { plan, classes, signal, onProgress }: ReadPoints,
+): Promise<Float64Array[]> {
+  const [scaleX, scaleY, scaleZ] = origin.scale;
+  const [offsetX, offsetY, offsetZ] = origin.offset;
   const parts: Float64Array[] = [];
-  let count = 0;
   const query = origin.query({ volume: columnOver(rectangle) });
   const total = (await query.bracket({ signal })).most;
   let read = 0;
@@ -34,28 +34,29 @@ export async function readPoints(
     const { xyz, count: inNode } = batch.records;
     const wanted = classes ? ofClasses(batch, classes) : batch.inside;
     const part = new Float64Array(3 * wanted.length);
-    for (let i = 0; i < wanted.length; i++) {
+    for (let i = 0, to = 0; i < wanted.length; i++) {
       const at = 3 * wanted[i];
-      const place = to(
-        xyz[at] * scale[0] + offset[0],
-        xyz[at + 1] * scale[1] + offset[1],
-        xyz[at + 2] * scale[2] + offset[2],
-      );
-      part.set(place, 3 * i);
+      part[to++] = xyz[at] * scaleX + offsetX;
+      part[to++] = xyz[at + 1] * scaleY + offsetY;
+      part[to++] = xyz[at + 2] * scaleZ + offsetZ;
     }
-    parts.push(part);
-    count += part.length;
+    parts.push(plan.take(part));
     read += inNode;
     onProgress?.(Math.min(1, read / total));
   }
   onProgress?.(1);
-  const points = new Float64Array(count);
+  return parts;
+}
+
+/** Several arrays as one. */
+export function joined(parts: readonly Float64Array[]): Float64Array {
+  const whole = new Float64Array(parts.reduce((sum, { length }) => sum + length, 0));
   let at = 0;
   for (const part of parts) {
-    points.set(part, at);
+    whole.set(part, at);
     at += part.length;
   }
-  return points;
+  return whole;
 }
 
 function columnOver([minX, minY, maxX, maxY]: SourceRectangle): QueryVolume {

@@ -27,6 +27,9 @@ export interface RingVolume extends CutAndFill {
   readonly points: number;
 }
 
+/** Hears the share of a work that is done, 0 to 1. */
+export type Progress = (share: number) => void;
+
 /**
  * Volumes between a surface and a base within a ring, prismoidal over Delaunay's triangles: exact for the surface of these
  * triangles. Where the base is made of triangles too, the surface is that of the differences at the points of both.
@@ -35,7 +38,12 @@ export interface RingVolume extends CutAndFill {
  * @param ring x, y, z of its vertices in the same plan
  * @throws MeasureError MEASURE_VERTICES, MEASURE_CROSSING for the ring; MEASURE_SURFACE where the points make no surface
  */
-export function cutAndFill(points: Float64Array, ring: Float64Array, base: VolumeBase): RingVolume {
+export function cutAndFill(
+  points: Float64Array,
+  ring: Float64Array,
+  base: VolumeBase,
+  onProgress: Progress = () => undefined,
+): RingVolume {
   if (ring.length < 9) throw tooFew("a volume", 3, ring.length / 3);
   const plan = flat(ring);
   const edges = crossingEdges(plan);
@@ -48,8 +56,11 @@ export function cutAndFill(points: Float64Array, ring: Float64Array, base: Volum
     });
   }
   const index = new RingIndex(plan, planarArea(plan));
-  const surface = new Tin(differences(points, ring, base));
+  // Of two surfaces each is triangulated for itself, and then their differences are.
+  const begun = base.kind === "surface" ? 0.55 : base.kind === "ring" ? 0.4 : 0;
+  const surface = new Tin(differences(points, ring, base, (share) => onProgress(begun * share)));
   if (surface.triangles.length === 0) throw noSurface();
+  onProgress(begun + 0.75 * (1 - begun));
   return { ...prismsOf(surface, index), area: index.area, points: surface.z.length };
 }
 
@@ -63,9 +74,14 @@ function noSurface(): MeasureError {
 }
 
 /** x, y and height above the base of each point. */
-function differences(points: Float64Array, ring: Float64Array, base: VolumeBase): Float64Array {
-  if (base.kind === "ring") return between(points, ring);
-  if (base.kind === "surface") return between(points, base.points);
+function differences(
+  points: Float64Array,
+  ring: Float64Array,
+  base: VolumeBase,
+  onProgress: Progress,
+): Float64Array {
+  if (base.kind === "ring") return between(points, ring, onProgress);
+  if (base.kind === "surface") return between(points, base.points, onProgress);
   const level = levelOf(ring, base);
   const above = Float64Array.from(points);
   for (let i = 0; i < above.length; i += 3) above[i + 2] -= level(above[i], above[i + 1]);
@@ -81,9 +97,10 @@ function levelOf(
     case "height":
       return () => base.height;
     case "lowest":
-      return () => Math.min(...heights);
-    case "highest":
-      return () => Math.max(...heights);
+    case "highest": {
+      const level = base.kind === "lowest" ? Math.min(...heights) : Math.max(...heights);
+      return () => level;
+    }
     case "plane": {
       const { centre, normal } = fitPlane(ring);
       // A plane on edge has no height over a place.
@@ -94,8 +111,11 @@ function levelOf(
 }
 
 /** Differences of two surfaces at the points of both; places that only one of them covers are left out. */
-function between(points: Float64Array, others: Float64Array): Float64Array {
-  const [surface, base] = [new Tin(points), new Tin(others)];
+function between(points: Float64Array, others: Float64Array, onProgress: Progress): Float64Array {
+  const surface = new Tin(points);
+  onProgress(0.35);
+  const base = new Tin(others);
+  onProgress(0.7);
   if (surface.triangles.length === 0 || base.triangles.length === 0) throw noSurface();
   const found = new Float64Array(points.length + others.length);
   let count = 0;
@@ -110,29 +130,40 @@ function between(points: Float64Array, others: Float64Array): Float64Array {
     const [x, y, z] = [points[at], points[at + 1], points[at + 2]];
     add(x, y, z - base.heightAt(x, y));
   }
+  onProgress(0.85);
   for (const at of inOrder(others)) {
     const [x, y, z] = [others[at], others[at + 1], others[at + 2]];
     add(x, y, surface.heightAt(x, y) - z);
   }
-  return found.slice(0, 3 * count);
+  return found.subarray(0, 3 * count);
 }
 
-/** Strips of the plan, to and fro, so that each place is near the one before. @returns offsets of x */
-function inOrder(points: Float64Array): Float64Array {
-  let [low, high] = [Infinity, -Infinity];
-  for (let i = 1; i < points.length; i += 3) {
-    low = Math.min(low, points[i]);
-    high = Math.max(high, points[i]);
+/** Cells of the plan, row by row to and fro, so that each place is near the one before. @returns offsets of x */
+function inOrder(points: Float64Array): Uint32Array {
+  const count = points.length / 3;
+  let [west, south, east, north] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let at = 0; at < points.length; at += 3) {
+    west = Math.min(west, points[at]);
+    east = Math.max(east, points[at]);
+    south = Math.min(south, points[at + 1]);
+    north = Math.max(north, points[at + 1]);
   }
-  const strips = Math.max(1, Math.ceil(Math.sqrt(points.length / 3)));
-  const height = (high - low) / strips || 1;
-  const offsets = Float64Array.from({ length: points.length / 3 }, (_, i) => 3 * i);
-  const strip = (at: number) => Math.floor((points[at + 1] - low) / height);
-  return offsets.sort((a, b) => {
-    const [s, t] = [strip(a), strip(b)];
-    if (s !== t) return s - t;
-    return s % 2 === 0 ? points[a] - points[b] : points[b] - points[a];
-  });
+  const side = Math.max(1, Math.ceil(Math.sqrt(count / 2)));
+  const perX = side / (east - west || 1);
+  const perY = side / (north - south || 1);
+  const cells = new Uint32Array(count);
+  const starts = new Uint32Array(side * side + 1);
+  for (let i = 0, at = 0; i < count; i++, at += 3) {
+    const row = Math.min(side - 1, Math.floor((points[at + 1] - south) * perY));
+    const column = Math.min(side - 1, Math.floor((points[at] - west) * perX));
+    const cell = row * side + (row % 2 === 0 ? column : side - 1 - column);
+    cells[i] = cell;
+    starts[cell + 1]++;
+  }
+  for (let cell = 0; cell < side * side; cell++) starts[cell + 1] += starts[cell];
+  const offsets = new Uint32Array(count);
+  for (let i = 0; i < count; i++) offsets[starts[cells[i]]++] = 3 * i;
+  return offsets;
 }
 
 /** x and y alone. */

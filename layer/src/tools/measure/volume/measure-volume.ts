@@ -2,12 +2,14 @@ import { sameHeights, samePlane, type Vector } from "@groma/georef";
 import { MeasureError } from "../../../errors/index.js";
 import type { PointOrigin } from "../../../query/index.js";
 import { checkedRing } from "../figures/ring.js";
-import { planOf } from "../points/local-plan.js";
+import { Plan } from "../points/local-plan.js";
 import { readPoints, type SourceRectangle } from "../points/read-points.js";
 import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
 import type { Precision, WorthOptions } from "../worth/point-errors.js";
 import { type OwnError, type Quantity, quantity } from "../worth/quantity.js";
-import { cutAndFill, type RingVolume, type VolumeBase } from "./cut-and-fill.js";
+import type { VolumeBase } from "./cut-and-fill.js";
+import { inWorker, type VolumeWorker } from "./in-worker.js";
+import { runVolumeJob, type VolumeJob, type VolumeSums } from "./volume-job.js";
 
 /** A data set whose points can be asked for; a `PointCloud` is one. */
 export type VolumeCloud = MeasuredCloud & PointOrigin;
@@ -19,9 +21,12 @@ export interface VolumeOptions extends WorthOptions {
     | { readonly kind: "cloud"; readonly cloud: VolumeCloud };
   /** Classes of the points that make the surface; those of the ground are 2. Default: all. */
   readonly classes?: ReadonlySet<number> | undefined;
+  /** Stops the work, that of the worker too. */
   readonly signal?: AbortSignal | undefined;
-  /** Hears the share of the points that are read, 0 to 1. */
+  /** Hears the share of the work that is done, 0 to 1; the first half is reading. */
   readonly onProgress?: ((share: number) => void) | undefined;
+  /** Makes the worker, where the application's bundler or policy needs its own way. */
+  readonly createWorker?: (() => VolumeWorker) | undefined;
 }
 
 /** Volumes over a polygon. */
@@ -55,9 +60,11 @@ const AROUND = 0.05;
  * Its worth: the precision of the points, what two surfaces may be off against each other, and what the surface may do
  * between the points, told by how far half of them lead.
  *
+ * The surfaces are made in a worker of their own; where there are none (Node), on the calling thread.
+ *
  * @param ring vertices of the data set
  * @throws MeasureError MEASURE_VERTICES, MEASURE_CROSSING, MEASURE_SURFACE, MEASURE_DATASET where the ring is of another
- *   data set; SourceError, FormatError, DecodeError; the signal's reason when aborted
+ *   data set, MEASURE_WORKER; SourceError, FormatError, DecodeError; the signal's reason when aborted
  */
 export async function measureVolume(
   cloud: VolumeCloud,
@@ -74,8 +81,8 @@ export async function measureVolume(
       fix: "draw the polygon on the data set whose volume is measured",
     });
   });
-  const plan = planOf(cloud, corners);
-  const outline = Float64Array.from(corners.flatMap(([x, y, z]) => plan(x, y, z)));
+  const plan = new Plan(cloud, corners);
+  const outline = plan.take(Float64Array.from(corners.flat()));
   const other = base.kind === "cloud" ? base.cloud : undefined;
   if (other && !(samePlane(cloud.crs, other.crs) && sameHeights(cloud.crs, other.crs))) {
     throw new MeasureError({
@@ -89,25 +96,33 @@ export async function measureVolume(
   const rectangle = around(corners);
   const pointsOf = (of: VolumeCloud, step: number) =>
     readPoints(of, rectangle, {
-      ...{ to: plan, classes, signal },
-      onProgress: (share) => onProgress?.((step + share) / steps),
+      ...{ plan, classes, signal },
+      onProgress: (share) => onProgress?.((0.5 * (step + share)) / steps),
     });
   const points = await pointsOf(cloud, 0);
-  const against: VolumeBase =
-    base.kind === "cloud" ? { kind: "surface", points: await pointsOf(base.cloud, 1) } : base;
-  const whole = cutAndFill(points, outline, against);
-  const half = coarser(points, outline, against);
-  const own = errorsOf(cloud, other, whole, options);
+  const against = base.kind === "cloud" ? { points: await pointsOf(base.cloud, 1) } : base;
+  const job: VolumeJob = { points, outline, base: against };
+  const sums = await worked(job, options);
+  const { whole, half } = sums;
+  const own = errorsOf(cloud, other, sums, options);
   const told = (value: number, coarse: number | undefined) =>
     quantity(value, "m³", [], { own: [...own, betweenPoints(value, coarse)] });
-  const net = ({ cut, fill }: RingVolume) => cut - fill;
   return {
     cut: told(whole.cut, half?.cut),
     fill: told(whole.fill, half?.fill),
-    net: told(net(whole), half && net(half)),
-    ...{ area: whole.area, covered: whole.covered, points: whole.points },
+    net: told(whole.cut - whole.fill, half && half.cut - half.fill),
+    ...{ area: sums.area, covered: sums.covered, points: sums.points },
     ...(other && { levelOfDetection: levelOfDetection(cloud, other, options) }),
   };
+}
+
+async function worked(job: VolumeJob, options: VolumeOptions): Promise<VolumeSums> {
+  const { signal, onProgress, createWorker } = options;
+  const told = (share: number) => onProgress?.(0.5 + 0.5 * share);
+  if (createWorker || typeof Worker !== "undefined")
+    return inWorker(job, { signal, createWorker, onProgress: told });
+  signal?.throwIfAborted();
+  return runVolumeJob(job, told);
 }
 
 /** The rectangle of a polygon with a margin. */
@@ -119,18 +134,6 @@ function around(corners: readonly Vector[]): SourceRectangle {
     return [low - margin, high + margin] as const;
   });
   return [minX, minY, maxX, maxY];
-}
-
-/** The same of every second point; undefined where these make no surface. */
-function coarser(points: Float64Array, ring: Float64Array, base: VolumeBase): RingVolume | undefined {
-  const every = (all: Float64Array) => all.filter((_, i) => Math.floor(i / 3) % 2 === 0);
-  try {
-    const other = base.kind === "surface" ? { ...base, points: every(base.points) } : base;
-    return cutAndFill(every(points), ring, other);
-  } catch (thrown) {
-    if (thrown instanceof MeasureError) return undefined;
-    throw thrown;
-  }
 }
 
 /**
@@ -146,10 +149,9 @@ function betweenPoints(whole: number, half: number | undefined): OwnError {
 function errorsOf(
   cloud: VolumeCloud,
   other: VolumeCloud | undefined,
-  { shares, covered }: RingVolume,
+  { square, covered }: VolumeSums,
   { precision }: WorthOptions,
 ): OwnError[] {
-  const square = Math.sqrt(shares.reduce((sum, share) => sum + share ** 2, 0));
   const step = (cloud.scale[2] * cloud.crs.verticalUnit.size) / Math.sqrt(12);
   const given = typeof precision === "function" ? precision(cloud) : precision;
   const errors: OwnError[] = [

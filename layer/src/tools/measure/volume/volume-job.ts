@@ -1,0 +1,83 @@
+import { MeasureError } from "../../../errors/index.js";
+import { joined } from "../points/read-points.js";
+import { cutAndFill, type Progress, type RingVolume, type VolumeBase } from "./cut-and-fill.js";
+
+/** A volume to be worked out, as it goes to a worker: nothing but numbers. */
+export interface VolumeJob {
+  /** x, y, z of the surface's points, metres in one plan. */
+  readonly points: readonly Float64Array[];
+  /** x, y, z of the ring's vertices. */
+  readonly outline: Float64Array;
+  readonly base:
+    | Exclude<VolumeBase, { readonly kind: "surface" }>
+    | { readonly points: readonly Float64Array[] };
+}
+
+/** What comes back. */
+export interface VolumeSums {
+  readonly whole: CutFill;
+  /** The same of every second point; undefined where these make no surface. */
+  readonly half: CutFill | undefined;
+  /** Square metres: of the ring, and of what of it the surface covers. */
+  readonly area: number;
+  readonly covered: number;
+  readonly points: number;
+  /** Root of the sum of the squares of what area each point stands for, square metres. */
+  readonly square: number;
+}
+
+interface CutFill {
+  readonly cut: number;
+  readonly fill: number;
+}
+
+/** Share of the work that the whole takes; the rest is for the half of the points. */
+const WHOLE = 0.67;
+
+/** @throws MeasureError MEASURE_VERTICES, MEASURE_CROSSING, MEASURE_SURFACE */
+export function runVolumeJob({ points: parts, outline, base }: VolumeJob, onProgress: Progress): VolumeSums {
+  const points = joined(parts);
+  const against: VolumeBase = "kind" in base ? base : { kind: "surface", points: joined(base.points) };
+  const {
+    cut,
+    fill,
+    area,
+    covered,
+    shares,
+    points: count,
+  } = cutAndFill(points, outline, against, (share) => onProgress(WHOLE * share));
+  let square = 0;
+  for (const share of shares) square += share * share;
+  const coarse = coarser(points, outline, against, (share) => onProgress(WHOLE + (1 - WHOLE) * share));
+  onProgress(1);
+  return {
+    whole: { cut, fill },
+    half: coarse && { cut: coarse.cut, fill: coarse.fill },
+    ...{ area, covered, points: count, square: Math.sqrt(square) },
+  };
+}
+
+function coarser(
+  points: Float64Array,
+  ring: Float64Array,
+  base: VolumeBase,
+  onProgress: Progress,
+): RingVolume | undefined {
+  try {
+    const other = base.kind === "surface" ? { ...base, points: everySecond(base.points) } : base;
+    return cutAndFill(everySecond(points), ring, other, onProgress);
+  } catch (thrown) {
+    if (thrown instanceof MeasureError) return undefined;
+    throw thrown;
+  }
+}
+
+function everySecond(points: Float64Array): Float64Array {
+  const half = new Float64Array(3 * Math.ceil(points.length / 6));
+  for (let from = 0, to = 0; from < points.length; from += 6, to += 3) {
+    half[to] = points[from];
+    half[to + 1] = points[from + 1];
+    half[to + 2] = points[from + 2];
+  }
+  return half;
+}
