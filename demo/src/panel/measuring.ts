@@ -9,12 +9,12 @@ import {
   type MeasureUnitsOptions,
   measurementsToGeoJson,
   readMeasurements,
-  valuesOf,
+  type SaveOptions,
   valuesToCsv,
-  wordsOf,
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
 import { byId, optionElement, setText, textElement } from "./elements.js";
+import { MeasurementList } from "./measurement-list.js";
 
 /** Units that go together, by what the reader chooses. */
 const SYSTEMS = new Map<string, MeasureUnitsOptions>([
@@ -32,9 +32,8 @@ export class Measuring {
   readonly tool: MeasureTool;
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #told: (thrown: unknown) => void;
-  readonly #fly: (measurement: Measurement) => void;
   readonly #buttons = new Map<MeasurementKind, HTMLButtonElement>();
-  readonly #list = byId("measurements", HTMLOListElement);
+  readonly #list: MeasurementList;
   readonly #hint = byId("measure-hint", HTMLParagraphElement);
   readonly #undo = byId("measure-undo", HTMLButtonElement);
   readonly #redo = byId("measure-redo", HTMLButtonElement);
@@ -51,10 +50,10 @@ export class Measuring {
     told: (thrown: unknown) => void,
   ) {
     this.#layer = layer;
-    this.#fly = fly;
     this.#told = told;
     const layers = () => [layer()].flatMap((one) => one ?? []);
     this.tool = new MeasureTool(measureView(scene, layers), { onError: told });
+    this.#list = new MeasurementList(this.tool, fly);
     this.tool.onChange(() => this.#show());
     this.#connectTools();
     this.#connectFields();
@@ -93,11 +92,11 @@ export class Measuring {
 
   #connectFiles(): void {
     byId("measure-save", HTMLButtonElement).addEventListener("click", () => {
-      const document = measurementsToGeoJson(this.tool.measurements, this.tool.worth);
+      const document = measurementsToGeoJson(this.tool.measurements, this.#saving());
       download("measurements.geojson", "application/geo+json", JSON.stringify(document, undefined, 1));
     });
     byId("measure-csv", HTMLButtonElement).addEventListener("click", () => {
-      download("measurements.csv", "text/csv", valuesToCsv(this.tool.measurements, this.tool.worth));
+      download("measurements.csv", "text/csv", valuesToCsv(this.tool.measurements, this.#saving()));
     });
     const file = byId("measure-file", HTMLInputElement);
     file.addEventListener("change", () => {
@@ -105,6 +104,11 @@ export class Measuring {
       file.value = "";
       if (chosen) this.#open(chosen).catch(this.#told);
     });
+  }
+
+  /** What was read of volumes is saved too. */
+  #saving(): SaveOptions {
+    return { ...this.tool.worth, valuesOf: (measurement) => this.tool.valuesOf(measurement) };
   }
 
   async #open(file: File): Promise<void> {
@@ -122,54 +126,7 @@ export class Measuring {
     this.#undo.disabled = !tool.canUndo;
     this.#redo.disabled = !tool.canRedo;
     setText(this.#hint, tool.drawing ? HINT : "");
-    this.#list.replaceChildren(...tool.measurements.map((measurement) => this.#entry(measurement)));
-  }
-
-  #entry(measurement: Measurement): HTMLLIElement {
-    const { tool } = this;
-    const { id, name } = measurement;
-    const entry = document.createElement("li");
-    const edited = tool.edited?.id === id;
-    const head = document.createElement("div");
-    head.className = "row";
-    const show = textElement("button", name, "name");
-    const edit = textElement("button", edited ? "Done" : "Edit");
-    const remove = textElement("button", "Delete");
-    edit.setAttribute("aria-label", `${edited ? "Done with" : "Edit"} ${name}`);
-    remove.setAttribute("aria-label", `Delete ${name}`);
-    show.addEventListener("click", () => this.#fly(measurement));
-    edit.addEventListener("click", () => this.#keepingFocus(id, () => tool.edit(edited ? undefined : id)));
-    remove.addEventListener("click", () => tool.remove(id));
-    for (const button of [show, edit, remove]) button.type = "button";
-    edit.dataset.edit = id;
-    head.append(show, edit, remove);
-    entry.append(head, this.#values(measurement));
-    return entry;
-  }
-
-  #values(measurement: Measurement): HTMLElement {
-    const facts = document.createElement("dl");
-    facts.className = "facts";
-    try {
-      for (const value of valuesOf(measurement, this.tool.worth)) {
-        const unknown = value.quantity.parts.flatMap(({ name, standard }) => (standard === null ? name : []));
-        const text = textElement("dd", wordsOf(value, this.tool.units).text);
-        if (unknown.length > 0) text.title = `unknown: ${unknown.join(", ")}`;
-        facts.append(textElement("dt", value.title), text);
-      }
-    } catch (thrown) {
-      facts.append(
-        textElement("dt", "no value"),
-        textElement("dd", thrown instanceof Error ? thrown.message : ""),
-      );
-    }
-    return facts;
-  }
-
-  /** The list is made anew at each change: the button that was pressed is pressed again at its place. */
-  #keepingFocus(id: string, change: () => void): void {
-    change();
-    this.#list.querySelector<HTMLElement>(`[data-edit="${CSS.escape(id)}"]`)?.focus();
+    this.#list.show();
   }
 }
 

@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 import { cloudOf, UTM } from "../measure/cloud.fixture.js";
 import { type Measurement, MeasureUnits, type Vertex } from "../measure/index.js";
 import { figuresOf } from "./figures.js";
-import { freshName, History, withVertices } from "./history.js";
+import { freshName, History, withChange } from "./history.js";
 import { placeLabels } from "./labels.js";
 import { isSame, Placing } from "./placing.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
@@ -47,7 +47,10 @@ describe("the way back and forth", () => {
   it("has other vertices throughout once a data set is opened anew", () => {
     const history = new History();
     history.go({ measurements: [line], draft: undefined });
-    history.go({ measurements: withVertices([line], "1", [a, d]), draft: { kind: "point", vertices: [b] } });
+    history.go({
+      measurements: withChange([line], "1", { vertices: [a, d] }),
+      draft: { kind: "point", vertices: [b] },
+    });
     history.undo();
     history.replaceVertices((vertex) => (vertex === a ? c : vertex));
     expect(history.present.measurements[0].vertices).toEqual([c, b, c]);
@@ -149,7 +152,7 @@ describe("placing", () => {
 describe("figures", () => {
   const showing = {
     ...{ edited: undefined, drag: undefined, ahead: undefined, missed: false },
-    ...{ units: new MeasureUnits({ locale: "en" }), worth: { precision: 0.01 } },
+    ...{ units: new MeasureUnits({ locale: "en" }), worth: { precision: 0.01 }, readingOf: () => undefined },
   };
 
   it("are labelled with their value and worth, or with what keeps them from having one", () => {

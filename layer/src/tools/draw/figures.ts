@@ -1,8 +1,12 @@
+import { GromaError } from "@groma/georef";
 import { MeasureError } from "../../errors/index.js";
 import {
   MEASUREMENT_KINDS,
+  type Measurement,
   type MeasurementKind,
   type MeasureUnits,
+  type NamedValue,
+  type Reading,
   type Vertex,
   valuesOf,
   type WorthOptions,
@@ -24,16 +28,22 @@ export interface Showing {
   readonly missed: boolean;
   readonly units: MeasureUnits;
   readonly worth: WorthOptions;
+  /** How far the values that take reading are. */
+  readingOf(measurement: Measurement): Reading | undefined;
 }
 
 /** All that is drawn, as it is shown: with the vertex that is on its way, and labels. */
 export function figuresOf({ measurements, draft }: Drawn, showing: Showing): ShownFigure[] {
   const { edited, drag, ahead, missed } = showing;
-  const figures = measurements.map(({ id, kind, name, vertices: placed }): ShownFigure => {
+  const figures = measurements.map((measurement): ShownFigure => {
+    const { id, kind, name, vertices: placed } = measurement;
     const vertices = drag?.grip.id === id ? dragged(placed, drag) : placed;
     const { shape, most } = MEASUREMENT_KINDS[kind];
     const grows = most === Number.POSITIVE_INFINITY;
-    return { id, name, vertices, shape, open: id === edited, grows, ...labelOf(kind, vertices, showing) };
+    // A vertex on its way changes what would be read.
+    const reading = vertices === placed ? showing.readingOf(measurement) : undefined;
+    const label = (reading && readingLabel(reading, showing)) ?? labelOf(kind, vertices, showing);
+    return { id, name, vertices, shape, open: id === edited, grows, ...label };
   });
   if (!draft) return figures;
   const { kind, vertices } = draft;
@@ -50,17 +60,39 @@ export function figuresOf({ measurements, draft }: Drawn, showing: Showing): Sho
 
 const NO_POINT = { label: "no point here", wrong: true };
 
+type Label = Pick<ShownFigure, "label" | "wrong">;
+
+/** What is read for a figure; undefined where that was given up. */
+function readingLabel(reading: Reading, { units }: Showing): Label | undefined {
+  switch (reading.state) {
+    case "reading":
+      return { label: `reading points, ${Math.floor(100 * reading.share)} %`, wrong: false };
+    case "done":
+      return { label: textOf(reading.values[0], units), wrong: false };
+    case "failed": {
+      const { thrown } = reading;
+      return { label: thrown instanceof GromaError ? thrown.cause : "it could not be read", wrong: true };
+    }
+    case "stopped":
+      return undefined;
+  }
+}
+
+function textOf(of: NamedValue, units: MeasureUnits): string {
+  const { main, worth } = wordsOf(of, units);
+  return worth === "" ? main : `${main}\n${worth}`;
+}
+
 /** The value that a figure is for, with its worth; or why it has none. */
 function labelOf(
   kind: MeasurementKind,
   vertices: readonly Vertex[],
   { units, worth: known }: Showing,
-): Pick<ShownFigure, "label" | "wrong"> {
+): Label {
   if (vertices.length < MEASUREMENT_KINDS[kind].least) return { label: "", wrong: false };
   try {
     const [first] = valuesOf({ kind, vertices }, known);
-    const { main, worth } = wordsOf(first, units);
-    return { label: worth === "" ? main : `${main}\n${worth}`, wrong: false };
+    return { label: first ? textOf(first, units) : "", wrong: false };
   } catch (thrown) {
     if (!(thrown instanceof MeasureError)) throw thrown;
     return { label: thrown.cause, wrong: true };

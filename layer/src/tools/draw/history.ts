@@ -71,13 +71,13 @@ export class History {
   }
 }
 
-/** Measurements with other vertices in one of them. */
-export function withVertices(
+/** Measurements of which one is changed. */
+export function withChange(
   measurements: readonly Measurement[],
   id: string,
-  vertices: readonly Vertex[],
+  change: Partial<Pick<Measurement, "vertices" | "volume">>,
 ): readonly Measurement[] {
-  return measurements.map((one) => (one.id === id ? { ...one, vertices } : one));
+  return measurements.map((one) => (one.id === id ? { ...one, ...change } : one));
 }
 
 /** A name that none of the measurements has: its kind and a number. */

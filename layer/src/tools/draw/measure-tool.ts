@@ -6,16 +6,23 @@ import {
   type Measurement,
   type MeasurementKind,
   MeasureUnits,
+  type NamedValue,
+  type Reading,
+  type ReadingOptions,
+  Readings,
+  readsPoints,
   type Vertex,
+  type VolumeSettings,
+  valuesOf,
   type WorthOptions,
 } from "../measure/index.js";
 import { figuresOf } from "./figures.js";
-import { freshName, History, withVertices } from "./history.js";
+import { freshName, History, withChange } from "./history.js";
 import { isSame } from "./placing.js";
 import { Surface } from "./surface.js";
 import type { ViewAdapter } from "./view-adapter.js";
 
-export interface MeasureToolOptions extends WorthOptions {
+export interface MeasureToolOptions extends WorthOptions, Pick<ReadingOptions, "terrain" | "createWorker"> {
   /** How labels are written. Default: metres and degrees, in the reader's language. */
   readonly units?: MeasureUnits | undefined;
   /** Hears what kept a record from being read. Default: `reportError`. */
@@ -42,6 +49,9 @@ export class MeasureTool {
   readonly #surfaces: Surface[] = [];
   readonly #turns = { last: Promise.resolve() as Promise<unknown> };
   readonly #listeners = new Set<() => void>();
+  readonly #readings: Readings;
+  /** Data sets that are at hand, beside those that vertices stand on. */
+  #clouds: readonly MeasuredCloud[] = [];
   /** The view that the reader turned to last. */
   #used: Surface | undefined;
   #destroyed = false;
@@ -56,6 +66,11 @@ export class MeasureTool {
     this.#options = options;
     this.#units = options.units ?? new MeasureUnits();
     this.#worth = { precision: options.precision };
+    const { terrain, createWorker } = options;
+    this.#readings = new Readings(
+      () => ({ ...this.#worth, terrain, createWorker, clouds: this.#clouds }),
+      () => this.#changed(),
+    );
     this.addView(view);
   }
 
@@ -71,7 +86,7 @@ export class MeasureTool {
       draft: () => this.#history.present.draft,
       placed: (vertex) => this.#add(vertex),
       ahead: (vertex, from) => this.#ahead(vertex, from),
-      reshape: (id, vertices) => this.#reshape(id, vertices),
+      reshape: (id, vertices) => this.#alter(id, { vertices }),
       chosen: (id) => this.edit(id),
       used: (one) => {
         this.#used = one;
@@ -136,6 +151,33 @@ export class MeasureTool {
 
   set worth(worth: WorthOptions) {
     this.#worth = worth;
+    this.#readings.again(this.measurements.filter(readsPoints));
+    this.#changed();
+  }
+
+  /**
+   * What a measurement comes to; of a volume or a height above the ground, what is known by now.
+   * @throws MeasureError where its vertices have no such value
+   */
+  valuesOf(measurement: Measurement): readonly NamedValue[] {
+    const reading = this.#readings.of(measurement);
+    const read = reading?.state === "done" ? reading.values : [];
+    return [...read, ...valuesOf(measurement, this.#worth)];
+  }
+
+  /** How far the reading of a measurement's values is; undefined where nothing is read for it. */
+  readingOf(measurement: Measurement): Reading | undefined {
+    return this.#readings.of(measurement);
+  }
+
+  /** Gives up reading for a measurement. */
+  stopReading(measurement: Measurement): void {
+    this.#readings.stop(measurement);
+  }
+
+  /** Has the values of a measurement read anew. */
+  readAgain(measurement: Measurement): void {
+    this.#readings.again([measurement]);
     this.#changed();
   }
 
@@ -194,6 +236,10 @@ export class MeasureTool {
     return this.draw("area", options);
   }
 
+  volume(options: { signal?: AbortSignal } = {}): Promise<Measurement | undefined> {
+    return this.draw("volume", options);
+  }
+
   /** Ends the figure that is being drawn, where it has vertices enough. @returns whether it did */
   finish(): boolean {
     const { draft, measurements } = this.#history.present;
@@ -224,6 +270,11 @@ export class MeasureTool {
     this.#changed();
   }
 
+  /** Says how a volume is measured; one step of undo. */
+  setVolume(id: string, volume: VolumeSettings): void {
+    this.#alter(id, { volume });
+  }
+
   /** Takes a measurement out; `undo` brings it back. */
   remove(id: string): void {
     const { measurements, draft } = this.#history.present;
@@ -242,9 +293,10 @@ export class MeasureTool {
 
   /**
    * Puts vertices on data sets that were opened since, or opened anew with another system: they stand on the same records
-   * and have their places from these.
+   * and have their places from these. Volumes may be measured against them.
    */
   attach(clouds: readonly MeasuredCloud[]): void {
+    this.#clouds = clouds;
     this.#history.replaceVertices((vertex) => attached(vertex, clouds));
     this.#changed();
   }
@@ -261,6 +313,7 @@ export class MeasureTool {
   destroy(): void {
     this.cancel();
     this.#destroyed = true;
+    this.#readings.destroy();
     for (const surface of this.#surfaces.splice(0)) surface.destroy();
     this.#listeners.clear();
   }
@@ -275,6 +328,7 @@ export class MeasureTool {
 
   #changed(): void {
     if (this.#destroyed) return;
+    this.#readings.follow(this.measurements);
     this.#show();
     for (const { view } of this.#surfaces) view.redraw();
     for (const listener of this.#listeners) listener();
@@ -284,7 +338,7 @@ export class MeasureTool {
     const drag = this.#surfaces.map(({ grips }) => grips.drag).find((one) => one !== undefined);
     const figures = figuresOf(this.#history.present, {
       ...{ edited: this.#edited, drag, ahead: this.#hover, missed: this.#missed },
-      ...{ units: this.#units, worth: this.#worth },
+      ...{ units: this.#units, worth: this.#worth, readingOf: (one) => this.#readings.of(one) },
     });
     for (const surface of this.#surfaces) surface.show(figures);
   }
@@ -332,10 +386,9 @@ export class MeasureTool {
     return true;
   }
 
-  /** Gives a measurement other vertices. */
-  #reshape(id: string, vertices: readonly Vertex[]): void {
+  #alter(id: string, change: Parameters<typeof withChange>[2]): void {
     const { measurements, draft } = this.#history.present;
-    this.#history.go({ measurements: withVertices(measurements, id, vertices), draft });
+    this.#history.go({ measurements: withChange(measurements, id, change), draft });
     this.#changed();
   }
 

@@ -1,4 +1,5 @@
 import { type AccuracyPart, pointTransform, resolveCrs, statedAccuracy, truthOf } from "@groma/georef";
+import type { PointOrigin, QueryOptions } from "../../query/index.js";
 import { type MeasuredCloud, recordVertex, type Vertex } from "./vertex/vertex.js";
 
 export const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";
@@ -46,4 +47,35 @@ export function cloudOf(
       return recordVertex(this, { node: "0-0-0-0", index: 0, integers, source });
     },
   };
+}
+
+/** Points with classes, metres from a place. */
+export type Points = readonly (readonly [number, number, number, number])[];
+/** Easting and northing. */
+export const PLACE = [500000, 5300000] as const;
+const [X, Y] = PLACE;
+
+/** A data set of these points, in one node. */
+export function withPoints(cloud: FixtureCloud, points: Points) {
+  const integers = points.flatMap(([x, y, z]) => cloud.vertex(X + x, Y + y, z).record!.integers);
+  const attribute = {
+    name: "classification",
+    bytes: Uint8Array.from(points, ([, , , kind]) => kind),
+    at: 0,
+    stride: 1,
+  };
+  const records = { count: points.length, xyz: Int32Array.from(integers), attributes: [attribute] };
+  const query = ({ volume }: QueryOptions = {}) => ({
+    bracket: async () => ({ least: 0, most: points.length, nodes: 1 }),
+    async *batches() {
+      const inside = points.flatMap(([x, y, z], i) => (volume?.contains(X + x, Y + y, z) ? [i] : []));
+      yield {
+        node: "0-0-0-0",
+        key: { depth: 0, x: 0, y: 0, z: 0 },
+        records,
+        inside: Uint32Array.from(inside),
+      };
+    },
+  });
+  return Object.assign(cloud, { offset: [0, 4_000_000, 0], query }) as unknown as FixtureCloud & PointOrigin;
 }

@@ -8,6 +8,11 @@ export { measurePolyline, type Polyline } from "./figures/polyline.js";
 export { type ReadOut, readOut } from "./figures/read-out.js";
 export { type GroundOptions, measureHeightAboveGround } from "./ground/height-above-ground.js";
 export {
+  measureHeightAboveTerrain,
+  type Terrain,
+  type TerrainOptions,
+} from "./ground/height-above-terrain.js";
+export {
   type KindOfMeasurement,
   MEASUREMENT_KINDS,
   type Measurement,
@@ -16,6 +21,9 @@ export {
   valuesOf,
   wordsOf,
 } from "./measurement/measurement.js";
+export { type ReadValuesOptions, readsPoints, readValues } from "./measurement/read-values.js";
+export { type Reading, type ReadingOptions, Readings } from "./measurement/reading.js";
+export type { VolumeBaseSetting, VolumeSettings } from "./measurement/volume-settings.js";
 export { valuesToCsv, verticesToCsv } from "./save/csv.js";
 export type {
   MeasurementCollection,
@@ -27,7 +35,7 @@ export type {
 export type { Geometry, Position } from "./save/geometry.js";
 export { type ReadMeasurements, readMeasurements } from "./save/read.js";
 export { type ReadableCloud, verifyRecords } from "./save/verify.js";
-export { measurementsToGeoJson } from "./save/write.js";
+export { measurementsToGeoJson, type SaveOptions } from "./save/write.js";
 export { MeasureUnits, type MeasureUnitsOptions, type Words } from "./units/measure-units.js";
 export type { AngleUnit, AreaUnit, LengthUnit, SlopeUnit, VolumeUnit } from "./units/tables.js";
 export {

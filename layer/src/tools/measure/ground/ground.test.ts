@@ -1,36 +1,8 @@
 import { describe, expect, it } from "vitest";
-import type { PointOrigin, QueryOptions } from "../../../query/index.js";
-import { cloudOf, type FixtureCloud, UTM } from "../cloud.fixture.js";
+import { cloudOf, type FixtureCloud, PLACE, type Points, UTM, withPoints } from "../cloud.fixture.js";
 import { measureHeightAboveGround, measureVolume } from "../index.js";
 
-/** Points with classes, metres from a place. */
-type Points = readonly (readonly [number, number, number, number])[];
-const [X, Y] = [500000, 5300000];
-
-/** A data set of these points, in one node. */
-function withPoints(cloud: FixtureCloud, points: Points) {
-  const integers = points.flatMap(([x, y, z]) => cloud.vertex(X + x, Y + y, z).record!.integers);
-  const attribute = {
-    name: "classification",
-    bytes: Uint8Array.from(points, ([, , , kind]) => kind),
-    at: 0,
-    stride: 1,
-  };
-  const records = { count: points.length, xyz: Int32Array.from(integers), attributes: [attribute] };
-  const query = ({ volume }: QueryOptions = {}) => ({
-    bracket: async () => ({ least: 0, most: points.length, nodes: 1 }),
-    async *batches() {
-      const inside = points.flatMap(([x, y, z], i) => (volume?.contains(X + x, Y + y, z) ? [i] : []));
-      yield {
-        node: "0-0-0-0",
-        key: { depth: 0, x: 0, y: 0, z: 0 },
-        records,
-        inside: Uint32Array.from(inside),
-      };
-    },
-  });
-  return Object.assign(cloud, { offset: [0, 4_000_000, 0], query }) as unknown as FixtureCloud & PointOrigin;
-}
+const [X, Y] = PLACE;
 
 /** Ground that falls by a tenth to the east, with trees of class 5 on it. */
 const slope: Points = Array.from({ length: 400 }, (_, i) => {

@@ -10,6 +10,7 @@ import type { MeasureUnits, Words } from "../units/measure-units.js";
 import type { Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity } from "../worth/quantity.js";
+import type { VolumeSettings } from "./volume-settings.js";
 
 /** What can be measured by placing vertices. */
 export type MeasurementKind =
@@ -20,7 +21,9 @@ export type MeasurementKind =
   | "area"
   | "angle"
   | "circle"
-  | "plane";
+  | "plane"
+  | "volume"
+  | "aboveGround";
 
 /** Vertices, and what is measured of them. Values are derived anew whenever they are asked for. */
 export interface Measurement {
@@ -30,6 +33,8 @@ export interface Measurement {
   /** For people. */
   readonly name: string;
   readonly vertices: readonly Vertex[];
+  /** Of a volume: how it is measured. */
+  readonly volume?: VolumeSettings | undefined;
 }
 
 /** One value of a measurement. */
@@ -50,11 +55,12 @@ export interface KindOfMeasurement {
   /** Infinity where any number of vertices will do. */
   readonly most: number;
   readonly shape: "points" | "line" | "ring";
-  /** The first is the one that the measurement is for. */
+  /** The first is the one that the measurement is for, but where that takes reading points: see `readValues`. */
   values(vertices: readonly Vertex[], options: WorthOptions): (NamedValue | undefined)[];
 }
 
-const value = (name: string, title: string, of: Quantity): NamedValue => ({
+/** @internal */
+export const value = (name: string, title: string, of: Quantity): NamedValue => ({
   ...{ name, title, quantity: of, writtenAs: "value" },
 });
 
@@ -167,6 +173,14 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
         value("deviation", "deviation", derived(deviation, "m")),
       ];
     },
+  },
+  volume: {
+    ...{ title: "Volume", least: 3, most: Number.POSITIVE_INFINITY, shape: "ring" },
+    values: (vertices, options) => [value("area", "area", measureArea(vertices, options).geodesic)],
+  },
+  aboveGround: {
+    ...{ title: "Above ground", least: 1, most: 1, shape: "points" },
+    values: () => [],
   },
 };
 

@@ -1,13 +1,12 @@
 import type { Measurement } from "../measurement/measurement.js";
-import type { WorthOptions } from "../worth/point-errors.js";
-import { knownValues } from "./write.js";
+import { knownValues, type SaveOptions } from "./write.js";
 
 const COLUMNS = "measurement,kind,value_name,value,unit,uncertainty95,at_least,unknown_parts";
 const VERTEX_COLUMNS =
   "measurement,kind,vertex,longitude_deg,latitude_deg,height_m,dataset,node,record,x_integer,y_integer,z_integer,x,y,z";
 
 /** A row for each value of each measurement, SI and radians (RFC 4180). An uncertainty that is unknown is empty. */
-export function valuesToCsv(measurements: readonly Measurement[], options: WorthOptions = {}): string {
+export function valuesToCsv(measurements: readonly Measurement[], options: SaveOptions = {}): string {
   const rows = measurements.flatMap((measurement) =>
     knownValues(measurement, options).map(
       ({ name, quantity: { value, unit, uncertainty, atLeast, parts } }) => {

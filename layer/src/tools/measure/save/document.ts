@@ -1,5 +1,6 @@
 import type { Crs } from "@groma/georef";
 import type { MeasurementKind } from "../measurement/measurement.js";
+import type { VolumeSettings } from "../measurement/volume-settings.js";
 import type { UncertaintyPart } from "../worth/quantity.js";
 import type { Geometry, Position } from "./geometry.js";
 
@@ -54,6 +55,8 @@ export interface MeasurementFeature {
   readonly properties: Readonly<Record<string, string | number | null>>;
   readonly groma: {
     readonly kind: MeasurementKind;
+    /** How a volume is measured. */
+    readonly volume?: VolumeSettings;
     readonly vertices: readonly SavedVertex[];
     readonly values: readonly SavedValue[];
   };

@@ -1,5 +1,6 @@
 import { MeasureError } from "../../../errors/index.js";
 import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind } from "../measurement/measurement.js";
+import { volumeSettingsOf } from "../measurement/volume-settings.js";
 import {
   type MeasuredCloud,
   placeVertex,
@@ -103,10 +104,18 @@ class Reader {
     const { least, most, title } = MEASUREMENT_KINDS[kind];
     if (vertices.length < least || vertices.length > most) return undefined;
     const named = isObject(properties) && typeof properties.name === "string" ? properties.name : undefined;
+    const own = isObject(groma) ? groma.volume : undefined;
+    const volume = own === undefined ? undefined : volumeSettingsOf(own);
+    if (own !== undefined && !volume) {
+      this.notes.add(
+        `feature ${at + 1}: what its volume is measured against is not known here; its lowest vertex is taken`,
+      );
+    }
     if (!saved) this.notes.add("vertices of other programs are places, no records of a scan");
     return {
       id: typeof id === "string" || typeof id === "number" ? String(id) : `feature-${at + 1}`,
       ...{ kind, vertices, name: named ?? `${title} ${at + 1}` },
+      ...(volume && { volume }),
     };
   }
 

@@ -43,6 +43,32 @@ const source = fc.tuple(
 );
 
 describe("measurements saved and read again", () => {
+  it("keep how volumes are measured, and what was read of them", () => {
+    const ring = [
+      [0, 0],
+      [9, 0],
+      [5, 8],
+    ].map(([x, y]) => cloud.vertex(500_000 + x, 5_300_000 + y, 5));
+    for (const volume of [
+      { base: { kind: "plane" } },
+      { base: { kind: "height", height: -3.5 }, classes: [2, 9] },
+      { base: { kind: "cloud", dataset: "__proto__" } },
+      {},
+    ] as const) {
+      const before = { ...one("volume", ring), volume };
+      const { measurements, notes } = readMeasurements(saved([before]), [cloud]);
+      expect([measurements, notes]).toEqual([[before], []]);
+    }
+    const value = valuesOf(one("area", ring))[0]!;
+    const [feature] = measurementsToGeoJson([one("volume", ring)], { valuesOf: () => [value] }).features;
+    expect(feature!.groma.values.map(({ name }) => name)).toEqual([value.name]);
+    // What a later version may measure against is not taken for something else in silence.
+    const later = saved([{ ...one("volume", ring), volume: { base: { kind: "plane" } } }]);
+    const odd = readMeasurements(later.replace('"plane"', '"sphere"'), [cloud]);
+    expect(odd.measurements).toEqual([one("volume", ring)]);
+    expect(odd.notes).toEqual([expect.stringContaining("its lowest vertex is taken")]);
+  });
+
   it("stand on the same records, to the integer, and have the same values", () => {
     const kinds = Object.keys(MEASUREMENT_KINDS) as MeasurementKind[];
     fc.assert(

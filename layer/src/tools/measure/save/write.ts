@@ -17,6 +17,11 @@ import {
 } from "./document.js";
 import { geometryOf, positionOf } from "./geometry.js";
 
+export interface SaveOptions extends WorthOptions {
+  /** Values of a measurement, those that were read among them: `tool.valuesOf`. Default: those that need no reading. */
+  readonly valuesOf?: ((measurement: Measurement) => readonly NamedValue[]) | undefined;
+}
+
 /**
  * Measurements as GeoJSON: geometries in WGS 84 for any GIS; the records, the coordinate systems and what the values are
  * worth as foreign members (schema: `@groma/layer/measurements.schema.json`). One whose vertices have no value is saved
@@ -24,7 +29,7 @@ import { geometryOf, positionOf } from "./geometry.js";
  */
 export function measurementsToGeoJson(
   measurements: readonly Measurement[],
-  options: WorthOptions = {},
+  options: SaveOptions = {},
 ): MeasurementCollection {
   const datasets = new Map<string, SavedDataset>();
   for (const { vertices } of measurements) {
@@ -37,8 +42,8 @@ export function measurementsToGeoJson(
   };
 }
 
-function featureOf(measurement: Measurement, options: WorthOptions): MeasurementFeature {
-  const { id, kind, name, vertices } = measurement;
+function featureOf(measurement: Measurement, options: SaveOptions): MeasurementFeature {
+  const { id, kind, name, vertices, volume } = measurement;
   const values = knownValues(measurement, options);
   const columns = values.flatMap(({ name: title, quantity: { value, unit, uncertainty } }) => [
     [`${title}_${ASCII[unit]}`, value],
@@ -51,6 +56,7 @@ function featureOf(measurement: Measurement, options: WorthOptions): Measurement
     properties: { name, kind, ...Object.fromEntries(columns) },
     groma: {
       kind,
+      ...(volume && { volume }),
       vertices: vertices.map(savedVertex),
       values: values.map(
         ({ name: title, quantity: { value, unit, uncertainty, atLeast, coverage, parts } }) => ({
@@ -65,9 +71,9 @@ function featureOf(measurement: Measurement, options: WorthOptions): Measurement
 const ASCII = { m: "m", "m²": "m2", "m³": "m3", rad: "rad", "1": "ratio" } as const;
 
 /** Values of a measurement, none where its vertices have none. */
-export function knownValues(measurement: Measurement, options: WorthOptions): readonly NamedValue[] {
+export function knownValues(measurement: Measurement, options: SaveOptions): readonly NamedValue[] {
   try {
-    return valuesOf(measurement, options);
+    return options.valuesOf?.(measurement) ?? valuesOf(measurement, options);
   } catch (thrown) {
     if (thrown instanceof MeasureError) return [];
     throw thrown;

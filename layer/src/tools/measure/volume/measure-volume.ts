@@ -18,7 +18,8 @@ export interface VolumeOptions extends WorthOptions {
   /** Default: `lowest`. Heights are metres in the data set's own height system. */
   readonly base?:
     | Exclude<VolumeBase, { kind: "surface" }>
-    | { readonly kind: "cloud"; readonly cloud: VolumeCloud };
+    | { readonly kind: "cloud"; readonly cloud: VolumeCloud }
+    | undefined;
   /** Classes of the points that make the surface; those of the ground are 2. Default: all. */
   readonly classes?: ReadonlySet<number> | undefined;
   /** Stops the work, that of the worker too. */

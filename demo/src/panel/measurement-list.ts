@@ -1,0 +1,185 @@
+import {
+  type Measurement,
+  type MeasureTool,
+  type NamedValue,
+  readsPoints,
+  type VolumeSettings,
+  wordsOf,
+} from "@groma/layer/tools";
+import { byId, optionElement, setText, textElement } from "./elements.js";
+
+/** What a volume can be measured against, by what the reader chooses. */
+const BASES = new Map<string, string>([
+  ["lowest", "its lowest vertex"],
+  ["highest", "its highest vertex"],
+  ["plane", "the plane through its vertices"],
+  ["ring", "triangles between its vertices"],
+  ["height", "a height"],
+]);
+
+/** ASPRS class of the ground. */
+const GROUND = 2;
+
+interface Entry {
+  readonly measurement: Measurement;
+  readonly element: HTMLLIElement;
+  readonly edit: HTMLButtonElement;
+  readonly read: HTMLButtonElement;
+  readonly facts: HTMLDListElement;
+  /** Fields of a volume. */
+  readonly settings: Settings | undefined;
+}
+
+interface Settings {
+  readonly element: HTMLElement;
+  fill(volume: VolumeSettings | undefined): void;
+}
+
+/** The list of what was measured, with values and what they are worth. */
+export class MeasurementList {
+  readonly #tool: MeasureTool;
+  readonly #fly: (measurement: Measurement) => void;
+  readonly #list = byId("measurements", HTMLOListElement);
+  #entries: readonly Entry[] = [];
+
+  /** @param fly takes the views to a measurement */
+  constructor(tool: MeasureTool, fly: (measurement: Measurement) => void) {
+    this.#tool = tool;
+    this.#fly = fly;
+  }
+
+  /** Shows what the tool has. Entries of what is the same are kept, and with them the reader's focus. */
+  show(): void {
+    const kept = new Map(this.#entries.map((entry) => [entry.measurement.id, entry]));
+    this.#entries = this.#tool.measurements.map((measurement) => {
+      const there = kept.get(measurement.id);
+      const entry = there ? { ...there, measurement } : this.#entry(measurement);
+      // Not while it is read: who types a height is not disturbed.
+      if (there?.measurement !== measurement) entry.settings?.fill(measurement.volume);
+      this.#fill(entry);
+      return entry;
+    });
+    const wanted = this.#entries.map(({ element }) => element);
+    const same =
+      wanted.length === this.#list.children.length &&
+      wanted.every((one, i) => one === this.#list.children[i]);
+    if (!same) this.#list.replaceChildren(...wanted);
+  }
+
+  #of(id: string): Measurement | undefined {
+    return this.#tool.measurements.find((one) => one.id === id);
+  }
+
+  #entry(measurement: Measurement): Entry {
+    const tool = this.#tool;
+    const { id, name } = measurement;
+    const element = document.createElement("li");
+    const head = document.createElement("div");
+    head.className = "row";
+    const show = textElement("button", name, "name");
+    const read = textElement("button", "Stop");
+    const edit = textElement("button", "Edit");
+    const remove = textElement("button", "Delete");
+    remove.setAttribute("aria-label", `Delete ${name}`);
+    const doing = (work: (one: Measurement) => void) => () => {
+      const one = this.#of(id);
+      if (one) work(one);
+    };
+    show.addEventListener("click", doing(this.#fly));
+    edit.addEventListener("click", () => tool.edit(tool.edited?.id === id ? undefined : id));
+    remove.addEventListener("click", () => tool.remove(id));
+    read.addEventListener(
+      "click",
+      doing((one) =>
+        tool.readingOf(one)?.state === "reading" ? tool.stopReading(one) : tool.readAgain(one),
+      ),
+    );
+    for (const button of [show, read, edit, remove]) button.type = "button";
+    head.append(show, read, edit, remove);
+    const facts = document.createElement("dl");
+    facts.className = "facts";
+    const settings = measurement.kind === "volume" ? this.#settings(measurement) : undefined;
+    element.append(head, ...(settings ? [settings.element] : []), facts);
+    return { measurement, element, edit, read, facts, settings };
+  }
+
+  #fill({ measurement, edit, read, facts }: Entry): void {
+    const { id, name } = measurement;
+    const edited = this.#tool.edited?.id === id;
+    setText(edit, edited ? "Done" : "Edit");
+    edit.setAttribute("aria-label", `${edited ? "Done with" : "Edit"} ${name}`);
+    const reading = this.#tool.readingOf(measurement);
+    read.hidden = !readsPoints(measurement) || reading?.state === "done";
+    setText(read, reading?.state === "reading" ? "Stop" : "Measure again");
+    facts.replaceChildren();
+    const fact = (title: string, text: string, note?: string) => {
+      const told = textElement("dd", text);
+      if (note) told.title = note;
+      facts.append(textElement("dt", title), told);
+    };
+    if (reading?.state === "reading") fact("reading points", `${Math.floor(100 * reading.share)} %`);
+    if (reading?.state === "failed") fact("no value", messageOf(reading.thrown));
+    try {
+      for (const one of this.#tool.valuesOf(measurement)) fact(one.title, this.#words(one), unknownOf(one));
+    } catch (thrown) {
+      fact("no value", messageOf(thrown));
+    }
+  }
+
+  #words(value: NamedValue): string {
+    return wordsOf(value, this.#tool.units).text;
+  }
+
+  /** What a volume is measured against, and which points make its surface. */
+  #settings({ id, name }: Measurement): Settings {
+    const base = document.createElement("select");
+    base.setAttribute("aria-label", `${name} is measured against`);
+    for (const [value, label] of BASES) base.append(optionElement({ value, label }));
+    const height = document.createElement("input");
+    height.type = "number";
+    height.step = "any";
+    height.placeholder = "metres";
+    height.setAttribute("aria-label", `Height that ${name} is measured against, metres`);
+    const ground = document.createElement("input");
+    ground.type = "checkbox";
+    const only = document.createElement("label");
+    only.className = "check";
+    only.append(ground, textElement("span", "ground points only"));
+    const changed = () => {
+      height.hidden = base.value !== "height";
+      const settings = settingsOf(base.value, height.valueAsNumber, ground.checked);
+      if (settings) this.#tool.setVolume(id, settings);
+    };
+    for (const field of [base, height, ground]) field.addEventListener("change", changed);
+    const element = document.createElement("div");
+    element.className = "row";
+    element.append(base, height, only);
+    const fill = (volume: VolumeSettings | undefined) => {
+      base.value = volume?.base?.kind ?? "lowest";
+      height.hidden = base.value !== "height";
+      if (volume?.base?.kind === "height") height.valueAsNumber = volume.base.height;
+      ground.checked = volume?.classes?.length === 1 && volume.classes[0] === GROUND;
+    };
+    return { element, fill };
+  }
+}
+
+/** Undefined where a height is still to be given. */
+function settingsOf(base: string, height: number, groundOnly: boolean): VolumeSettings | undefined {
+  const classes = groundOnly ? { classes: [GROUND] } : {};
+  if (base === "height") {
+    return Number.isFinite(height) ? { base: { kind: "height", height }, ...classes } : undefined;
+  }
+  const kind = (["highest", "plane", "ring"] as const).find((one) => one === base) ?? "lowest";
+  return { base: { kind }, ...classes };
+}
+
+/** What of a value nobody knows. */
+function unknownOf({ quantity: { parts } }: NamedValue): string {
+  const unknown = parts.flatMap(({ name, standard }) => (standard === null ? name : []));
+  return unknown.length > 0 ? `unknown: ${unknown.join(", ")}` : "";
+}
+
+function messageOf(thrown: unknown): string {
+  return thrown instanceof Error ? thrown.message : "";
+}
