@@ -26,4 +26,11 @@ export {
   type StyleParts,
 } from "./effects/index.js";
 export * from "./index.js";
-export type { MeasuredCloud, ScreenPoint, Vertex, VertexRecord, ViewAdapter } from "./tools/index.js";
+export type {
+  MeasuredCloud,
+  ScreenPoint,
+  Terrain,
+  Vertex,
+  VertexRecord,
+  ViewAdapter,
+} from "./tools/index.js";

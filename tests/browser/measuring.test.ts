@@ -232,14 +232,11 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
         one.open = one.id === "measuring";
       });
     });
+    await settleMap(page);
     /** Places of the window where each view finds a point. */
     const places = await page.evaluate(async () => {
       const { beside, layer, viewer } = window.groma;
       const { map, measured } = (await beside.view)!;
-      await new Promise<void>((resolve) => {
-        map.once("rendercomplete", () => resolve());
-        map.render();
-      });
       const signal = new AbortController().signal;
       const found: Record<"globe" | "map", { x: number; y: number; integers: readonly number[] }[]> = {
         globe: [],
@@ -250,13 +247,20 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
         const at = { x: viewer.canvas.clientWidth - 40 - 9 * step, y: 290 };
         const hit = found.globe.length < 1 && (await layer.pick(at, { window: 15 }));
         if (hit) found.globe.push({ ...at, integers: hit.integers });
-        const on = { x: 100 + 9 * step, y: 280 };
-        const record = found.map.length < 1 && (await measured.pick(on, 7, signal))?.record;
-        if (record) found.map.push({ x: on.x + left, y: on.y, integers: record.integers });
+      }
+      for (const [x, y] of [
+        [100, 280],
+        [160, 300],
+        [170, 360],
+        [90, 350],
+      ] as const) {
+        const record = (await measured.pick({ x, y }, 7, signal))?.record;
+        if (record) found.map.push({ x: x + left, y, integers: record.integers });
       }
       return found;
     });
     const [a, b] = [places.globe[0]!, places.map[0]!];
+    expect(places.map.length).toBe(4);
     const session = await page.context().newCDPSession(page);
     await session.send("Emulation.setTouchEmulationEnabled", { enabled: true });
     const tap = async ({ x, y }: { x: number; y: number }) => {
@@ -286,6 +290,26 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
     await page.click("button[aria-label='Delete Line 1']");
     await page.click("#measure-undo");
     expect((await records(page))[1]).toEqual([a.integers, b.integers]);
+    // A volume is read after it is drawn, and read anew when it is measured against something else.
+    await page.click("#measure-tools button:text-is('Volume')");
+    for (const [placed, corner] of places.map.entries()) {
+      await tap(corner);
+      await page.waitForFunction((count) => window.groma.measure.drawn === count, placed + 1);
+    }
+    await tap(places.map[0]!);
+    const volume = entries(page).last();
+    await volume.locator("dt:text-is('net')").waitFor();
+    const net = () => volume.locator("dd").first().textContent();
+    const lowest = await net();
+    expect(lowest).toMatch(/m³/);
+    await screenshot(page, "measuring-volume");
+    await volume.locator("select").selectOption("highest");
+    await volume.locator("dt:text-is('net')").waitFor();
+    await expect.poll(net).not.toBe(lowest);
+    expect(await net()).toMatch(/^−/);
+    await page.click("#measure-undo");
+    await expect.poll(net).toBe(lowest);
+    expect(await volume.locator("select").inputValue()).toBe("lowest");
     await page.click("#measurements > li .name");
     await page.waitForFunction(
       async (was) => (await window.groma.beside.view)!.map.getView().getZoom() !== was,
@@ -296,3 +320,14 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
     await page.context().close();
   });
 });
+
+/** Waits until the map shows all that it wants. */
+async function settleMap(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    const { map } = (await window.groma.beside.view)!;
+    await new Promise<void>((resolve) => {
+      map.once("rendercomplete", () => resolve());
+      map.render();
+    });
+  });
+}

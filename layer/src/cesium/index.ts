@@ -10,3 +10,4 @@ export type {
 export type { LayerStatistics } from "./layer-statistics.js";
 export { measureView } from "./measure-view.js";
 export { PointCloudLayer } from "./point-cloud-layer.js";
+export { type TerrainOfOptions, terrainOf } from "./terrain.js";

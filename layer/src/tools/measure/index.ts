@@ -8,9 +8,9 @@ export { measurePolyline, type Polyline } from "./figures/polyline.js";
 export { type ReadOut, readOut } from "./figures/read-out.js";
 export { type GroundOptions, measureHeightAboveGround } from "./ground/height-above-ground.js";
 export {
+  type AboveTerrainOptions,
   measureHeightAboveTerrain,
   type Terrain,
-  type TerrainOptions,
 } from "./ground/height-above-terrain.js";
 export {
   type KindOfMeasurement,

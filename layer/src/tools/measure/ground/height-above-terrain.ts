@@ -17,7 +17,7 @@ export interface Terrain {
   heightAt(longitude: number, latitude: number, signal?: AbortSignal): Promise<number | undefined>;
 }
 
-export interface TerrainOptions extends WorthOptions {
+export interface AboveTerrainOptions extends WorthOptions {
   readonly signal?: AbortSignal | undefined;
 }
 
@@ -30,7 +30,7 @@ export interface TerrainOptions extends WorthOptions {
 export async function measureHeightAboveTerrain(
   vertex: Vertex,
   terrain: Terrain,
-  { signal, ...worth }: TerrainOptions = {},
+  { signal, ...worth }: AboveTerrainOptions = {},
 ): Promise<Quantity<"m">> {
   signal?.throwIfAborted();
   const { longitude, latitude, height } = vertex;

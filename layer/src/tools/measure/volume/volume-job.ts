@@ -15,20 +15,15 @@ export interface VolumeJob {
 
 /** What comes back. */
 export interface VolumeSums {
-  readonly whole: CutFill;
+  readonly whole: Pick<RingVolume, "cut" | "fill">;
   /** The same of every second point; undefined where these make no surface. */
-  readonly half: CutFill | undefined;
+  readonly half: Pick<RingVolume, "cut" | "fill"> | undefined;
   /** Square metres: of the ring, and of what of it the surface covers. */
   readonly area: number;
   readonly covered: number;
   readonly points: number;
   /** Root of the sum of the squares of what area each point stands for, square metres. */
   readonly square: number;
-}
-
-interface CutFill {
-  readonly cut: number;
-  readonly fill: number;
 }
 
 /** Share of the work that the whole takes; the rest is for the half of the points. */
