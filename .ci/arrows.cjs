@@ -122,6 +122,7 @@ module.exports = {
     layer("tools/draw", ["tools/measure", "errors"]),
     layer("tools/profile", ["tools/exact", "query", "clips", "options", "errors"]),
     layer("tools/terrain", []),
+    layer("tools/plot", ["tools/profile", "tools/terrain"]),
     layer("export", [
       "tools/sections",
       "tools/terrain",

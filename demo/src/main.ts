@@ -1,8 +1,8 @@
 import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
 import { CrsError } from "@groma/georef";
-import type { PointCloudLayer, ServerWait } from "@groma/layer/cesium";
-import type { Viewer } from "cesium";
+import type { PointCloud, PointCloudLayer, ServerWait } from "@groma/layer/cesium";
+import { Cartesian3, type Viewer } from "cesium";
 import { cloudAddress, PageError, type PageOptions, readPageOptions } from "./address.js";
 import { Beside } from "./map/beside.js";
 import { CloudSlot, type OpenOptions } from "./open.js";
@@ -57,7 +57,10 @@ function start(viewer: Viewer): void {
   const beside = new Beside(
     viewer,
     (thrown) => message.show(thrown),
-    (view) => measuring.tool.addView(view.measured),
+    (view) => {
+      measuring.tool.addView(view.measured);
+      profile.addView(view.measured);
+    },
   );
   const progress = new Progress();
   const controls = new Controls((aspect) => {
@@ -72,6 +75,10 @@ function start(viewer: Viewer): void {
   const profile = new ProfilePanel(viewer, () => slot.layer, {
     // One tool at a time has the clicks.
     begins: () => measuring.tool.cancel(),
+    picked: (cloud, node, record) => {
+      readHit(cloud, node, record).catch((thrown: unknown) => message.show(thrown));
+    },
+    pointed: (place) => void beside.view?.then((view) => view.mark(place)),
     failed: (thrown) => message.show(thrown),
   });
   measuring.tool.onChange(() => {
@@ -113,6 +120,15 @@ function start(viewer: Viewer): void {
   }
   if (options.map) beside.show(true);
   openNamed();
+
+  /** Shows the record of a point that a tool leads to, as if it had been clicked. */
+  async function readHit(cloud: PointCloud, node: string, record: number): Promise<void> {
+    const { layer } = slot;
+    if (!layer) return;
+    const found = await cloud.readPoint(node, { record });
+    const [x, y, z] = cloud.place(...found.source);
+    picking.show({ ...found, layer, cloud, position: new Cartesian3(x, y, z) });
+  }
 
   /** Opens the cloud that the page's address names. */
   function openNamed(): void {
@@ -205,7 +221,7 @@ function start(viewer: Viewer): void {
     picking.clear();
     measuring.tool.attach([layer.cloud]);
     beside.attach(layer);
-    profile.clear();
+    profile.open(layer);
     progress.follow(layer);
     tellFailures(layer);
     if (wanted !== "stay") {

@@ -1,6 +1,6 @@
 import { geodeticToEcef } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
-import type { MeasureTool, ViewAdapter } from "@groma/layer/tools";
+import type { MeasureTool, PlotView, ProfilePoints, ViewAdapter } from "@groma/layer/tools";
 import type { Cartesian3, Viewer } from "cesium";
 import type OlMap from "ol/Map.js";
 import type { Page } from "playwright-core";
@@ -17,6 +17,12 @@ export interface Groma {
   readonly profile: {
     readonly line: readonly (readonly [number, number])[];
     readonly shown: number;
+    readonly plot:
+      | {
+          readonly view: PlotView;
+          readonly parts: readonly Pick<ProfilePoints, "chainage" | "height">[];
+        }
+      | undefined;
   };
 }
 

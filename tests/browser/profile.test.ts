@@ -72,7 +72,7 @@ describe.skipIf(scan.missing)(
           timeout: 20_000,
         });
       }
-      await page.keyboard.press("Escape");
+      await page.click("#profile-draw");
       await page.waitForFunction(
         () => /complete$/.test(document.querySelector("#profile-status")!.textContent!),
         undefined,
@@ -113,6 +113,11 @@ describe.skipIf(scan.missing)(
         }
       }
       expect(coloured).toBeGreaterThan(300);
+      expect(watch.errors).toEqual([]);
+      expect(watch.foreign).toEqual([]);
+
+      await plotIsMovedAndMeasured(page);
+      await lineIsChangedAndKept(page);
       await page.click("#profile-close");
       expect(await page.isVisible("#profile")).toBe(false);
       expect(watch.errors).toEqual([]);
@@ -120,3 +125,123 @@ describe.skipIf(scan.missing)(
     });
   },
 );
+
+/** Text of the line below the picture. */
+const readout = (page: Page) => page.textContent("#profile-readout");
+
+/** Pixel of the page of the plotted point nearest to the middle of the plot. */
+async function pixelOfPlottedPoint(page: Page): Promise<{ x: number; y: number; chainage: number }> {
+  return page.evaluate(() => {
+    const { plot } = window.groma.profile;
+    const { view, parts } = plot!;
+    const box = document.querySelector("#profile-plot")!.getBoundingClientRect();
+    let found = { x: 0, y: 0, chainage: 0, away: Number.POSITIVE_INFINITY };
+    for (const { chainage, height } of parts) {
+      for (let index = 0; index < chainage.length; index++) {
+        const [x, y] = view.pixelOf(chainage[index]!, height[index]!);
+        const away = Math.hypot(x - view.width / 2, y - view.height / 2);
+        if (away < found.away) found = { x, y, chainage: chainage[index]!, away };
+      }
+    }
+    // Margins of the axes.
+    return { x: box.left + 64 + found.x, y: box.top + 8 + found.y, chainage: found.chainage };
+  });
+}
+
+/** Pans, zooms, points at, picks and measures in the picture, by mouse and by keys; reads it as a table. */
+async function plotIsMovedAndMeasured(page: Page): Promise<void> {
+  const seen = () =>
+    page.evaluate(() => ({
+      ...window.groma.profile.plot!.view.shown,
+      exaggeration: window.groma.profile.plot!.view.exaggeration,
+    }));
+  const whole = await seen();
+  const target = await pixelOfPlottedPoint(page);
+  await page.mouse.move(target.x, target.y);
+  await expect
+    .poll(() => readout(page))
+    .toMatch(new RegExp(`^chainage ${target.chainage.toFixed(2)} m, height `));
+
+  await page.mouse.click(target.x, target.y);
+  await page.waitForSelector("#picked:not([hidden])");
+  const shownRecord = await page.textContent("#picked-facts");
+  expect(shownRecord).toMatch(/node, record/);
+
+  await page.mouse.wheel(0, -300);
+  await expect
+    .poll(async () => ((await seen()).to - (await seen()).from) / (whole.to - whole.from))
+    .toBeCloseTo(0.5, 2);
+  await page.mouse.down();
+  await page.mouse.move(target.x + 60, target.y, { steps: 3 });
+  await page.mouse.up();
+  const panned = await seen();
+  await page.click("#profile-true");
+  expect((await seen()).exaggeration).toBeCloseTo(1, 6);
+  await page.fill("#profile-stretch", "5");
+  await page.press("#profile-stretch", "Enter");
+  expect((await seen()).exaggeration).toBeCloseTo(5, 6);
+  expect((await seen()).from).toBeCloseTo(panned.from, 6);
+  await page.click("#profile-fit");
+  expect(await seen()).toEqual(whole);
+
+  await page.selectOption("#profile-ground", "p25");
+  await page.check("#profile-table-shown");
+  await page.waitForSelector("#profile-table td");
+  expect(await page.textContent("#profile-table caption")).toBe(
+    "Ground, percentile 25 of each station, metres",
+  );
+  expect(await page.locator("#profile-axes .ground").count()).toBeGreaterThan(0);
+  await page.uncheck("#profile-table-shown");
+
+  await page.click("#profile-measure");
+  await page.focus("#profile-plot");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("Enter");
+  for (let step = 0; step < 5; step++) await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("Enter");
+  expect(await readout(page)).toMatch(/^along [\d.-]+ m, up [\d.-]+ m, slant [\d.]+ m, .*°; ground above/);
+  await screenshot(page, "profile-measured");
+  await page.click("#profile-measure");
+  await page.selectOption("#profile-colour", "offset");
+}
+
+/** Names, reverses and widens the line, moves a vertex by keys, and finds all that again after the page is loaded anew. */
+async function lineIsChangedAndKept(page: Page): Promise<void> {
+  const complete = () =>
+    page.waitForFunction(
+      () => /complete$/.test(document.querySelector("#profile-status")!.textContent!),
+      undefined,
+      {
+        timeout: 60_000,
+      },
+    );
+  const line = () => page.evaluate(() => window.groma.profile.line);
+  const before = await line();
+  await page.click("#profile-reverse");
+  expect(await line()).toEqual([...before].reverse());
+  await complete();
+  await page.fill("#profile-name", "dike <b>");
+  await page.press("#profile-name", "Enter");
+  await complete();
+  const shown = await page.evaluate(() => window.groma.profile.shown);
+  await page.focus(".width-handle");
+  await page.keyboard.press("ArrowUp");
+  await expect.poll(() => page.inputValue("#profile-width")).toBe("4.4");
+  await complete();
+  expect(await page.evaluate(() => window.groma.profile.shown)).toBeGreaterThan(shown);
+
+  await page.reload();
+  await page.waitForSelector("#profile-list:not([hidden])", { timeout: 60_000 });
+  await settle(page);
+  expect(await page.locator("#profile-list option").allTextContents()).toEqual(["profiles…", "dike <b>"]);
+  await page.selectOption("#profile-list", { label: "dike <b>" });
+  await complete();
+  const kept = await line();
+  for (const [index, vertex] of [...before].reverse().entries()) {
+    expect(kept[index]![0]).toBeCloseTo(vertex[0]!, 12);
+    expect(kept[index]![1]).toBeCloseTo(vertex[1]!, 12);
+  }
+  await page.click("#profile-remove");
+  await expect.poll(line).toEqual([]);
+  expect(await page.isVisible("#profile-list")).toBe(false);
+}

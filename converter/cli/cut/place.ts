@@ -1,5 +1,5 @@
-import { type Crs, ecefToGeodetic, GromaError, pointTransform, type Unit } from "@groma/georef";
-import type { CutFacts, LengthUnit, PointSelection } from "@groma/layer/export";
+import { ecefToGeodetic, GromaError, pointTransform } from "@groma/georef";
+import type { CutFacts, PointSelection } from "@groma/layer/export";
 import type { RecordedPoints } from "@groma/layer/query";
 import { geodesicLengths, sourceLine } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
@@ -100,39 +100,14 @@ export async function lengthsOnEarth(
   return geodesicLengths(line);
 }
 
-/** How units are written behind numbers. */
-const UNIT_TEXTS: ReadonlyMap<string, string> = new Map([
-  ["metre", "m"],
-  ["foot", "ft"],
-  ["US survey foot", "US ft"],
-]);
-
-const UNKNOWN_UNIT: LengthUnit = { text: "units of the scan", size: 1 };
-
 /** What documents say of a file's coordinates; where the file does not tell its system, nothing but the title. */
 export async function factsOf({ source }: RecordedPoints, title: string): Promise<CutFacts> {
-  let crs: Crs;
+  const { cutFacts } = await import("@groma/layer/export");
   try {
-    ({ crs } = await placed(declarationOf(source)));
+    const { crs } = await placed(declarationOf(source));
+    return cutFacts(title, crs);
   } catch (error) {
     if (!(error instanceof GromaError)) throw error;
-    return { title, unit: UNKNOWN_UNIT, heightUnit: UNKNOWN_UNIT };
+    return cutFacts(title, undefined);
   }
-  const { name, code, height, horizontalUnit, verticalUnit } = crs;
-  const epsg = /^EPSG:(\d+)/.exec(code ?? "")?.[1];
-  const heights =
-    height.kind === "geoid"
-      ? height.model
-      : height.kind === "ellipsoidal"
-        ? "above the ellipsoid"
-        : undefined;
-  const unit = horizontalUnit.kind === "linear" ? inWords(horizontalUnit) : { text: "degrees", size: 1 };
-  return {
-    ...{ title, crs: name, heights, unit, heightUnit: inWords(verticalUnit) },
-    ...(epsg !== undefined && { epsg: Number(epsg) }),
-  };
-}
-
-function inWords({ name, size }: Unit): LengthUnit {
-  return { text: UNIT_TEXTS.get(name) ?? name, size };
 }

@@ -1,4 +1,5 @@
 import "ol/ol.css";
+import { ecefToGeodetic } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import { PointCloudLayer as MapLayer, measureView, PointCloudSource } from "@groma/layer/openlayers";
 import type { ViewAdapter } from "@groma/layer/tools";
@@ -6,10 +7,12 @@ import { buildModuleUrl, type Viewer } from "cesium";
 import { boundingExtent } from "ol/extent.js";
 import TileLayer from "ol/layer/Tile.js";
 import OlMap from "ol/Map.js";
+import Overlay from "ol/Overlay.js";
 import { fromLonLat, get as projectionOf } from "ol/proj.js";
 import TileImage from "ol/source/TileImage.js";
 import TileGrid from "ol/tilegrid/TileGrid.js";
 import View from "ol/View.js";
+import { textElement } from "../panel/elements.js";
 
 /** Levels of the Natural Earth map that comes with Cesium, degrees per pixel. */
 const RESOLUTIONS = [180 / 256, 90 / 256, 45 / 256];
@@ -23,6 +26,12 @@ const FINEST = 0.05;
 export class MapView {
   readonly map: OlMap;
   readonly #failed: (thrown: unknown) => void;
+  /** Where a tool points to. */
+  readonly #mark = new Overlay({
+    element: textElement("div", "", "map-mark"),
+    positioning: "center-center",
+    stopEvent: false,
+  });
   #layer: MapLayer | undefined;
   #source: PointCloudSource | undefined;
   #shown: PointCloudLayer | undefined;
@@ -37,6 +46,7 @@ export class MapView {
       layers: [baseMap()],
       view: new View({ center: [0, 0], zoom: 1, maxZoom: 26 }),
     });
+    this.map.addOverlay(this.#mark);
     viewer.scene.postRender.addEventListener(() => this.#follow());
   }
 
@@ -75,6 +85,18 @@ export class MapView {
   /** The map, for measuring on it. */
   get measured(): ViewAdapter {
     return measureView(this.map, () => [this.#layer].flatMap((layer) => layer ?? []));
+  }
+
+  /** Marks a place; undefined: none. @param place ECEF, metres */
+  mark(place: ArrayLike<number> | undefined): void {
+    if (!place) {
+      this.#mark.setPosition(undefined);
+      return;
+    }
+    const geodetic = new Float64Array(3);
+    ecefToGeodetic(place[0]!, place[1]!, place[2]!, geodetic);
+    const degrees = [geodetic[0]!, geodetic[1]!].map((angle) => angle * (180 / Math.PI));
+    this.#mark.setPosition(fromLonLat(degrees, this.map.getView().getProjection()));
   }
 
   /** Shows places in the middle, WGS 84, radians. */

@@ -1,104 +1,174 @@
-import type { ProfilePoints } from "@groma/layer/tools";
-import { axisBottom, axisLeft } from "d3-axis";
-import { scaleLinear } from "d3-scale";
-import { select } from "d3-selection";
-import { coloursOf, placesOf } from "./point-buffers.js";
+import {
+  type PlotAxes,
+  PlotIndex,
+  type PlotPlace,
+  type PlottedPoint,
+  PlotView,
+  type ProfilePoints,
+  type TerrainStation,
+} from "@groma/layer/tools";
+import { drawAxes, MARGIN } from "./plot-axes.js";
+import { PlotCanvas } from "./plot-canvas.js";
+import { watchPlot } from "./plot-input.js";
+import { coloursOf, type PointColours } from "./point-colours.js";
 
-const VERTEX = `#version 300 es
-layout(location = 0) in vec2 place;
-layout(location = 1) in vec4 colour;
-uniform vec4 window;
-uniform float size;
-out vec4 shown;
-void main() {
-  gl_Position = vec4((place - window.xy) / window.zw * 2.0 - 1.0, 0.0, 1.0);
-  gl_PointSize = size;
-  shown = colour;
-}`;
+/** Pixels around the pointer in which a point counts as hit. */
+const REACH = 10;
 
-const FRAGMENT = `#version 300 es
-precision mediump float;
-in vec4 shown;
-out vec4 colour;
-void main() {
-  colour = shown;
-}`;
-
-/** Room for the axes, CSS pixels. */
-const MARGIN = { left: 58, right: 12, top: 10, bottom: 34 } as const;
-
-interface Uploaded {
-  readonly array: WebGLVertexArrayObject;
-  readonly buffers: readonly WebGLBuffer[];
-  readonly count: number;
+/** Words of the axes. */
+export interface AxisWords {
+  readonly along: string;
+  readonly up: string;
 }
 
-/** Chainage against height of the points of one profile, by WebGL 2; each node's points are uploaded once. */
+/** What the rest of the page hears of a plot. */
+export interface PlotEvents {
+  /** The point that is pointed at; undefined: none. */
+  readonly hovered: (point: PlottedPoint<ProfilePoints> | undefined) => void;
+  /** A place was clicked, or chosen by key; with the point there, if one is near. */
+  readonly clicked: (place: PlotPlace, point: PlottedPoint<ProfilePoints> | undefined) => void;
+  /** Another part is seen. */
+  readonly moved: () => void;
+}
+
+/** Chainage against height of the points of one profile: seen, moved, pointed at. */
 export class ProfilePlot {
-  readonly #gl: WebGL2RenderingContext;
-  readonly #program: WebGLProgram;
-  readonly #canvas: HTMLCanvasElement;
+  readonly view = new PlotView(1, 1);
+  readonly #canvas: PlotCanvas;
+  readonly #root: HTMLCanvasElement;
   readonly #axes: SVGSVGElement;
-  readonly #parts: Uploaded[] = [];
+  readonly #events: PlotEvents;
+  readonly #index = new PlotIndex<ProfilePoints>();
+  readonly #parts: ProfilePoints[] = [];
+  #colours: PointColours = { by: "rgb", bits: 16 };
+  #words: AxisWords = { along: "chainage (m)", up: "height (m)" };
+  #from = 0;
   #length = 1;
-  /** Height that buffers count from, metres. */
-  #origin = Number.NaN;
   #least = Number.POSITIVE_INFINITY;
   #greatest = Number.NEGATIVE_INFINITY;
-  #exaggeration = 1;
+  #ground: readonly TerrainStation[] = [];
+  #measured: readonly PlotPlace[] = [];
+  #measuredWords = "";
+  #hover: PlottedPoint<ProfilePoints> | undefined;
+  #crosshair: readonly [number, number] | undefined;
   #frame = 0;
 
   /** @throws Error where the browser gives no WebGL 2 */
-  constructor(canvas: HTMLCanvasElement, axes: SVGSVGElement) {
-    const gl = canvas.getContext("webgl2", { antialias: false, preserveDrawingBuffer: true });
-    if (!gl) throw new Error("this browser cannot draw a second picture");
-    this.#gl = gl;
-    this.#canvas = canvas;
+  constructor(canvas: HTMLCanvasElement, axes: SVGSVGElement, events: PlotEvents) {
+    this.#canvas = new PlotCanvas(canvas);
+    this.#root = canvas;
     this.#axes = axes;
-    this.#program = programOf(gl);
+    this.#events = events;
     new ResizeObserver(() => this.#ask()).observe(canvas);
+    watchPlot(canvas, MARGIN, {
+      pan: (right, down) => this.#change(() => this.view.panBy(right, down)),
+      zoom: (x, y, factor, which) => this.zoom(factor, x, y, which),
+      hover: (x, y) => this.#point(x, y),
+      leave: () => this.#point(undefined, undefined),
+      click: (x, y) => this.#click(x, y),
+      crosshair: (at) => {
+        this.#crosshair = at;
+        if (at) this.#point(...at);
+        this.#ask();
+      },
+      fit: () => this.fit(),
+      trueScale: () => this.stretch(1),
+      size: () => [this.view.width, this.view.height],
+    });
   }
 
   /** Points that are in the picture. */
   get count(): number {
-    return this.#parts.reduce((sum, { count }) => sum + count, 0);
+    return this.#canvas.count;
   }
 
-  /** How much heights are stretched against lengths; only the picture is. */
-  get exaggeration(): number {
-    return this.#exaggeration;
+  /** Points of the picture, node by node. */
+  get parts(): readonly ProfilePoints[] {
+    return this.#parts;
   }
 
-  /** Begins another profile. @param length of its line, metres */
-  clear(length: number): void {
-    for (const { array, buffers } of this.#parts.splice(0)) {
-      this.#gl.deleteVertexArray(array);
-      for (const buffer of buffers) this.#gl.deleteBuffer(buffer);
-    }
-    this.#length = length;
-    this.#origin = Number.NaN;
+  /** Begins another profile. @param from chainage of its start, metres @param length of its line, metres */
+  clear(from: number, length: number, words: AxisWords, colours: PointColours): void {
+    this.#canvas.clear();
+    this.#index.clear();
+    this.#parts.length = 0;
+    [this.#from, this.#length, this.#words, this.#colours] = [from, length, words, colours];
     this.#least = Number.POSITIVE_INFINITY;
     this.#greatest = Number.NEGATIVE_INFINITY;
-    this.#ask();
+    this.#ground = [];
+    this.#measured = [];
+    this.#hover = undefined;
+    this.fit();
   }
 
-  /** @param bits that the scan's own colours have */
-  add(points: ProfilePoints, bits: 8 | 16): void {
-    if (Number.isNaN(this.#origin)) this.#origin = Math.floor(points.height[0]!);
+  add(points: ProfilePoints): void {
     for (const height of points.height) {
       if (height < this.#least) this.#least = height;
       if (height > this.#greatest) this.#greatest = height;
     }
-    const gl = this.#gl;
-    const array = gl.createVertexArray();
-    gl.bindVertexArray(array);
-    const buffers = [
-      attribute(gl, 0, placesOf(points, this.#origin), 2, gl.FLOAT),
-      attribute(gl, 1, coloursOf(points, bits), 4, gl.UNSIGNED_BYTE),
-    ];
-    gl.bindVertexArray(null);
-    this.#parts.push({ array, buffers, count: points.height.length });
+    this.#canvas.add(points, coloursOf(points, this.#colours));
+    this.#index.add(points);
+    this.#parts.push(points);
+    if (this.view.isFitted) this.fit();
     this.#ask();
+  }
+
+  set colours(colours: PointColours) {
+    this.#colours = colours;
+    for (const [part, points] of this.#parts.entries())
+      this.#canvas.recolour(part, coloursOf(points, colours));
+    this.#ask();
+  }
+
+  set ground(stations: readonly TerrainStation[]) {
+    this.#ground = stations;
+    this.#ask();
+  }
+
+  /** Shows a measured line and words beside its end. */
+  measured(places: readonly PlotPlace[], words: string): void {
+    [this.#measured, this.#measuredWords] = [places, words];
+    this.#ask();
+  }
+
+  /** Shows everything. */
+  fit(): void {
+    const empty = !(this.#greatest >= this.#least);
+    const [low, high] = empty ? [0, 1] : [this.#least, Math.max(this.#greatest, this.#least + 0.1)];
+    this.#change(() => this.view.fit({ from: this.#from, to: this.#from + this.#length, low, high }));
+  }
+
+  /** Stretches heights against lengths by a number; 1 shows true angles. */
+  stretch(exaggeration: number): void {
+    this.#change(() => {
+      this.view.exaggeration = exaggeration;
+    });
+  }
+
+  /** Makes things larger about a pixel of the plot. */
+  zoom(factor: number, x = this.view.width / 2, y = this.view.height / 2, axes: PlotAxes = "both"): void {
+    this.#change(() => this.view.zoomAt(x, y, factor, axes));
+  }
+
+  #change(change: () => void): void {
+    this.#measure();
+    change();
+    this.#events.moved();
+    this.#ask();
+  }
+
+  #point(x: number | undefined, y: number | undefined): void {
+    const found =
+      x === undefined || y === undefined ? undefined : this.#index.nearest(this.view, x, y, REACH);
+    if (found?.points === this.#hover?.points && found?.index === this.#hover?.index) return;
+    this.#hover = found;
+    this.#events.hovered(found);
+    this.#ask();
+  }
+
+  #click(x: number, y: number): void {
+    const found = this.#index.nearest(this.view, x, y, REACH);
+    this.#events.clicked(found ? placeOf(found) : this.view.placeOf(x, y), found);
   }
 
   #ask(): void {
@@ -108,79 +178,25 @@ export class ProfilePlot {
     });
   }
 
+  #measure(): void {
+    const { clientWidth, clientHeight } = this.#root;
+    this.view.resize(clientWidth - MARGIN.left - MARGIN.right, clientHeight - MARGIN.top - MARGIN.bottom);
+  }
+
   #draw(): void {
-    const ratio = devicePixelRatio;
-    const [width, height] = [this.#canvas.clientWidth, this.#canvas.clientHeight];
-    if (width === 0 || height === 0) return;
-    this.#canvas.width = Math.round(width * ratio);
-    this.#canvas.height = Math.round(height * ratio);
-    const gl = this.#gl;
-    const [inner, high] = [width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom];
-    const empty = !(this.#greatest >= this.#least);
-    const x = scaleLinear([0, this.#length], [0, inner]);
-    const [low, top] = empty ? [0, 1] : [this.#least, Math.max(this.#greatest, this.#least + 0.1)];
-    const y = scaleLinear([low, top], [high, 0]).nice();
-    const [bottom, above] = y.domain() as [number, number];
-    this.#exaggeration = high / (above - bottom) / (inner / this.#length);
-    gl.viewport(MARGIN.left * ratio, MARGIN.bottom * ratio, inner * ratio, high * ratio);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT);
-    gl.useProgram(this.#program);
-    const at = (name: string) => gl.getUniformLocation(this.#program, name);
-    gl.uniform4f(at("window"), 0, bottom - (this.#origin || 0), this.#length, above - bottom);
-    gl.uniform1f(at("size"), Math.max(1.5, 1.5 * ratio));
-    for (const { array, count } of this.#parts) {
-      gl.bindVertexArray(array);
-      gl.drawArrays(gl.POINTS, 0, count);
-    }
-    gl.bindVertexArray(null);
-    const svg = select(this.#axes).attr("viewBox", `0 0 ${width} ${height}`);
-    svg.selectAll("*").remove();
-    const place = (left: number, down: number) => `translate(${left},${down})`;
-    svg
-      .append("g")
-      .attr("transform", place(MARGIN.left, height - MARGIN.bottom))
-      .call(axisBottom(x).ticks(inner / 90));
-    svg
-      .append("g")
-      .attr("transform", place(MARGIN.left, MARGIN.top))
-      .call(axisLeft(y).ticks(high / 40));
-    svg
-      .append("text")
-      .attr("x", width - MARGIN.right)
-      .attr("y", height - 4)
-      .attr("text-anchor", "end")
-      .text(`chainage (m), heights × ${this.#exaggeration.toPrecision(2)}`);
+    if (this.#root.clientWidth === 0 || this.#root.clientHeight === 0) return;
+    this.#measure();
+    this.#canvas.draw(this.view, MARGIN.left, MARGIN.bottom);
+    drawAxes(this.#axes, this.view, {
+      along: `${this.#words.along}, heights × ${this.view.exaggeration.toPrecision(3)}`,
+      ...{ up: this.#words.up, ground: this.#ground, crosshair: this.#crosshair },
+      ...{ measured: this.#measured, measuredWords: this.#measuredWords },
+      hover: this.#hover && placeOf(this.#hover),
+    });
   }
 }
 
-function attribute(
-  gl: WebGL2RenderingContext,
-  index: number,
-  data: Float32Array | Uint8Array,
-  size: number,
-  type: number,
-): WebGLBuffer {
-  const buffer = gl.createBuffer();
-  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-  gl.bufferData(gl.ARRAY_BUFFER, data as Float32Array<ArrayBuffer>, gl.STATIC_DRAW);
-  gl.enableVertexAttribArray(index);
-  gl.vertexAttribPointer(index, size, type, type === gl.UNSIGNED_BYTE, 0, 0);
-  return buffer;
-}
-
-function programOf(gl: WebGL2RenderingContext): WebGLProgram {
-  const program = gl.createProgram();
-  for (const [type, source] of [
-    [gl.VERTEX_SHADER, VERTEX],
-    [gl.FRAGMENT_SHADER, FRAGMENT],
-  ] as const) {
-    const shader = gl.createShader(type)!;
-    gl.shaderSource(shader, source);
-    gl.compileShader(shader);
-    gl.attachShader(program, shader);
-  }
-  gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program) ?? "");
-  return program;
+/** Chainage and height of a point. */
+export function placeOf({ points, index }: PlottedPoint<ProfilePoints>): PlotPlace {
+  return [points.chainage[index]!, points.height[index]!];
 }

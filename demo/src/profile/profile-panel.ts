@@ -1,61 +1,96 @@
-import type { PointCloudLayer } from "@groma/layer/cesium";
-import { exportCsv, exportDxf, exportLas } from "@groma/layer/export";
-import { Profile } from "@groma/layer/tools";
+import type { PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import {
+  areaToDatum,
+  distanceInPlot,
+  type PlotPlace,
+  type PlottedPoint,
+  Profile,
+  type ProfilePoints,
+  type TerrainStation,
+  type TerrainStatistic,
+  type ViewAdapter,
+} from "@groma/layer/tools";
 import type { Viewer } from "cesium";
-import { byId, setText } from "../panel/elements.js";
-import { DrawLine, type DrawnLine } from "./draw-line.js";
-import { ProfilePlot } from "./plot.js";
+import { byId, optionElement, setText } from "../panel/elements.js";
+import { groundTable } from "./ground-table.js";
+import { ProfilePlot, placeOf } from "./plot.js";
+import type { PointColours } from "./point-colours.js";
+import { FORMATS, writeProfile } from "./profile-files.js";
+import { type GroundChoice, groundOf, intervalFor } from "./profile-ground.js";
+import { type DrawnLine, ProfileLines } from "./profile-lines.js";
 import { saveFile } from "./save-file.js";
-
-const FORMATS = { las: exportLas, csv: exportCsv, dxf: exportDxf } as const;
+import { PlaceMark, StripOutline } from "./strip-outline.js";
 
 /** Points of the picture at most; all of them are exported. */
 const MOST_SHOWN = 3_000_000;
 
+const HINT =
+  "Click points of the cloud along the line, or move the crosshair with the arrow keys and press Enter. Twice in one place ends it.";
+
 /** What the rest of the page hears of a profile. */
 export interface ProfileEvents {
-  /** Clicks on the globe become vertices of its line. */
+  /** Clicks on globe and map become vertices of its line. */
   readonly begins: () => void;
+  /** A point of the picture was chosen: its node and record. */
+  readonly picked: (cloud: PointCloud, node: string, record: number) => void;
+  /** The place that is pointed at, ECEF, metres. */
+  readonly pointed: (place: ArrayLike<number> | undefined) => void;
   /** It could not be read or written. */
   readonly failed: (thrown: unknown) => void;
 }
 
-/** The profile of the page: a line drawn by clicks, the picture of its points, and their export. */
+/** The profile of the page: lines, the picture of the points along one of them, what is measured in it, and its files. */
 export class ProfilePanel {
+  readonly lines: ProfileLines;
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #events: ProfileEvents;
-  readonly #draw: DrawLine;
+  readonly #outline: StripOutline;
+  readonly #mark: PlaceMark;
   readonly #panel = byId("profile", HTMLElement);
   readonly #status = byId("profile-status", HTMLElement);
+  readonly #readout = byId("profile-readout", HTMLElement);
+  readonly #list = byId("profile-list", HTMLSelectElement);
+  readonly #name = byId("profile-name", HTMLInputElement);
   readonly #width = byId("profile-width", HTMLInputElement);
   readonly #start = byId("profile-draw", HTMLButtonElement);
   readonly #format = byId("profile-format", HTMLSelectElement);
   readonly #export = byId("profile-export", HTMLButtonElement);
+  readonly #stretch = byId("profile-stretch", HTMLInputElement);
+  readonly #colour = byId("profile-colour", HTMLSelectElement);
+  readonly #groundBy = byId("profile-ground", HTMLSelectElement);
+  readonly #groundClass = byId("profile-ground-class", HTMLInputElement);
+  readonly #measure = byId("profile-measure", HTMLButtonElement);
+  readonly #tableShown = byId("profile-table-shown", HTMLInputElement);
+  readonly #table = byId("profile-table", HTMLElement);
+  readonly #interval = byId("profile-interval", HTMLInputElement);
   #plot: ProfilePlot | undefined;
   #profile: Profile | undefined;
   #work: AbortController | undefined;
+  #grounding: AbortController | undefined;
+  #ground: TerrainStation[] = [];
+  #measured: PlotPlace[] = [];
 
   constructor(viewer: Viewer, layer: () => PointCloudLayer | undefined, events: ProfileEvents) {
     this.#layer = layer;
     this.#events = events;
-    this.#draw = new DrawLine(viewer, layer, (line) => void this.#read(line));
-    this.#start.addEventListener("click", () => (this.#draw.active ? this.finish() : this.#begin()));
-    this.#width.addEventListener("change", () => void this.#read(this.#draw.line));
-    this.#export.addEventListener("click", () => void this.#save());
-    byId("profile-close", HTMLButtonElement).addEventListener("click", () => this.clear());
-    window.addEventListener("keydown", ({ key }) => {
-      if (key === "Escape" && this.#draw.active) this.finish();
+    this.lines = new ProfileLines(viewer, layer, () => this.#follow(), events.failed);
+    this.#mark = new PlaceMark(viewer);
+    this.#outline = new StripOutline(viewer, layer, (width) => {
+      this.#width.value = String(Number(width.toPrecision(3)));
+      void this.#read();
     });
+    for (const [value, { label }] of FORMATS) this.#format.append(optionElement({ value, label }));
+    this.#connect();
   }
 
-  /** Whether clicks on the globe are vertices of the line. */
+  /** Whether clicks are vertices of the line. */
   get drawing(): boolean {
-    return this.#draw.active;
+    return this.lines.drawing;
   }
 
   /** Longitude and latitude of the line's vertices, radians. */
   get line(): DrawnLine {
-    return this.#draw.line;
+    return this.lines.line;
   }
 
   /** Points in the picture. */
@@ -63,88 +98,292 @@ export class ProfilePanel {
     return this.#plot?.count ?? 0;
   }
 
-  /** Forgets line, picture and what is being read. */
-  clear(): void {
-    this.#work?.abort();
-    this.#draw.clear();
-    this.#profile = undefined;
-    this.#panel.hidden = true;
-    this.#tellState();
+  get plot(): ProfilePlot | undefined {
+    return this.#plot;
+  }
+
+  /** Lets lines be drawn and changed on a further view. */
+  addView(view: ViewAdapter): void {
+    this.lines.addView(view);
+  }
+
+  /** Forgets what is shown, and takes over the lines that were kept of a cloud. */
+  open(layer: PointCloudLayer): void {
+    this.#close();
+    try {
+      this.lines.open(layer);
+    } catch (thrown) {
+      this.#events.failed(thrown);
+    }
+  }
+
+  /** Ends the line that is being drawn, if any. */
+  finish(): void {
+    if (this.drawing) this.lines.finish();
+  }
+
+  #connect(): void {
+    const on = (element: HTMLElement, event: string, work: () => void) =>
+      element.addEventListener(event, work);
+    on(this.#start, "click", () => (this.drawing ? this.finish() : this.#begin()));
+    on(this.#width, "change", () => void this.#read());
+    on(this.#export, "click", () => void this.#save());
+    on(byId("profile-close", HTMLButtonElement), "click", () => this.#close());
+    on(this.#list, "change", () => this.lines.choose(this.#list.value || undefined));
+    on(this.#name, "change", () => this.lines.rename(this.#name.value.trim() || "profile"));
+    on(byId("profile-reverse", HTMLButtonElement), "click", () => this.lines.reverse());
+    on(byId("profile-remove", HTMLButtonElement), "click", () => this.lines.remove());
+    on(byId("profile-fit", HTMLButtonElement), "click", () => this.#plot?.fit());
+    on(byId("profile-true", HTMLButtonElement), "click", () => this.#plot?.stretch(1));
+    on(this.#stretch, "change", () => {
+      if (this.#stretch.valueAsNumber > 0) this.#plot?.stretch(this.#stretch.valueAsNumber);
+    });
+    on(this.#colour, "change", () => {
+      if (this.#plot) this.#plot.colours = this.#colours();
+    });
+    for (const field of [this.#groundBy, this.#groundClass, this.#tableShown])
+      on(field, "change", () => void this.#groundAnew());
+    on(this.#measure, "click", () => this.#toggleMeasuring());
+    const interval = byId("profile-every", HTMLElement);
+    on(this.#format, "change", () => {
+      interval.hidden = this.#format.value !== "sections";
+    });
   }
 
   #begin(): void {
     this.#events.begins();
     this.#work?.abort();
     this.#profile = undefined;
-    this.#draw.begin(this.#events.failed);
     this.#panel.hidden = false;
-    this.#picture().clear(1);
-    setText(this.#status, "Click points of the cloud along the line; Escape ends it.");
+    this.#clearPicture(0, 1);
+    setText(this.#status, HINT);
+    this.lines.draw().catch(this.#events.failed);
+  }
+
+  #close(): void {
+    this.#work?.abort();
+    this.lines.tool.cancel();
+    this.#profile = undefined;
+    this.lines.choose(undefined);
+    this.#outline.show(undefined, []);
+    this.#point(undefined);
+    this.#panel.hidden = true;
     this.#tellState();
   }
 
-  /** Ends the line that is being drawn, if any. */
-  finish(): void {
-    this.#draw.end();
+  /** The lines have changed, or another one is shown. */
+  #follow(): void {
+    const { all, chosen } = this.lines;
+    this.#list.replaceChildren(
+      optionElement({ value: "", label: "profiles…" }),
+      ...all.map(({ id, name }) => optionElement({ value: id, label: name })),
+    );
+    this.#list.hidden = all.length === 0;
+    this.#list.value = chosen?.id ?? "";
+    this.#name.value = chosen?.name ?? "";
+    if (chosen) this.#panel.hidden = false;
     this.#tellState();
+    if (this.lines.line.length > 1) void this.#read();
+    else if (!chosen && !this.drawing) this.#outline.show(undefined, []);
   }
 
   #tellState(): void {
-    setText(this.#start, this.#draw.active ? "End the line" : "Draw a profile");
+    setText(this.#start, this.drawing ? "End the line" : "Draw a profile");
     this.#export.disabled = this.#profile === undefined;
+    for (const id of ["profile-reverse", "profile-remove"])
+      byId(id, HTMLButtonElement).disabled = this.lines.chosen === undefined;
+    this.#name.disabled = this.lines.chosen === undefined;
   }
 
   #picture(): ProfilePlot {
-    this.#plot ??= new ProfilePlot(
-      byId("profile-plot", HTMLCanvasElement),
-      this.#panel.querySelector<SVGSVGElement>("#profile-axes")!,
-    );
+    const axes = this.#panel.querySelector<SVGSVGElement>("#profile-axes")!;
+    this.#plot ??= new ProfilePlot(byId("profile-plot", HTMLCanvasElement), axes, {
+      hovered: (point) => this.#point(point),
+      clicked: (place, point) => this.#click(place, point),
+      moved: () => {
+        this.#stretch.value = this.#plot?.view.exaggeration.toPrecision(3) ?? "";
+      },
+    });
     return this.#plot;
   }
 
-  async #read(line: DrawnLine): Promise<void> {
+  #clearPicture(from: number, length: number): ProfilePlot {
+    const crs = this.#layer()?.cloud.crs;
+    const height = crs?.height.kind === "geoid" ? `, ${crs.height.model}` : "";
+    const ellipsoid = crs?.height.kind === "ellipsoidal" ? ", above the ellipsoid" : "";
+    const plot = this.#picture();
+    plot.clear(
+      from,
+      length,
+      { along: "chainage (m)", up: `height (m${height}${ellipsoid})` },
+      this.#colours(),
+    );
+    this.#measured = [];
+    this.#ground = [];
+    this.#table.replaceChildren();
+    return plot;
+  }
+
+  #colours(): PointColours {
     const layer = this.#layer();
+    const classes = new Map(
+      Object.entries(layer?.style.classes ?? {}).map(([code, one]) => [Number(code), one.color]),
+    );
+    const bits = layer?.cloud.statistics?.rgbBits === 8 ? 8 : 16;
+    return { by: this.#colour.value as PointColours["by"], bits, classes };
+  }
+
+  async #read(): Promise<void> {
+    const layer = this.#layer();
+    const { line, vertices } = this.lines;
     if (!layer || line.length < 2) return;
     this.#work?.abort();
     this.#work = new AbortController();
     const { signal } = this.#work;
     try {
-      const profile = new Profile(layer.cloud, { line, width: Number(this.#width.value) });
+      const profile = new Profile(layer.cloud, { line, width: this.#width.valueAsNumber });
       this.#profile = profile;
+      this.#outline.show(profile, vertices);
       this.#tellState();
-      const plot = this.#picture();
-      plot.clear(profile.length);
-      const bits = layer.cloud.statistics?.rgbBits === 8 ? 8 : 16;
+      const plot = this.#clearPicture(profile.from, profile.length);
       let complete = true;
       for await (const points of profile.points({ signal })) {
-        plot.add(points, bits);
-        setText(this.#status, `${this.#told(profile, plot.count)}, reading…`);
+        plot.add(points);
+        setText(this.#status, `${told(profile, plot.count)}, reading…`);
         complete = plot.count < MOST_SHOWN;
         if (!complete) break;
       }
       const whole = complete ? "complete" : "the coarser levels; the export has all points";
-      setText(this.#status, `${this.#told(profile, plot.count)}, ${whole}`);
+      setText(this.#status, `${told(profile, plot.count)}, ${whole}`);
+      await this.#groundAnew();
     } catch (thrown) {
       if (!signal.aborted) this.#events.failed(thrown);
     }
   }
 
-  #told({ length }: Profile, count: number): string {
-    return `${length.toFixed(1)} m, ${count.toLocaleString("en")} points`;
+  #groundChoice(): GroundChoice {
+    const by = this.#groundBy.value;
+    const code = this.#groundClass.valueAsNumber;
+    const statistic = by.startsWith("p") ? Number(by.slice(1)) : (by as TerrainStatistic);
+    return { statistic, classification: Number.isInteger(code) ? code : undefined };
+  }
+
+  async #groundAnew(): Promise<void> {
+    const [profile, plot] = [this.#profile, this.#plot];
+    this.#grounding?.abort();
+    if (!profile || !plot) return;
+    this.#grounding = new AbortController();
+    const { signal } = this.#grounding;
+    const wanted = this.#groundBy.value !== "" || this.#tableShown.checked;
+    const choice = this.#groundChoice();
+    const statistic = this.#groundBy.value === "" ? 50 : choice.statistic;
+    try {
+      const found = await groundOf(profile, wanted ? plot.parts : [], { ...choice, statistic }, signal);
+      this.#ground = found;
+      plot.ground = this.#groundBy.value === "" ? [] : found;
+      this.#showTable(statistic);
+    } catch (thrown) {
+      if (!signal.aborted) this.#events.failed(thrown);
+    }
+  }
+
+  #showTable(statistic: TerrainStatistic): void {
+    this.#table.hidden = !this.#tableShown.checked;
+    if (this.#table.hidden) return;
+    const which = typeof statistic === "number" ? `percentile ${statistic}` : statistic;
+    this.#table.replaceChildren(groundTable(this.#ground, `Ground, ${which} of each station, metres`));
+  }
+
+  /** Shows the point that is pointed at, here and on globe and map. */
+  #point(point: PlottedPoint<ProfilePoints> | undefined): void {
+    const profile = this.#profile;
+    const { place, words } =
+      point && profile ? this.#placed(profile, point) : { place: undefined, words: "" };
+    setText(this.#readout, words);
+    this.#mark.show(place);
+    this.#events.pointed(place);
+  }
+
+  #placed({ origin }: Profile, { points, index }: PlottedPoint<ProfilePoints>) {
+    const { xyz } = points.batch.records;
+    const at = 3 * points.batch.inside[index]!;
+    const [x, y, z] = [0, 1, 2].map((axis) => xyz[at + axis]! * origin.scale[axis]! + origin.offset[axis]!);
+    const place = origin.place(x!, y!, z!, new Float64Array(3));
+    const words = `chainage ${points.chainage[index]!.toFixed(2)} m, height ${points.height[index]!.toFixed(3)} m, offset ${points.offset[index]!.toFixed(2)} m`;
+    return { place, words };
+  }
+
+  #toggleMeasuring(): void {
+    const measuring = this.#measure.getAttribute("aria-pressed") !== "true";
+    this.#measure.setAttribute("aria-pressed", String(measuring));
+    this.#measured = [];
+    this.#plot?.measured([], "");
+    if (measuring)
+      setText(
+        this.#readout,
+        "Click two places of the picture, or choose them with the arrow keys and Enter.",
+      );
+  }
+
+  #click(place: PlotPlace, point: PlottedPoint<ProfilePoints> | undefined): void {
+    const profile = this.#profile;
+    if (!profile) return;
+    if (this.#measure.getAttribute("aria-pressed") === "true") {
+      this.#measured = this.#measured.length === 1 ? [...this.#measured, place] : [place];
+      const words = this.#measuredWords();
+      this.#plot?.measured(this.#measured, words.split("; ")[0]!);
+      if (words !== "") setText(this.#readout, words);
+    } else if (point) {
+      const { batch } = point.points;
+      this.#events.picked(profile.origin as PointCloud, batch.node, batch.inside[point.index]!);
+      setText(this.#readout, `${placeOf(point)[0].toFixed(2)} m: its record is shown beside the globe`);
+    }
+  }
+
+  /** Length, rise, slope; and the area between the ground and the height of the first place. */
+  #measuredWords(): string {
+    const [a, b] = this.#measured;
+    if (!a || !b) return "";
+    const { along, up, slant, grade, angle } = distanceInPlot(a, b);
+    const slope = Number.isFinite(grade) ? `${(100 * grade).toFixed(2)} %, ` : "";
+    const words = `along ${along.toFixed(3)} m, up ${up.toFixed(3)} m, slant ${slant.toFixed(3)} m, ${slope}${((180 * angle) / Math.PI).toFixed(2)}°`;
+    const { above, below, length } = areaToDatum(this.#ground, a[1], a[0], b[0]);
+    if (length === 0) return words;
+    return `${words}; ground above the first place ${above.toFixed(2)} m², below ${below.toFixed(2)} m²`;
   }
 
   async #save(): Promise<void> {
     const profile = this.#profile;
-    if (!profile) return;
-    const format = this.#format.value as keyof typeof FORMATS;
+    const format = FORMATS.get(this.#format.value);
+    if (!profile || !format) return;
     const onProgress = ({ read, total }: { read: number; total: number }) =>
       setText(this.#status, `writing, ${total > 0 ? Math.floor((100 * read) / total) : 100} %`);
+    const { statistic, classification } = this.#groundChoice();
+    const unit = profile.origin.crs.horizontalUnit.size;
+    const classes = classification === undefined ? undefined : new Set([classification]);
+    const chosen = this.#groundBy.value !== "";
     try {
-      const name = `${profile.origin.name.replace(/(\.copc)?\.laz$/i, "")}-profile.${format}`;
-      const saved = await saveFile(name, (sink) => FORMATS[format]([profile], sink, { onProgress }));
+      const stem = profile.origin.name.replace(/(\.copc)?\.laz$/i, "");
+      const name = `${stem}-profile.${format.ending}`;
+      const saved = await saveFile(name, (sink) =>
+        writeProfile(format, profile, sink, {
+          ...{ title: this.lines.chosen?.name ?? stem, onProgress },
+          exaggeration: Number(this.#plot?.view.exaggeration.toPrecision(3) ?? 1),
+          ground: chosen ? { interval: intervalFor(profile.length) / unit, statistic, classes } : undefined,
+          sections: {
+            interval: this.#interval.valueAsNumber || 10,
+            width: 40,
+            thickness: this.#width.valueAsNumber,
+          },
+        }),
+      );
       setText(this.#status, saved ? `${name} is written.` : "Nothing was written.");
     } catch (thrown) {
       this.#events.failed(thrown);
     }
   }
+}
+
+function told({ length }: Profile, count: number): string {
+  return `${length.toFixed(1)} m, ${count.toLocaleString("en")} points`;
 }

@@ -56,6 +56,11 @@ export class Picking {
       throw thrown;
     }
     if (signal.aborted) return;
+    this.show(hit);
+  }
+
+  /** Marks a point and tells of it; undefined: of none. */
+  show(hit: Hit | undefined): void {
     this.clear();
     if (!hit) return;
     this.#mark = this.#viewer.entities.add({

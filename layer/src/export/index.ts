@@ -3,7 +3,7 @@ export { BlobStore, type BlockStore } from "./block-store.js";
 export { type ByteSink, MemorySink } from "./byte-sink.js";
 export { collectParts, type PartedSelection, type PartedVolume } from "./collect.js";
 export { exportCsv } from "./csv.js";
-export type { CutFacts, LengthUnit } from "./cut-facts.js";
+export { type CutFacts, cutFacts, type LengthUnit } from "./cut-facts.js";
 export { type DatedOptions, exportLandXml, exportPicture, type PictureFileOptions } from "./documents.js";
 export { type DxfOptions, exportDxf } from "./dxf.js";
 export { exportGeoJson } from "./geojson.js";

@@ -31,6 +31,19 @@ export { PolygonVolume } from "./area/polygon-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
 export * from "./measure/index.js";
+export { PlotIndex, type PlottedPart, type PlottedPoint } from "./plot/plot-index.js";
+export {
+  areaBetween,
+  areaToDatum,
+  type Clearance,
+  distanceInPlot,
+  gradesOf,
+  leastClearance,
+  type PlotAreas,
+  type PlotDistance,
+  type PlotPlace,
+} from "./plot/plot-measures.js";
+export { type PlotAxes, type PlotExtent, PlotView } from "./plot/plot-view.js";
 export { Corridor, type LinePlace, type Stationing } from "./profile/corridor.js";
 export {
   geodesicLengths,

@@ -122,6 +122,11 @@ export class MeasureTool {
     return this.#history.present.draft?.vertices.length ?? 0;
   }
 
+  /** These vertices. */
+  get drawnVertices(): readonly Vertex[] {
+    return this.#history.present.draft?.vertices ?? [];
+  }
+
   /** The measurement whose vertices can be taken hold of. */
   get edited(): Measurement | undefined {
     return this.measurements.find(({ id }) => id === this.#edited);

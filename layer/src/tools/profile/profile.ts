@@ -74,6 +74,11 @@ export class Profile {
     return this.volume;
   }
 
+  /** Chainage at the start of the line, metres. */
+  get from(): number {
+    return this.volume.chainages[0] * this.origin.crs.horizontalUnit.size;
+  }
+
   /** Length of the line, metres, as the profile counts them. */
   get length(): number {
     return this.volume.length * this.origin.crs.horizontalUnit.size;

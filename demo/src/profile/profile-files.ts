@@ -1,0 +1,139 @@
+import { ecefToGeodetic } from "@groma/georef";
+import type { PointCloud } from "@groma/layer/cesium";
+import {
+  type ByteSink,
+  type CutFacts,
+  cutFacts,
+  type ExportOptions,
+  exportCsv,
+  exportDxf,
+  exportGeoJson,
+  exportLandXml,
+  exportLas,
+  exportPicture,
+  exportSections,
+  type GroundOptions,
+  MemorySink,
+  type PointSelection,
+} from "@groma/layer/export";
+import { CrossSections, type Profile, stations } from "@groma/layer/tools";
+
+const DEGREE = Math.PI / 180;
+
+/** What files of a profile are made with. */
+export interface FileChoices extends ExportOptions {
+  readonly title: string;
+  readonly exaggeration: number;
+  readonly ground: GroundOptions | undefined;
+  /** Of cross-sections, metres. */
+  readonly sections: { readonly interval: number; readonly width: number; readonly thickness: number };
+}
+
+type Write = (
+  profile: Profile,
+  sink: ByteSink,
+  choices: FileChoices & { readonly facts: CutFacts },
+) => Promise<unknown>;
+
+interface FileFormat {
+  readonly label: string;
+  readonly ending: string;
+  readonly write: Write;
+}
+
+/** Formats by what the page calls them; full density in all of them. */
+export const FORMATS: ReadonlyMap<string, FileFormat> = new Map<string, FileFormat>([
+  ["las", { label: "LAS", ending: "las", write: (profile, ...rest) => exportLas([profile], ...rest) }],
+  ["csv", { label: "CSV", ending: "csv", write: (profile, ...rest) => exportCsv([profile], ...rest) }],
+  [
+    "geojson",
+    {
+      label: "GeoJSON",
+      ending: "geojson",
+      write: (profile, ...rest) => exportGeoJson([placed(profile)], ...rest),
+    },
+  ],
+  [
+    "dxf",
+    { label: "DXF, in space", ending: "dxf", write: (profile, ...rest) => exportDxf([profile], ...rest) },
+  ],
+  [
+    "dxf-straightened",
+    {
+      ...{ label: "DXF, straightened", ending: "dxf" },
+      write: (profile, sink, options) => exportDxf([profile], sink, { ...options, layout: "straightened" }),
+    },
+  ],
+  [
+    "xml",
+    { label: "LandXML", ending: "xml", write: (profile, ...rest) => exportLandXml([profile], ...rest) },
+  ],
+  ["pdf", { label: "PDF, to scale", ending: "pdf", write: picture("pdf") }],
+  ["svg", { label: "SVG, to scale", ending: "svg", write: picture("svg") }],
+  ["png", { label: "PNG", ending: "png", write: writePng }],
+  ["sections", { label: "Cross-sections (ZIP)", ending: "zip", write: writeSections }],
+]);
+
+/** Writes a file of a profile. @throws what exports throw */
+export async function writeProfile(
+  format: FileFormat,
+  profile: Profile,
+  sink: ByteSink,
+  choices: FileChoices,
+): Promise<void> {
+  const { crs } = profile.origin as PointCloud;
+  await format.write(profile, sink, { ...choices, facts: cutFacts(choices.title, crs) });
+}
+
+function picture(format: "pdf" | "svg"): Write {
+  return (profile, sink, options) => exportPicture([profile], sink, { ...options, format });
+}
+
+/** The same selection with the places of its points. */
+function placed({ origin, volume, along }: Profile): PointSelection {
+  return {
+    ...{ origin, volume, along },
+    geodetic: (x, y, z, out) => {
+      origin.place(x, y, z, out);
+      ecefToGeodetic(out[0]!, out[1]!, out[2]!, out);
+      out[0]! /= DEGREE;
+      out[1]! /= DEGREE;
+    },
+  };
+}
+
+/** The picture to scale, drawn by the browser at 200 dots per inch. */
+async function writePng(...[profile, sink, options]: Parameters<Write>): Promise<void> {
+  const svg = new MemorySink();
+  await exportPicture([profile], svg, { ...options, format: "svg" });
+  const address = URL.createObjectURL(svg.blob("image/svg+xml"));
+  try {
+    const image = new Image();
+    image.src = address;
+    await image.decode();
+    const canvas = new OffscreenCanvas(...dotsOf(image));
+    canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
+    const blob = await canvas.convertToBlob({ type: "image/png" });
+    await sink.write(new Uint8Array(await blob.arrayBuffer()));
+  } finally {
+    URL.revokeObjectURL(address);
+  }
+}
+
+/** Size at 200 dots per inch, of browsers' 96; no side longer than they can draw. */
+function dotsOf({ naturalWidth, naturalHeight }: HTMLImageElement): [number, number] {
+  const scale = Math.min(200 / 96, 16_000 / Math.max(naturalWidth, naturalHeight));
+  return [Math.round(naturalWidth * scale), Math.round(naturalHeight * scale)];
+}
+
+async function writeSections(...[profile, sink, options]: Parameters<Write>): Promise<void> {
+  const { along, origin } = profile;
+  const { size } = origin.crs.horizontalUnit;
+  const { interval, width, thickness } = options.sections;
+  const ends = [along.chainages[0]!, along.chainages[along.chainages.length - 1]!] as const;
+  const half = width / 2 / size;
+  const volume = new CrossSections(along, stations(...ends, { interval: interval / size }), {
+    ...{ left: half, right: half, thickness: thickness / size },
+  });
+  await exportSections([{ origin, volume }], sink, { ...options, line: along, files: ["las", "dxf", "svg"] });
+}

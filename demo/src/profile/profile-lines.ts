@@ -1,0 +1,155 @@
+import { measureView, type PointCloudLayer } from "@groma/layer/cesium";
+import {
+  type Measurement,
+  MeasureTool,
+  measurementsToGeoJson,
+  readMeasurements,
+  type Vertex,
+  type ViewAdapter,
+} from "@groma/layer/tools";
+import type { Viewer } from "cesium";
+
+/** A line on the globe: longitude and latitude of each vertex, radians. */
+export type DrawnLine = readonly (readonly [number, number])[];
+
+/** Where the browser keeps the lines of a cloud between visits. */
+const KEY = "groma-profiles:";
+
+/**
+ * The lines of profiles: drawn and changed on globe and map, by pointer, touch or keyboard, as measured polylines are; named,
+ * reversed, kept in the browser with the records that their vertices stand on.
+ */
+export class ProfileLines {
+  readonly tool: MeasureTool;
+  readonly #layer: () => PointCloudLayer | undefined;
+  readonly #changed: () => void;
+  /** Vertices that the picture was told of. */
+  #told = "";
+  #chosen: string | undefined;
+  /** Name of the cloud whose lines these are. */
+  #cloud: string | undefined;
+
+  /**
+   * @param changed hears of another line, and of each change of it
+   * @param failed hears why a point could not be read
+   */
+  constructor(
+    { scene }: Viewer,
+    layer: () => PointCloudLayer | undefined,
+    changed: () => void,
+    failed: (thrown: unknown) => void,
+  ) {
+    this.#layer = layer;
+    this.#changed = changed;
+    const layers = () => [layer()].flatMap((one) => one ?? []);
+    this.tool = new MeasureTool(measureView(scene, layers), { onError: failed });
+    this.tool.onChange(() => this.#follow());
+  }
+
+  /** Lets lines be drawn on a further view. */
+  addView(view: ViewAdapter): void {
+    this.tool.addView(view);
+  }
+
+  get all(): readonly Measurement[] {
+    return this.tool.measurements;
+  }
+
+  /** The line whose profile is shown, once it is finished. */
+  get chosen(): Measurement | undefined {
+    return this.all.find(({ id }) => id === this.#chosen);
+  }
+
+  get drawing(): boolean {
+    return this.tool.drawing !== undefined;
+  }
+
+  /** Vertices of the line that is drawn, else of the one that is shown. */
+  get vertices(): readonly Vertex[] {
+    return this.drawing ? this.tool.drawnVertices : (this.chosen?.vertices ?? []);
+  }
+
+  get line(): DrawnLine {
+    return this.vertices.map(({ longitude, latitude }) => [longitude, latitude]);
+  }
+
+  /** Takes over the lines that were kept of a cloud, with their records. */
+  open(layer: PointCloudLayer): void {
+    const { cloud } = layer;
+    if (this.#cloud === cloud.name) {
+      this.tool.attach([cloud]);
+      return;
+    }
+    this.#clear();
+    this.#cloud = cloud.name;
+    const kept = localStorage.getItem(KEY + cloud.name);
+    if (kept) this.tool.add(readMeasurements(kept, [cloud], cloud.name).measurements);
+  }
+
+  /** Has the reader draw a line, which is then chosen. */
+  async draw(): Promise<void> {
+    this.#chosen = undefined;
+    const drawn = await this.tool.polyline();
+    if (drawn) this.choose(drawn.id);
+  }
+
+  /** Ends the line that is drawn, or gives it up where it has too few vertices. */
+  finish(): void {
+    if (!this.tool.finish()) this.tool.cancel();
+  }
+
+  /** Shows a line, and lets its vertices be moved; undefined: none. */
+  choose(id: string | undefined): void {
+    this.#chosen = id;
+    this.tool.edit(id);
+    this.#follow();
+  }
+
+  rename(name: string): void {
+    this.#replace((line) => ({ ...line, name }));
+  }
+
+  /** Turns the line round: chainage begins at its other end. */
+  reverse(): void {
+    this.#replace((line) => ({ ...line, vertices: line.vertices.toReversed() }));
+  }
+
+  remove(): void {
+    const { chosen } = this;
+    if (!chosen) return;
+    this.#chosen = undefined;
+    this.tool.remove(chosen.id);
+  }
+
+  /** Takes all lines off the views; those that are kept stay where they are. */
+  #clear(): void {
+    this.#cloud = undefined;
+    this.choose(undefined);
+    for (const { id } of [...this.all]) this.tool.remove(id);
+  }
+
+  #replace(change: (line: Measurement) => Measurement): void {
+    const { chosen } = this;
+    if (!chosen) return;
+    this.tool.remove(chosen.id);
+    this.tool.add([change(chosen)]);
+    this.choose(chosen.id);
+  }
+
+  #follow(): void {
+    this.#keep();
+    // A line that is clicked on globe or map is the one that is shown.
+    this.#chosen = this.tool.edited?.id ?? this.#chosen;
+    const now = JSON.stringify([this.#chosen, this.drawing, this.line, this.chosen?.name, this.all.length]);
+    if (now === this.#told) return;
+    this.#told = now;
+    this.#changed();
+  }
+
+  #keep(): void {
+    if (this.#cloud === undefined || this.#layer()?.cloud.name !== this.#cloud) return;
+    const key = KEY + this.#cloud;
+    if (this.all.length === 0) localStorage.removeItem(key);
+    else localStorage.setItem(key, JSON.stringify(measurementsToGeoJson(this.all)));
+  }
+}
