@@ -84,9 +84,7 @@ export class LayerRenderer implements Renderer<CesiumView> {
     }
     const { plan, style } = material;
     if (!programs.prepare(numberProgramsOf(plan, depth), allowance)) return true;
-    const { viewMatrix, frustum } = frameState.camera;
-    const camera = [`${viewMatrix}`, `${(frustum as PointFrustum["frustum"]).projectionMatrix}`];
-    const by = [...camera, heightOffset, plan.key, style, facts.filter, clips.held];
+    const by = [...cameraNumbers(frameState.camera), heightOffset, plan.key, style, facts.filter, clips.held];
     return this.#probe.follow(this.#probedFrame(frameState, by));
   }
 
@@ -176,6 +174,12 @@ export class LayerRenderer implements Renderer<CesiumView> {
       },
     };
   }
+}
+
+/** Where a camera is, where it looks and what it sees of that. */
+function cameraNumbers({ positionWC, directionWC, upWC, frustum }: Camera): number[] {
+  const axes = [positionWC, directionWC, upWC].flatMap(({ x, y, z }) => [x, y, z]);
+  return [...axes, ...Matrix4.toArray((frustum as PointFrustum["frustum"]).projectionMatrix)];
 }
 
 function sizeOf({ drawingBufferWidth, drawingBufferHeight }: Context): Size {

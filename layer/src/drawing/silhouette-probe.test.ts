@@ -51,6 +51,35 @@ describe("SilhouetteProbe", () => {
     expect(asked[0][8]).toEqual({ x: 250, y: 125 });
   });
 
+  it("finds a camera at rest that its scene moves by its own rounding in every frame", async () => {
+    const probe = new SilhouetteProbe<ViewTypes>();
+    const at = 4_376_543.218765432;
+    const [first, second, third] = [at, at * (1 + 2 ** -52), at].map((x) => frameOf([100, 150], [x, 0.5]));
+    expect(probe.follow(first.frame)).toBe(true);
+    first.answer();
+    await turn();
+    expect([probe.follow(second.frame), probe.follow(third.frame), second.asked.length]).toEqual([
+      false,
+      false,
+      0,
+    ]);
+    const moved = frameOf([100, 150], [at + 0.1, 0.5]);
+    expect(probe.follow(moved.frame)).toBe(true);
+  });
+
+  it("waits no more for a measurement that failed", async () => {
+    const probe = new SilhouetteProbe<ViewTypes>();
+    const { frame } = frameOf([100, 150], ["here"]);
+    let fail: (reason: Error) => void = () => {};
+    const numbersIn = () => new Promise<never>((_, reject) => (fail = reject));
+    const failing = { ...frame, numbersIn };
+    const unhandled = new Promise((done) => process.once("unhandledRejection", done));
+    expect([probe.follow(failing), probe.follow(failing)]).toEqual([true, true]);
+    fail(new Error("out of memory"));
+    expect(await unhandled).toMatchObject({ message: "out of memory" });
+    expect(probe.follow(failing)).toBe(false);
+  });
+
   it("finds no step where depth changes by less than a hundredth", async () => {
     const probe = new SilhouetteProbe<ViewTypes>();
     const { frame, answer } = frameOf([100, 100.9], ["here"]);

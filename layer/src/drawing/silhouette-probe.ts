@@ -18,7 +18,7 @@ export interface ProbedFrame<V extends ViewTypes> {
   readonly nodes: readonly DrawnNode<V>[];
   /** Size of the picture. */
   readonly size: Size;
-  /** What decides which points show, where and how: compared one by one. */
+  /** What decides which points show, where and how: compared one by one, numbers but for their rounding. */
   readonly by: readonly unknown[];
   /** Relief of a node's points in this frame. */
   reliefOf(node: DrawnNode<V>): Relief;
@@ -41,6 +41,12 @@ export interface Middle {
   readonly x: number;
   readonly y: number;
 }
+
+/**
+ * Share of a number by which it may differ and be the same: a scene may move its camera by its own rounding in every frame
+ * (as Cesium does), which nobody sees: 6 mm at most on the globe.
+ */
+const ROUNDING = 1e-9;
 
 const NOTHING: readonly unknown[] = [];
 
@@ -95,9 +101,14 @@ export class SilhouetteProbe<V extends ViewTypes> {
     const { nodes, size } = frame;
     const reliefs = new Map(nodes.map((node) => [node, frame.reliefOf(node)] as const));
     const gone = () => this.#underWay !== run;
-    const pictures = await frame.numbersIn(middlesOf(size), WINDOW, gone);
-    if (gone()) return;
-    this.#underWay = undefined;
+    let pictures: (Uint8Array | undefined)[] = [];
+    try {
+      pictures = await frame.numbersIn(middlesOf(size), WINDOW, gone);
+      if (gone()) return;
+    } finally {
+      // Nobody waits for a measurement that failed.
+      if (!gone()) this.#underWay = undefined;
+    }
     let covered = 0;
     let steps = 0;
     for (const pixels of pictures) {
@@ -118,7 +129,12 @@ function middlesOf({ width, height }: Size): Middle[] {
 }
 
 function isSame(a: readonly unknown[], b: readonly unknown[]): boolean {
-  return a.length === b.length && a.every((value, index) => value === b[index]);
+  return a.length === b.length && a.every((value, index) => isAlike(value, b[index]));
+}
+
+function isAlike(a: unknown, b: unknown): boolean {
+  if (typeof a !== "number" || typeof b !== "number") return a === b;
+  return Math.abs(a - b) <= ROUNDING * Math.max(1, Math.abs(a));
 }
 
 /** Relief of each pixel by the number of its point; NaN where there is none. */
