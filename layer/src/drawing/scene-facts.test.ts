@@ -27,6 +27,11 @@ const camera: FrameCamera = {
   pose: () => "",
 };
 
+/** Axes as they are, about a place. */
+const frameAt = (origin: [number, number, number]) => ({
+  ...{ origin: Float64Array.from(origin), rotation: Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1) },
+});
+
 /** A node of 100 points at a place, as far apart as its level says. */
 function nodeAt(key: VoxelKey, [x, y, z]: readonly [number, number, number], radius: number): OctreeNode {
   const node = new OctreeNode(key, "listed");
@@ -52,7 +57,8 @@ const layer = {
 /** Points that fill their cubes, as flat as a floor. */
 function verticesOf({ key: { depth } }: OctreeNode) {
   const edge = 16 / 2 ** depth;
-  return { box: [0, 0, 0, edge, edge, 1], toCube: [1 / edge, 0, 0, 0, 0, 1 / edge, 0, 0, 0, 0, 1 / edge, 0] };
+  const toCube = [1 / edge, 0, 0, 0, 0, 1 / edge, 0, 0, 0, 0, 1 / edge, 0];
+  return { box: [0, 0, 0, edge, edge, 1], toCube, bound: 1e-3, frame: frameAt([20, 0, 0]) };
 }
 
 function factsOf(nodes: OctreeNode[], counts: number[], spacings: number[], of: VerticesOf = verticesOf) {
@@ -107,5 +113,59 @@ describe("what is known of the spacing", () => {
     const facts = factsOf([root, children[0]!], [100, 100], [Number.POSITIVE_INFINITY, 2]);
     expect(facts.spacings[1]).toBeLessThan(4);
     expect(facts.groundSpacing).toBeGreaterThan(0);
+  });
+});
+
+describe("what a point may be off on screen", () => {
+  const node = nodeAt({ depth: 0, x: 0, y: 0, z: 0 }, [20, 0, 0], 10);
+  /** Of a node that is as wide as `half` says on each side of x = 20 and lies from z = -5 down, in view from the origin. */
+  const pixels = (half: number, bound: number, at: [number, number, number] = [20, 0, 0]) => {
+    const box = [-half, -half, -6, half, half, -5];
+    return factsOf([node], [100], [4], () => ({
+      box,
+      toCube: verticesOf(node).toCube,
+      bound,
+      frame: frameAt(at),
+    })).placingPixels!;
+  };
+  /** Float32 in eye space: 5 u per term. */
+  const rounding = (half: number) => 5 * 2 ** -24 * (Math.sqrt(3 * (2 * half ** 2 + 36)) + 20);
+
+  it("is bound and rounding at the nearest place of the box, not of a sphere around it", () => {
+    expect(pixels(30, 0.001)).toBeCloseTo(((0.001 + rounding(30)) * 50) / 5, 9);
+    // Ahead of the camera, not below it: the nearest corner lies at (10, 0, -5).
+    expect(pixels(10, 0.001)).toBeCloseTo(((0.001 + rounding(10)) * 50) / Math.hypot(10, 5), 9);
+  });
+
+  it("grows with the width of a node seen from near, and shows", () => {
+    expect(pixels(100_000, 0.01)).toBeGreaterThan(0.05);
+    expect(pixels(500, 1e-4)).toBeLessThan(0.05);
+  });
+
+  it("covers what float32 does on the way to the eye", () => {
+    // A turn, and points of a wide node near the camera, composed as on a GPU.
+    const half = 150_000;
+    const [sin, cos] = [Math.fround(Math.sin(0.7)), Math.fround(Math.cos(0.7))];
+    let worst = 0;
+    for (let i = 0; i < 2000; i++) {
+      const p = [half * Math.sin(1e3 * i), half * Math.cos(7e3 * i)].map(Math.fround);
+      const t = [-p[0]! * Math.cos(0.7) + 3, -p[0]! * Math.sin(0.7) - 2];
+      const exact = [0, 1].map((row) =>
+        row ? [Math.sin(0.7), Math.cos(0.7)] : [Math.cos(0.7), -Math.sin(0.7)],
+      );
+      const rows = [
+        [cos, Math.fround(-sin)],
+        [sin, cos],
+      ];
+      const off = rows.map(([a, b], row) => {
+        const sum = Math.fround(Math.fround(a! * p[0]!) + Math.fround(b! * p[1]!));
+        const there = exact[row]![0]! * p[0]! + exact[row]![1]! * p[1]! + t[row]!;
+        return Math.fround(sum + Math.fround(t[row]!)) - there;
+      });
+      worst = Math.max(worst, Math.hypot(...off));
+    }
+    const stated = 5 * 2 ** -24 * (Math.sqrt(3) * Math.SQRT2 * half + half);
+    expect(worst).toBeGreaterThan(0.005);
+    expect(worst).toBeLessThanOrEqual(stated);
   });
 });

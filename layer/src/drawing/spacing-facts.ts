@@ -7,7 +7,7 @@ import type { FrameCamera } from "./frame-camera.js";
 type Extents = Readonly<Record<keyof Pick<NodeVertices, "box" | "toCube">, ArrayLike<number>>>;
 
 /** What is known of a node's points once they are here; undefined until then. */
-export type VerticesOf = (node: OctreeNode) => Extents | undefined;
+export type VerticesOf = (node: OctreeNode) => (Extents & Pick<NodeVertices, "frame" | "bound">) | undefined;
 
 /** How far apart the points lie where nothing finer is drawn over them. */
 export function spacingFacts(

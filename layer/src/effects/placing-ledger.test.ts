@@ -22,7 +22,7 @@ it("tells what is known of the placing, from the data set's own map", () => {
   const placing = placingFacts(cloudPlacing(placed), nodes);
   const { ledger } = planEffects(
     styleOf(),
-    richFacts({ placing, depthStepPixels: 3, logarithmicDepth: true }),
+    richFacts({ placing, placingPixels: 0.2, depthStepPixels: 3, logarithmicDepth: true }),
   );
   const row = (name: string) => ledger.find(({ effect }) => effect === name)!;
   expect(row("geoid").magnitude).toBeCloseTo(47, 3);
@@ -32,5 +32,8 @@ it("tells what is known of the placing, from the data set's own map", () => {
   expect(row("placing").magnitude).toBe(4e-4);
   expect(row("storage").magnitude).toBeCloseTo(Math.sqrt(3) * 1000 * 2 ** -24, 9);
   expect(row("datum operation").magnitude).toBeNaN();
+  expect(row("placingOnScreen")).toMatchObject({ magnitude: 0.2, threshold: 0.05, unit: "px", active: true });
+  const far = planEffects(styleOf(), richFacts({ placing, placingPixels: 0.01 })).ledger;
+  expect(far.find(({ effect }) => effect === "placingOnScreen")).toMatchObject({ active: false });
   expect(row("logarithmicDepth")).toMatchObject({ magnitude: 3, threshold: 0.25, active: true });
 });

@@ -7,11 +7,18 @@ const EARTH_RADIUS = 6_371_008.8;
 /** Pixels from which a step of the depth buffer shows. */
 const DEPTH_THRESHOLD = 0.25;
 
+/** Pixels from which a point is seen beside its place. */
+const PLACING_THRESHOLD = 0.05;
+
 type Row = Omit<LedgerRow, "cost">;
 
 /** Rows of what is known of the placing: what leaving each part out would cost, and what all costs as it is. */
-export function placingRows({ placing, ...depth }: SceneFacts): LedgerRow[] {
-  const rows: Row[] = [...(placing ? rowsOf(placing) : []), ...depthRows(depth)];
+export function placingRows({ placing, placingPixels, ...depth }: SceneFacts): LedgerRow[] {
+  const rows: Row[] = [
+    ...(placing ? rowsOf(placing) : []),
+    ...(placing && placingPixels !== undefined ? [onScreen(placingPixels)] : []),
+    ...depthRows(depth),
+  ];
   return rows.map((row) => ({ ...row, cost: undefined }));
 }
 
@@ -52,6 +59,22 @@ function curvature({ nodeEdge, schemes, tolerance }: PlacingFacts): Row {
         ? `drawn nodes are placed by their certificates: ${names.join(", ")}`
         : "one affine map places each drawn node within the tolerance",
     source: "sagitta d² / 8R of the longest drawn node",
+  };
+}
+
+function onScreen(pixels: number): Row {
+  const seen = pixels >= PLACING_THRESHOLD;
+  return {
+    effect: "placingOnScreen",
+    magnitude: pixels,
+    unit: "px",
+    threshold: PLACING_THRESHOLD,
+    active: seen,
+    why: seen
+      ? "points of nodes that are wide for how near they are may be seen beside their place"
+      : "no drawn point is seen beside its place",
+    source:
+      "certified bound and rounding to float32 in eye space, at the nearest place of each drawn node's box",
   };
 }
 

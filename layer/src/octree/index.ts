@@ -6,5 +6,5 @@ export { NodeStore } from "./node-store.js";
 export { type HierarchyPage, type NodeBounds, OctreeNode } from "./octree-node.js";
 export { BUDGET_OPTION, SharedBudget, type SharedBudgetOptions } from "./shared-budget.js";
 export { type Selection, selectNodes, type TraversalOptions } from "./traversal.js";
-export { distanceTo, outsideFrustum, type View } from "./view.js";
+export { distanceTo, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
 export { ancestorAt, isWithin, keyName, parseKey, ROOT_KEY, sameKey, type VoxelKey } from "./voxel-key.js";

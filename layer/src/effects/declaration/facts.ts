@@ -60,6 +60,8 @@ export interface SceneFacts {
   readonly filter?: PointFilter | undefined;
   readonly attributes: readonly StyledAttribute[];
   readonly placing?: PlacingFacts | undefined;
+  /** What a drawn point may be off on screen at most, drawing-buffer pixels. */
+  readonly placingPixels?: number | undefined;
 }
 
 /** How a column's stored numbers become values: stored · scale + offset, or one value for all points. */
