@@ -138,6 +138,16 @@ describe("a pipeline", () => {
     );
   });
 
+  it("takes the way back from a rotated pole for a part of the projection, and no other projection there", () => {
+    const degrees = "+step +proj=unitconvert +xy_in=deg +xy_out=rad";
+    const rotated =
+      "+step +inv +proj=ob_tran +o_proj=longlat +o_lon_p=0 +o_lat_p=39.25 +lon_0=18 +ellps=WGS84";
+    expect(parse(degrees, rotated, CART)).toMatchObject({ projection: 2, steps: [{ kind: "geocentric" }] });
+    expect(() => parse(degrees, rotated.replace("+o_proj=longlat", "+o_proj=moll"), CART)).toThrow(/ob_tran/);
+    expect(() => parse(degrees, rotated.replace("+inv ", ""), CART)).toThrow(/ob_tran/);
+    expect(() => parse(degrees, `${rotated} +towgs84=1,2,3`, CART)).toThrow(/its parameter/);
+  });
+
   it.each(["nadgrids=x.gsb", "geoidgrids=x.gtx", "towgs84=1,2,3"])(
     "with a projection that shifts by +%s is refused",
     (hidden) => {

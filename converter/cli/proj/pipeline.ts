@@ -43,12 +43,11 @@ function readProjection(pipeline: readonly StepText[]): { count: number; metresP
       const units = readUnits(step);
       metresPerUnit *= units.height;
       if (units.angular && units.to === 1) {
-        return { count: withMeridian(pipeline, i + 1), metresPerUnit };
+        return { count: withTurns(pipeline, i + 1), metresPerUnit };
       }
     } else if (inverse && !OPERATIONS.has(name)) {
-      const hidden = HIDDEN.find((key) => parameters.has(key));
-      if (hidden) throw refuseStep(step, `its parameter +${hidden}`);
-      return { count: withMeridian(pipeline, i + 1), metresPerUnit: metresPerUnit * verticalUnit(step) };
+      refuseHidden(step);
+      return { count: withTurns(pipeline, i + 1), metresPerUnit: metresPerUnit * verticalUnit(step) };
     } else throw refuseStep(step);
   }
   throw refuseStep(
@@ -57,9 +56,21 @@ function readProjection(pipeline: readonly StepText[]): { count: number; metresP
   );
 }
 
-/** Steps `longlat` that follow count longitude from another meridian, or do nothing; they are part of the projection. */
-function withMeridian(pipeline: readonly StepText[], count: number): number {
-  return pipeline[count]?.name === "longlat" ? withMeridian(pipeline, count + 1) : count;
+/**
+ * Steps that follow and turn the sphere alone are part of the projection: `longlat`, which counts longitude from another
+ * meridian or does nothing, and the way back from a rotated pole.
+ */
+function withTurns(pipeline: readonly StepText[], count: number): number {
+  const step = pipeline[count];
+  const turned = step?.name === "ob_tran" && step.inverse && step.parameters.get("o_proj") === "longlat";
+  if (step?.name !== "longlat" && !turned) return count;
+  refuseHidden(step);
+  return withTurns(pipeline, count + 1);
+}
+
+function refuseHidden(step: StepText): void {
+  const hidden = HIDDEN.find((key) => step.parameters.has(key));
+  if (hidden) throw refuseStep(step, `its parameter +${hidden}`);
 }
 
 function verticalUnit(step: StepText): number {
