@@ -6,7 +6,7 @@ import { type FittedScheme, keeps } from "./scheme.js";
  * Added to every bound, metres: below it the coefficients are rounding noise of the projections and say nothing
  * about the rest of the series.
  */
-const FLOOR = 5e-6;
+export const FLOOR = 5e-6;
 function norm(c: Float64Array, at: number): number {
   return Math.hypot(c[at], c[at + 1], c[at + 2]);
 }
@@ -53,6 +53,6 @@ export function storageBound({ coefficients }: Expansion, beyond: number): numbe
 }
 
 /** Half a unit in the last place of a float32 of this magnitude. */
-function halfUlp32(magnitude: number): number {
+export function halfUlp32(magnitude: number): number {
   return 2 ** (Math.floor(Math.log2(magnitude)) - 24);
 }

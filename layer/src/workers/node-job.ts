@@ -1,4 +1,5 @@
 import {
+  aroundPoints,
   type Domain,
   eastNorthUp,
   fitPlacement,
@@ -61,10 +62,12 @@ export async function runNodeJob(
   const domain = sourceBox(box, spec);
   checkInCube(domain, job, spec);
   const frameAt = spec.plane ? levelFrame : eastNorthUp;
-  const placement = fitPlacement(truth, domain, spec.tolerance, spec.file, frameAt);
+  const { scale, offset, tolerance } = spec;
+  const fitted = fitPlacement(truth, domain, tolerance, spec.file, frameAt);
+  const placement = aroundPoints(fitted, { xyz, count }, scale, offset, tolerance, frameAt);
   const { frame, bound, scheme } = placement;
   const place = (positions: Float32Array) => {
-    placeIntegers(placement, drawn(xyz, order), count, spec.scale, spec.offset, positions);
+    placeIntegers(placement, drawn(xyz, order), count, scale, offset, positions);
   };
   const heights = [box[2], box[5]] as const;
   const points = { xyz, count, order, heights, frame, bound, place };
