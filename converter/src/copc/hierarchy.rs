@@ -1,6 +1,9 @@
-//! The hierarchy: an entry of 32 bytes per node, in pages that a reader fetches one by one.
+//! The hierarchy: an entry of 32 bytes per node, in pages that a reader fetches one by one. It stands behind the points,
+//! where COPC has it; a copy of its root page stands before them, so that it comes with the header: user id `groma`,
+//! record id 5 (docs/record.md).
 
 use crate::octree::key::Key;
+use crate::scan::variable_record::{GROMA, GROMA_FIRST_PAGE, VariableRecord};
 use std::collections::{HashMap, VecDeque};
 
 /// Bytes of an entry: level, x, y, z, offset (u64), byte size, point count.
@@ -11,6 +14,18 @@ const PAGE_LEVELS: u32 = 5;
 
 /// A branch with fewer nodes stays in its parent's page: a request costs more than its few bytes.
 const SMALLEST_PAGE: usize = 256;
+
+/// Entries that the root page has at most, where fewer levels of it make that possible: it is read with the header.
+const ROOT_ENTRIES: usize = 1024;
+
+/// The same for the branches below a root page that covers fewer levels.
+const SMALLEST_PAGE_BELOW_ROOT: usize = 32;
+
+/// Bytes before the copy of the root page: version (u32), number of entries (u32), byte of the root page (u64).
+const COPY_HEADER: usize = 16;
+
+/// The only version of the copy that there is.
+const COPY_VERSION: u32 = 1;
 
 /// Point count of an entry that points to a page.
 const PAGE_MARK: i32 = -1;
@@ -65,6 +80,26 @@ pub struct Encoded {
     pub checksums: Vec<u32>,
 }
 
+/// Bytes of the data of the record that has a copy of a root page.
+pub fn copy_length(entries: usize) -> usize {
+    COPY_HEADER + (ENTRY + 4) * entries
+}
+
+impl Encoded {
+    /// The record with the copy of the root page, which itself stands at byte `start`, and the checksums of its entries.
+    pub fn first_page(&self, start: u64) -> VariableRecord {
+        let page = &self.bytes[..self.root_bytes as usize];
+        let entries = page.len() / ENTRY;
+        let mut data = Vec::with_capacity(copy_length(entries));
+        data.extend(COPY_VERSION.to_le_bytes());
+        data.extend((entries as u32).to_le_bytes());
+        data.extend(start.to_le_bytes());
+        data.extend(page);
+        data.extend(self.checksums[..entries].iter().flat_map(|checksum| checksum.to_le_bytes()));
+        VariableRecord::new(GROMA, GROMA_FIRST_PAGE, "first page of the octree", data)
+    }
+}
+
 impl Pages {
     /// The pages for the nodes given, each once, parents before children.
     pub fn of(keys: impl Iterator<Item = Key>) -> Self {
@@ -72,7 +107,11 @@ impl Pages {
         let mut pages = Vec::new();
         let mut open = VecDeque::from([Key::ROOT]);
         while let Some(root) = open.pop_front() {
-            let page = tree.page(root);
+            let page = if root == Key::ROOT {
+                tree.root_page()
+            } else {
+                tree.page(root, PAGE_LEVELS, SMALLEST_PAGE)
+            };
             open.extend(page.iter().filter_map(|slot| match slot {
                 Slot::Page(key) => Some(*key),
                 Slot::Node(_) => None,
@@ -85,6 +124,11 @@ impl Pages {
     /// Number of entries of all pages.
     pub fn entries(&self) -> usize {
         self.0.iter().map(|(_, page)| page.len()).sum()
+    }
+
+    /// Number of entries of the root page.
+    pub fn root_entries(&self) -> usize {
+        self.0.first().map_or(0, |(_, page)| page.len())
     }
 
     /// Encodes the pages to stand at byte `start` of the file. `chunks` has every node that the pages were made for.
@@ -145,13 +189,26 @@ impl Tree {
         Self(sizes)
     }
 
-    /// The entries of the page that begins with a node, level by level.
-    fn page(&self, root: Key) -> Vec<Slot> {
+    /// The root page, of as many levels as keep it short.
+    fn root_page(&self) -> Vec<Slot> {
+        let mut page = self.page(Key::ROOT, PAGE_LEVELS, SMALLEST_PAGE);
+        for levels in (2..PAGE_LEVELS).rev() {
+            if page.len() <= ROOT_ENTRIES {
+                break;
+            }
+            page = self.page(Key::ROOT, levels, SMALLEST_PAGE_BELOW_ROOT);
+        }
+        page
+    }
+
+    /// The entries of the page that begins with a node, level by level. Branches of `smallest` nodes or more that begin
+    /// `levels` below it have pages of their own.
+    fn page(&self, root: Key, levels: u32, smallest: usize) -> Vec<Slot> {
         let mut slots = Vec::new();
         let mut open = VecDeque::from([root]);
         while let Some(key) = open.pop_front() {
             let Some(size) = self.0.get(&key) else { continue };
-            if key.level == root.level + PAGE_LEVELS && *size >= SMALLEST_PAGE {
+            if key.level == root.level + levels && *size >= smallest {
                 slots.push(Slot::Page(key));
                 continue;
             }
@@ -217,11 +274,21 @@ mod tests {
     #[test]
     fn a_small_tree_is_one_page() {
         assert_eq!(round_trip(&full_tree(1)), 1);
-        assert_eq!(round_trip(&full_tree(6)), 1);
+        assert_eq!(round_trip(&full_tree(5)), 1);
     }
 
     #[test]
     fn a_large_tree_has_pages() {
-        assert_eq!(round_trip(&full_tree(10)), 1 + 4usize.pow(5));
+        // The root page covers four levels, since five would have 1,365 entries; the pages below it five each.
+        assert_eq!(round_trip(&full_tree(10)), 1 + 4usize.pow(4));
+    }
+
+    #[test]
+    fn the_root_page_is_short_whatever_the_tree() {
+        for levels in 1..10 {
+            let entries = Pages::of(full_tree(levels).iter().map(|chunk| chunk.key)).root_entries();
+            assert!(entries <= ROOT_ENTRIES, "{levels} levels: {entries}");
+        }
+        assert_eq!(Pages::of(full_tree(5).iter().map(|chunk| chunk.key)).root_entries(), 341);
     }
 }

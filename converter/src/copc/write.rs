@@ -2,7 +2,7 @@
 
 use super::checksums;
 use super::header::{self, Layout, Points};
-use super::hierarchy::{Chunk, Encoded, Pages};
+use super::hierarchy::{self, Chunk, Pages};
 use super::info::{self, Info};
 use super::records::Records;
 use crate::build::Node;
@@ -64,6 +64,9 @@ pub fn write(file: &mut File, content: &Content, output: &Path, meter: &Meter) -
     let pages = Pages::of(nodes.iter().map(|node| node.key));
     let front: usize = records.plain.iter().map(|record| HEADER + record.data.len()).sum();
     let front = usize::from(header::LENGTH) + HEADER + info::LENGTH + front;
+    let copy_bytes = HEADER + hierarchy::copy_length(pages.root_entries());
+    let copied = front + copy_bytes <= FIRST_REQUEST;
+    let front = if copied { front + copy_bytes } else { front };
     let checksum_bytes = checksums::length(pages.entries());
     let in_front = front + HEADER + checksum_bytes <= FIRST_REQUEST;
     let points_at = if in_front { front + HEADER + checksum_bytes } else { front };
@@ -75,21 +78,22 @@ pub fn write(file: &mut File, content: &Content, output: &Path, meter: &Meter) -
     let (chunks, table_end) = write_points(&mut out, content, points_at.into(), output, meter)?;
     let before_pages = if in_front { 0 } else { EXTENDED_HEADER + checksum_bytes };
     let page_at = table_end + (before_pages + EXTENDED_HEADER) as u64;
-    let Encoded { bytes: pages, root_bytes, checksums } = pages.encode(&chunks, page_at);
-    let checksums = checksums::record(&checksums, page_at);
-    let mut end = page_at + pages.len() as u64;
+    let encoded = pages.encode(&chunks, page_at);
+    let first_page = copied.then(|| encoded.first_page(page_at));
+    let checksums = checksums::record(&encoded.checksums, page_at);
+    let mut end = page_at + encoded.bytes.len() as u64;
     let layout = Layout {
-        plain_records: 1 + records.plain.len() as u32 + u32::from(in_front),
+        plain_records: 1 + records.plain.len() as u32 + u32::from(copied) + u32::from(in_front),
         points_at,
         extended_records: 1 + records.extended.len() as u32 + u32::from(!in_front),
         extended_at: table_end,
     };
-    let info = Info { root_page: (page_at, root_bytes), ..(*info).clone() };
+    let info = Info { root_page: (page_at, encoded.root_bytes), ..(*info).clone() };
     let finish = || {
         if !in_front {
             checksums.write_extended(&mut out)?;
         }
-        VariableRecord::new(COPC, COPC_HIERARCHY, "EPT hierarchy", pages).write_extended(&mut out)?;
+        VariableRecord::new(COPC, COPC_HIERARCHY, "EPT hierarchy", encoded.bytes).write_extended(&mut out)?;
         for record in &records.extended {
             record.write_extended(&mut out)?;
             end += (EXTENDED_HEADER + record.data.len()) as u64;
@@ -97,7 +101,7 @@ pub fn write(file: &mut File, content: &Content, output: &Path, meter: &Meter) -
         out.seek(SeekFrom::Start(0))?;
         header::build(input, points, layout).write_to(&mut out).map_err(io::Error::other)?;
         info.record().write(&mut out)?;
-        for record in &records.plain {
+        for record in records.plain.iter().chain(&first_page) {
             record.write(&mut out)?;
         }
         if in_front {

@@ -27,6 +27,7 @@ pub const GROMA_GEOREFERENCE: u16 = 1;
 pub const GROMA_STATISTICS: u16 = 2;
 pub const GROMA_TRANSFORMATION: u16 = 3;
 pub const GROMA_CHECKSUMS: u16 = 4;
+pub const GROMA_FIRST_PAGE: u16 = 5;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct VariableRecord {

@@ -117,6 +117,7 @@ fn records_are_carried_over_or_replaced() {
         ("groma", 1),
         ("groma", 2),
         ("somebody", 7),
+        ("groma", 5),
         ("groma", 4),
     ];
     assert_eq!(ids, expected.map(|(user, id)| (user.to_string(), id)));

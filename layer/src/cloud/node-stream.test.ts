@@ -6,14 +6,14 @@ import type { HierarchyEntry } from "../sources/contract/point-source.js";
 import type { NodeVertices } from "../workers/index.js";
 import { NodeStream } from "./node-stream.js";
 
-const POINTS = 100;
+const POINTS = 5000;
 const BYTES = POINTS * 20;
 
 const entry = (depth: number, x: number, pointCount = POINTS): HierarchyEntry => ({
-  ...{ depth, x, y: 0, z: 0, pointCount, address: { offset: 1000 + x, length: 32 } },
+  ...{ depth, x: x & 1, y: (x >> 1) & 1, z: x >> 2, pointCount, address: { offset: 1000 + x, length: 32 } },
 });
 
-/** A root with `children` children along x, the last of them behind a further page if asked for. */
+/** A root with `children` children, the first two along x, the last of them behind a further page if asked for. */
 interface SetUp {
   readonly children?: number;
   readonly page?: boolean;
@@ -109,12 +109,42 @@ describe("NodeStream", () => {
     expect(calls.size).toBe(2);
   });
 
-  it("asks for two in a frame, and for the others in tasks of their own", async () => {
-    const { stream, calls } = setUp();
+  it("asks for several at once, and for more once half of them are here", async () => {
+    const { stream, calls, answer } = setUp({ requests: 2 });
     stream.update(viewer, viewAt(), traversal);
-    expect(calls.size).toBe(2);
-    await nextTask();
+    expect([...calls.keys()]).toEqual(["0-0-0-0", "1-0-0-0"]);
+    await answer("0-0-0-0");
     expect(calls.size).toBe(3);
+    const four = setUp({ requests: 4, children: 6 });
+    four.stream.update(viewer, viewAt(), traversal);
+    expect(four.calls.size).toBe(4);
+    await four.answer("0-0-0-0");
+    expect(four.calls.size).toBe(4);
+    await four.answer("1-0-0-0");
+    expect(four.calls.size).toBe(6);
+  });
+
+  it("asks for no node of which hardly anything shows, and shows it where it is here", async () => {
+    const spacing = Math.max(...setUp().stream.update(viewer, viewAt(), traversal).spacings.slice(1));
+    /** Shows this share of the nearer child. */
+    const showing = (share: number) => ({
+      ...traversal,
+      maximumScreenSpaceError: spacing * Math.sqrt(4 / (1 + 3 * share)),
+    });
+    const { stream, store, calls, answer } = setUp();
+    const { nodes, counts } = stream.update(viewer, viewAt(), showing(0.05));
+    expect(counts.slice(1)).toEqual([250, 175]);
+    expect(nodes.map(({ name }) => name)).toEqual(["0-0-0-0", "1-0-0-0", "1-1-0-0"]);
+    expect([...calls.keys()]).toEqual(["0-0-0-0"]);
+    await answer("0-0-0-0");
+    expect(stream.progress(viewer)).toEqual({ wanted: 1, ready: 1, failed: 0, pending: 0 });
+    stream.update(viewer, viewAt(), showing(0.2));
+    await answer("1-0-0-0");
+    expect(store.closest({ depth: 1, x: 0, y: 0, z: 0 }).state).toBe("ready");
+    stream.update(viewer, viewAt(), showing(0.05));
+    // The other child is on its way and goes on.
+    expect(calls.get("1-1-0-0")?.signal.aborted).toBe(false);
+    expect(stream.progress(viewer)).toEqual({ wanted: 2, ready: 2, failed: 0, pending: 0 });
   });
 
   it("stops what a view that moved on no longer wants, and can load it later", async () => {

@@ -38,7 +38,10 @@ export interface StreamListener {
 
 /** How much the stream does at once and keeps. */
 export interface StreamLimits {
-  /** Nodes and pages being loaded at the same time. Default: 8, two more than browsers ask of one HTTP/1.1 server. */
+  /**
+   * Nodes being loaded at the same time, smaller ones than of 4,096 points by their part of that, pages as sixteenths; more
+   * are started once half of them are here. Those that lie next to each other in the file go in one request. Default: 16.
+   */
   readonly requests?: number;
   /** Bytes of vertices that are kept. Default: 268,435,456. */
   readonly cacheBytes?: number;
@@ -53,7 +56,7 @@ export interface StreamLimits {
 
 /** How far what a view wants is here; told of a layer, how far it is drawn. */
 export interface StreamProgress {
-  /** Nodes wanted. */
+  /** Nodes wanted; those of which too little shows to be asked for count where they are here. */
   readonly wanted: number;
   /** Of these, ready. */
   readonly ready: number;
@@ -85,8 +88,6 @@ export class NodeStream {
   #wanted: OctreeNode[] = [];
   /** Index of the first of them that may still wait for its turn. */
   #next = 0;
-  /** True while a task waits that will start more. */
-  #pumping = false;
   /** Pages of the hierarchy that views go through; each carries the number of this round. */
   #open: HierarchyPage[] = [];
   #round = 1;
@@ -95,7 +96,7 @@ export class NodeStream {
 
   constructor(source: StreamSource, limits: StreamLimits = {}) {
     this.#source = source;
-    this.#requests = limits.requests ?? 8;
+    this.#requests = limits.requests ?? 16;
     this.#budget = limits.budget;
     this.#cache = new LruCache({
       points: Number.POSITIVE_INFINITY,
@@ -158,14 +159,16 @@ export class NodeStream {
 
   progress(viewer: object): StreamProgress {
     const selection = this.#selections.get(viewer);
+    let wanted = 0;
     let ready = 0;
     let failed = 0;
     for (const node of selection?.nodes ?? []) {
-      if (node.state === "ready") ready++;
-      if (this.#hasFailed(node)) failed++;
+      const isReady = node.state === "ready";
+      if (isReady || node.asked) wanted++;
+      if (isReady) ready++;
+      if (node.asked && this.#hasFailed(node)) failed++;
     }
     const failedPages = selection?.pages.filter((node) => this.#hasFailed(node)).length ?? 0;
-    const wanted = selection?.nodes.length ?? 0;
     const pages = selection?.pages.length ?? 0;
     const pending = wanted - ready - failed + pages - failedPages;
     return {
@@ -208,10 +211,10 @@ export class NodeStream {
     this.#open = [];
     this.#fringe = new Set();
     this.#round++;
-    for (const { nodes, pages, open, fringe } of this.#selections.values()) {
+    for (const { nodes, worth, pages, open, fringe } of this.#selections.values()) {
       // Pages come with the rank of the most important node: what lies behind them is not known yet.
-      for (const page of pages) this.#want(page, 0);
-      for (let index = 0; index < nodes.length; index++) this.#want(nodes[index], index);
+      for (const page of pages) this.#want(page, 0, true);
+      for (let index = 0; index < nodes.length; index++) this.#want(nodes[index], index, worth[index]);
       for (const node of fringe) this.#fringe.add(node);
       for (const page of open) {
         if (page.round !== this.#round) this.#open.push(page);
@@ -222,13 +225,15 @@ export class NodeStream {
     for (const page of openBefore) if (page.round !== this.#round) this.#source.store.use(page);
   }
 
-  #want(node: OctreeNode, rank: number): void {
+  #want(node: OctreeNode, rank: number, asked: boolean): void {
     if (this.#wants(node)) {
       node.rank = Math.min(node.rank, rank);
+      node.asked ||= asked;
       return;
     }
     node.round = this.#round;
     node.rank = rank;
+    node.asked = asked;
     this.#wanted.push(node);
   }
 
@@ -241,7 +246,7 @@ export class NodeStream {
       if (!this.#wants(node) && !this.#fringe.has(node)) controller.abort();
     }
     for (const node of this.#queued) {
-      if (this.#wants(node)) continue;
+      if (this.#wants(node) && node.asked) continue;
       this.#queued.delete(node);
       node.become("listed");
     }
@@ -254,34 +259,23 @@ export class NodeStream {
   }
 
   #queue(node: OctreeNode): void {
-    if (node.state !== "listed") return;
+    if (node.state !== "listed" || !node.asked) return;
     node.become("queued");
     this.#queued.add(node);
   }
 
-  /** Starts what is next in rank, as long as there is room: a few at once, the others in tasks of their own. */
+  /** Starts what is next in rank, several at once, since what is asked for together may come in one request. */
   #pump(): void {
-    let started = 0;
-    for (; this.#next < this.#wanted.length && this.#active.size < this.#requests; this.#next++) {
+    let load = 0;
+    for (const node of this.#active.keys()) load += loadOf(node);
+    if (load > this.#requests / 2) return;
+    for (; this.#next < this.#wanted.length && load < this.#requests; this.#next++) {
       const node = this.#wanted[this.#next];
       if (node.state !== "page" && node.state !== "queued") continue;
-      if (started === STARTS) {
-        this.#pumpLater();
-        return;
-      }
-      started++;
+      load += loadOf(node);
       if (node.state === "page") void this.#openPage(node);
       else void this.#load(node);
     }
-  }
-
-  #pumpLater(): void {
-    if (this.#pumping) return;
-    this.#pumping = true;
-    setTimeout(() => {
-      this.#pumping = false;
-      this.#pump();
-    });
   }
 
   async #openPage(node: OctreeNode): Promise<void> {
@@ -391,5 +385,13 @@ function restore(node: OctreeNode): boolean {
   return true;
 }
 
-/** Requests that are started at once: to start one takes a browser up to a millisecond of the main thread. */
-const STARTS = 2;
+/** Points of a node that counts as one of those loaded at the same time. */
+const LARGE = 4096;
+
+/** Part of such a node that a page and the smallest node count as. */
+const SMALLEST = 1 / 16;
+
+/** What a node counts among those that are loaded at the same time: small ones go together, whatever their number. */
+function loadOf({ pointCount }: OctreeNode): number {
+  return Math.min(1, Math.max(SMALLEST, pointCount / LARGE));
+}

@@ -1,5 +1,5 @@
 import type { MapPlane } from "@groma/georef";
-import { type NodeBounds, NodeStore, type OctreeNode, type VoxelKey } from "../octree/index.js";
+import { keyName, type NodeBounds, NodeStore, type OctreeNode, type VoxelKey } from "../octree/index.js";
 import { NodeAccess } from "../query/index.js";
 import type {
   EncodedChunk,
@@ -7,7 +7,13 @@ import type {
   PointSource,
   SourceBox,
 } from "../sources/contract/point-source.js";
-import type { Appearance, DataSetSpec, NodeExecutor, NodeVertices } from "../workers/index.js";
+import {
+  type Appearance,
+  checkNodeSize,
+  type DataSetSpec,
+  type NodeExecutor,
+  type NodeVertices,
+} from "../workers/index.js";
 import { showSixteenBits } from "./appearance.js";
 import type { NodeGeometry } from "./node-geometry.js";
 import { NodeLoader } from "./node-loader.js";
@@ -38,6 +44,28 @@ export function sharedReads(): Pick<OctreeParts, "chunks" | "firstPage" | "pages
     // As long as there is one octree only, what it forgets is to be forgotten.
     pages: new SharedReads<Iterable<HierarchyEntry>>(0, () => 1),
   };
+}
+
+/**
+ * Asks for the points of the root, which every view draws, as soon as the first page is there: they are on their way while
+ * the data set is still being placed. What fails is asked for again by whoever needs it, who then hears of it.
+ */
+export async function readRootAhead(
+  parts: Pick<OctreeParts, "source" | "chunks" | "firstPage" | "pages">,
+  signal: AbortSignal,
+): Promise<void> {
+  const { source, chunks } = parts;
+  try {
+    for (const { pointCount, address, ...key } of await readPage(parts, source.rootPage, { signal })) {
+      if (key.depth > 0 || pointCount <= 0) continue;
+      const node = keyName(key);
+      checkNodeSize({ file: source.name, node, pointCount, bytesPerPoint: source.bytesPerPoint });
+      await chunks.read(node, signal, (until) => source.chunk(address, { signal: until }));
+      return;
+    }
+  } catch {
+    // Told where it is read again.
+  }
 }
 
 /** Where an octree's points are placed, and by what. */
@@ -125,7 +153,7 @@ export class PlacedOctree {
 
 /** Reads a page, unless it was read before. What turns out to be damaged is read again when it is next asked for. */
 function readPage(
-  { source, firstPage, pages }: OctreeParts,
+  { source, firstPage, pages }: Pick<OctreeParts, "source" | "firstPage" | "pages">,
   address: unknown,
   { signal }: { readonly signal?: AbortSignal | undefined } = {},
 ): Promise<Iterable<HierarchyEntry>> {

@@ -44,7 +44,7 @@ import { type Georeference, georeferenceOf } from "./georeference.js";
 import { MapOctrees, type PlaneOfMap } from "./map-octrees.js";
 import { NodeGeometry } from "./node-geometry.js";
 import type { NodeStream } from "./node-stream.js";
-import { type OctreeParts, PlacedOctree, sharedReads } from "./placed-octree.js";
+import { type OctreeParts, PlacedOctree, readRootAhead, sharedReads } from "./placed-octree.js";
 import { pointRecord } from "./point-record.js";
 
 /** Name of the class, and version of what is internal here (see {@link SHARED}). */
@@ -52,6 +52,16 @@ const MARK = "PointCloud 1";
 
 /** A data set as the sources and layers of all views take it. @internal */
 export const POINT_CLOUD: Kind<PointCloud> = shared(MARK);
+
+/** What a data set is made of. */
+interface Opened {
+  readonly source: OpenedSource;
+  readonly georeference: Georeference;
+  readonly executor: NodeExecutor;
+  readonly shared: ReturnType<typeof sharedReads>;
+  /** Ends what was asked for ahead of any view. */
+  readonly ahead: AbortController;
+}
 
 /** A data set, opened once, whatever number of views draw it. Knows no view and no library of views. */
 export class PointCloud implements PointOrigin {
@@ -93,22 +103,22 @@ export class PointCloud implements PointOrigin {
   readonly #truth: Truth;
   readonly #executor: NodeExecutor;
   readonly #ownsExecutor: boolean;
-  readonly #shared = sharedReads();
+  readonly #shared: Opened["shared"];
+  /** Ends what was asked for ahead of any view. */
+  readonly #ahead: AbortController;
   #attributes:
     | { readonly appearance: Appearance | undefined; readonly list: readonly AttributeInfo[] }
     | undefined;
   /** Least and greatest height above WGS84, metres. */
   #heights: readonly [number, number];
 
-  private constructor(
-    source: OpenedSource,
-    georeference: Georeference,
-    options: PointCloudOptions,
-    executor: NodeExecutor,
-  ) {
+  private constructor(opened: Opened, options: PointCloudOptions) {
+    const { source, georeference, executor, shared, ahead } = opened;
     const { boundingBox, statistics, scale, attributes } = source;
     const { crs, sources, truth, tolerance } = georeference;
     this.#source = source;
+    this.#shared = shared;
+    this.#ahead = ahead;
     this.#truth = truth;
     this.name = baseName(source.name);
     this.pointCount = source.pointCount;
@@ -153,7 +163,8 @@ export class PointCloud implements PointOrigin {
   }
 
   /**
-   * Opens a data set: what it says of itself, its coordinate system and the root page of its hierarchy; no points yet.
+   * Opens a data set: what it says of itself, its coordinate system and the root page of its hierarchy. The points of the
+   * root are asked for and not waited for.
    * @param from an address, a `File` or `Blob`, or an own source of bytes
    * @throws StyleError STYLE_OPTION for an option that there is not, or that is none of its kind
    * @throws SourceError, FormatError, CrsError, PlacementError, RecordError; the signal's reason when aborted
@@ -163,16 +174,20 @@ export class PointCloud implements PointOrigin {
     const { signal } = options;
     const executor = options.executor ?? new WorkerPool(options.workers);
     if (executor instanceof WorkerPool) executor.warm();
+    const ahead = new AbortController();
     let cloud: PointCloud | undefined;
     try {
       const source = await openSource(from, options);
+      const shared = sharedReads();
+      void readRootAhead({ source, ...shared }, ahead.signal);
       const georeference = await georeferenceOf(source, options);
       signal?.throwIfAborted();
-      cloud = new PointCloud(source, georeference, options, executor);
+      cloud = new PointCloud({ source, georeference, executor, shared, ahead }, options);
       await cloud.globe.access.openRoot(signal);
       signal?.throwIfAborted();
       return cloud;
     } catch (thrown) {
+      ahead.abort(thrown);
       cloud?.destroy();
       if (!options.executor) executor.destroy();
       // Whatever an abort made fail on the way.
@@ -335,6 +350,7 @@ export class PointCloud implements PointOrigin {
 
   /** Stops all loading and ends the workers. */
   destroy(): void {
+    this.#ahead.abort();
     this.globe.destroy();
     this.maps.destroy();
     for (const reads of Object.values(this.#shared)) reads.limit(0);

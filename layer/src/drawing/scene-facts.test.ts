@@ -63,7 +63,16 @@ function verticesOf({ key: { depth } }: OctreeNode) {
 
 function factsOf(nodes: OctreeNode[], counts: number[], spacings: number[], of: VerticesOf = verticesOf) {
   const selection: Selection = {
-    ...{ nodes, counts, spacings, pages: [], open: [], fringe: [], limited: false },
+    ...{
+      nodes,
+      counts,
+      spacings,
+      worth: nodes.map(() => true),
+      pages: [],
+      open: [],
+      fringe: [],
+      limited: false,
+    },
     points: counts.reduce((sum, count) => sum + count, 0),
   };
   return sceneFacts(camera, selection, of, layer);

@@ -39,6 +39,8 @@ export class OctreeNode {
   /** The last round of whoever streams it in which a view wanted it, and its rank among all wanted, 0 first. */
   round = 0;
   rank = 0;
+  /** Whether a view of that round wants so much of it that it is to be asked for. */
+  asked = false;
   #state: NodeState;
 
   constructor(key: VoxelKey, state: "page" | "empty" | "listed" = "empty") {

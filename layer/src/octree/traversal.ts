@@ -18,12 +18,20 @@ export interface TraversalOptions {
   readonly rejects?: ((bounds: NodeBounds) => boolean) | undefined;
 }
 
+/**
+ * Share of a node's points from which it is worth its bytes, all of which have to come. Below it, its points would be few
+ * among those of the nodes above it; where it is here anyway, they are drawn from the first one on.
+ */
+const LEAST_SHARE = 0.1;
+
 /** What one view wants of an octree. */
 export interface Selection {
   /** Nodes with points, most important first, each after its parent. */
   readonly nodes: OctreeNode[];
   /** How many points of each of {@link nodes} to draw, from the first in drawing order; at least 1. */
   readonly counts: number[];
+  /** Whether so much of each of {@link nodes} is to be drawn that it is worth to be asked for. */
+  readonly worth: boolean[];
   /** Distance between neighbouring points of each of {@link nodes} on the screen, pixels; Infinity around the camera. */
   readonly spacings: number[];
   /** Nodes whose hierarchy page must be read before the view is complete, most important first. */
@@ -56,7 +64,10 @@ export function selectNodes(
   const gathered = gather(root, view, { maximumScreenSpaceError, limit, prefix, rejects }, boundsOf);
   const { demand, pages, open, fringe } = gathered;
   const grant: Grant = budget ? budget.grant(viewer, demand, pointBudget) : alone();
-  const selection = { nodes: [] as OctreeNode[], counts: [] as number[], spacings: [] as number[] };
+  const selection = {
+    ...{ nodes: [] as OctreeNode[], counts: [] as number[] },
+    ...{ worth: [] as boolean[], spacings: [] as number[] },
+  };
   let points = 0;
   for (let index = 0; index < grant.counts.length; index++) {
     const count = grant.counts[index];
@@ -68,6 +79,7 @@ export function selectNodes(
     points += count;
     selection.nodes.push(node);
     selection.counts.push(count);
+    selection.worth.push(demand.base[index] || count >= LEAST_SHARE * node.pointCount);
     selection.spacings.push(gathered.spacings[index]);
   }
   return { ...selection, pages, open, fringe, points, limited: grant.threshold > 0 };

@@ -71,16 +71,24 @@ export class ShortBody extends Error {
   }
 }
 
+/** Who is told of a body. */
+interface Reader {
+  readonly name: string;
+  /** Called as bytes come. */
+  readonly heard: () => void;
+  /** The same, with the whole and how many of its bytes are there. */
+  readonly arrived?: ((bytes: Uint8Array, length: number) => void) | undefined;
+}
+
 /**
  * The body of an answer, which must be exactly `expected` bytes; never more than that is allocated.
- * @param heard called as bytes come
  * @throws ShortBody when it ended early
  * @throws SourceError SOURCE_LONG when it goes on
  */
 export async function readExactly(
   response: Response,
   expected: number,
-  { name, heard }: { readonly name: string; readonly heard: () => void },
+  { name, heard, arrived }: Reader,
 ): Promise<Uint8Array> {
   const bytes = new Uint8Array(expected);
   const reader = response.body?.getReader();
@@ -102,6 +110,7 @@ export async function readExactly(
     }
     bytes.set(step.value, received);
     received += step.value.length;
+    arrived?.(bytes, received);
   }
   if (received < expected) throw new ShortBody(received, undefined);
   return bytes;

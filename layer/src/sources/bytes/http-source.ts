@@ -4,6 +4,7 @@ import { type AddressFunction, Credentials, type HeadersFunction, type HeaderVal
 import { HostSchedule, type ServerWait, type Turn } from "./host-schedule.js";
 import { discardBody, parseContentRange, readExactly, ShortBody } from "./http-answer.js";
 import { changedError, type Refusal, refusalOf } from "./http-refusal.js";
+import { MergedReads } from "./merged-reads.js";
 import { encodingFault, nameNetworkFault, networkError, redirectError } from "./network-fault.js";
 import { SilenceWatch } from "./silence-watch.js";
 
@@ -56,6 +57,8 @@ interface Asked {
   /** Whether it is the opening one, which may get less than it asks for. */
   readonly opening: boolean;
   readonly signal: AbortSignal | undefined;
+  /** Called as bytes come: all that there is room for, of which so many are there. */
+  readonly arrived?: (bytes: Uint8Array, length: number) => void;
 }
 
 /** What a read is made with. */
@@ -76,6 +79,7 @@ export class HttpSource implements ByteSource {
   #schedule: HostSchedule | undefined;
   #version: Version | undefined;
   #head: Uint8Array = new Uint8Array(0);
+  readonly #merged = new MergedReads((request) => this.#request({ ...request, opening: false }));
   /** Whether redirects are followed at once: in the opening, and where one has led to the file. */
   #follows = true;
   /** The last look at where redirects lead, and until when it holds. */
@@ -125,8 +129,14 @@ export class HttpSource implements ByteSource {
   async read(begin: number, end: number, { signal }: ReadOptions = {}): Promise<Uint8Array> {
     checkRange(begin, end, this.size, this.name);
     signal?.throwIfAborted();
-    if (end <= this.#head.length) return this.#head.slice(begin, end);
-    return this.#request({ begin, end, opening: false, signal });
+    const known = this.#head.subarray(begin, end);
+    if (known.length === end - begin) return known.slice();
+    const rest = await this.#merged.read(begin + known.length, end, signal);
+    if (known.length === 0) return rest;
+    const bytes = new Uint8Array(end - begin);
+    bytes.set(known);
+    bytes.set(rest, known.length);
+    return bytes;
   }
 
   async #request(asked: Asked): Promise<Uint8Array> {
@@ -213,7 +223,7 @@ export class HttpSource implements ByteSource {
         });
       }
       const length = await this.#checkedLength(response, asked);
-      return await readExactly(response, length, { name: this.name, heard });
+      return await readExactly(response, length, { name: this.name, heard, arrived: asked.arrived });
     } catch (thrown) {
       signal?.throwIfAborted();
       if (thrown instanceof SourceError) return { error: thrown };

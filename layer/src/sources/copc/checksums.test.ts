@@ -4,7 +4,7 @@ import type { LazDecoder } from "../../workers/laz-decoder.js";
 import { BlobSource } from "../bytes/blob-source.js";
 import { crc32c } from "../contract/checksum.js";
 import { CopcSource } from "./copc-source.js";
-import { type TinyCopc, tinyCopc } from "./tiny-copc.fixture.js";
+import { pageBytes, type TinyCopc, tinyCopc } from "./tiny-copc.fixture.js";
 
 const PAGE = [
   [0, 0, 0, 0, 0, 100, 10],
@@ -65,7 +65,7 @@ it("come with the chunks, from a record in front", async () => {
   expect(await checksumsOf(bytes)).toEqual([7, 9]);
 });
 
-it("come with the chunks, from a record behind the points, at one more request", async () => {
+it("come with the chunks, from a record behind the points, together with the page", async () => {
   const bytes = withPageOffset((offset) => ({
     records: [STATISTICS],
     ahead: ["groma", 4, record([7, 0, 9], offset)],
@@ -73,10 +73,62 @@ it("come with the chunks, from a record behind the points, at one more request",
   expect(await checksumsOf(bytes)).toEqual([7, 9]);
   const { source, reads } = watched(bytes);
   const copc = await CopcSource.open(source);
+  const behind = reads.filter(([begin]) => begin > 700);
+  expect(behind).toHaveLength(1);
   const before = reads.length;
-  // The page itself was read with the opening.
   await copc.page(copc.rootPage);
-  expect(reads.length - before).toBe(1);
+  expect(reads).toHaveLength(before);
+});
+
+/** Groma's record 5: version, number, byte of the page, the page, its checksums. */
+function firstPage(rows: readonly number[][], checksums: readonly number[], offset: number, version = 1) {
+  const page = pageBytes(rows);
+  const bytes = new Uint8Array(16 + page.length + 4 * checksums.length);
+  const view = new DataView(bytes.buffer);
+  view.setUint32(0, version, true);
+  view.setUint32(4, rows.length, true);
+  view.setBigUint64(8, BigInt(offset), true);
+  bytes.set(page, 16);
+  for (const [index, checksum] of checksums.entries())
+    view.setUint32(16 + page.length + 4 * index, checksum, true);
+  return bytes;
+}
+
+/** The page with chunks that begin behind such a record. */
+const ROWS = PAGE.map(([depth, x, y, z, , length, points]) => [depth, x, y, z, 830, length / 10, points]);
+/** With it, nothing is looked for behind the points. */
+const GEOREFERENCE = ["groma", 1, new Uint8Array(9)] as const;
+
+it("come with a copy of the first page in front, which costs no request", async () => {
+  const bytes = withPageOffset((offset) => ({
+    page: ROWS,
+    records: [GEOREFERENCE, ["groma", 5, firstPage(ROWS, [7, 0, 9], offset)]],
+  }));
+  expect(await checksumsOf(bytes)).toEqual([7, 9]);
+  const { source, reads } = watched(bytes);
+  const copc = await CopcSource.open(source);
+  await copc.page(copc.rootPage);
+  expect(Math.max(...reads.map(([, end]) => end))).toBeLessThan(copc.rootPage.offset);
+});
+
+it("come with no copy of a page that is another file's, damaged, or of a version that is not known", async () => {
+  const lies = ROWS.map((row) => row.with(6, 1));
+  const copies: ((offset: number) => Uint8Array)[] = [
+    (offset) => firstPage(lies, [7, 0, 9], offset + 1),
+    (offset) => firstPage(lies, [7, 0, 9], offset, 2),
+    (offset) => firstPage(lies, [7, 0], offset),
+    (offset) => firstPage(lies.slice(1), [7, 0], offset),
+    (offset) => firstPage(lies, [7, 0, 9], offset).subarray(0, 12),
+  ];
+  for (const copy of copies) {
+    const bytes = withPageOffset((offset) => ({
+      page: ROWS,
+      records: [GEOREFERENCE, ["groma", 5, copy(offset)]],
+    }));
+    const source = await CopcSource.open(watched(bytes).source);
+    const entries = [...(await source.page(source.rootPage))];
+    expect(entries.map(({ pointCount }) => pointCount)).toEqual(ROWS.map((row) => row[6]));
+  }
 });
 
 it("are none where there is no record, or that of another file or method", async () => {

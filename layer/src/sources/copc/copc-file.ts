@@ -1,5 +1,6 @@
 import type { GeoTiffKeys } from "@groma/georef";
 import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
+import type { KnownParts } from "../bytes/known-parts.js";
 import type { CrsDeclaration } from "../contract/point-source.js";
 import type { CloudStatistics } from "../contract/statistics.js";
 import { type ExtraBytes, parseExtraBytes } from "../las/extra-bytes.js";
@@ -11,7 +12,8 @@ import {
   truncated,
 } from "../las/las-header.js";
 import { findVlr, readVlr, type VlrEntry, walkEvlrs, walkVlrs } from "../las/vlrs.js";
-import { COPC_INFO_END, type CopcInfo, parseCopcInfo } from "./copc-info.js";
+import { type ByteRange, COPC_INFO_END, type CopcInfo, parseCopcInfo } from "./copc-info.js";
+import { copiedPage, type FirstPage } from "./first-page.js";
 import { checkPageAddress, type HierarchyLimits } from "./hierarchy.js";
 import { decodeStatistics } from "./statistics-record.js";
 
@@ -31,6 +33,8 @@ export interface CopcFile {
   readonly extraBytes: readonly ExtraBytes[];
   /** Where Groma's record of checksums stands (VLR `groma` 4); undefined also where it is not known yet. */
   readonly checksums: VlrEntry | undefined;
+  /** The root page of the hierarchy, where it stands before the points as well (VLR `groma` 5). */
+  readonly firstPage: FirstPage | undefined;
   readonly limits: HierarchyLimits;
 }
 
@@ -39,12 +43,16 @@ const PROJECTION = "LASF_Projection";
 /** Bytes before the points that are read at most: a few records of 64 KiB are usual, a header that says more is damaged. */
 const MAX_POINTS_OFFSET = 64 * 1024 * 1024;
 
+/** Bytes behind the points that are read in one go, for what stands there. */
+const BEHIND = 256 * 1024;
+
 /**
  * Reads header, VLRs and COPC info. With an HTTP source of the usual kind this costs no request beyond the
- * opening one: everything lies in its first 64 KiB.
+ * opening one: everything lies in its first 64 KiB. Where something of it stands behind the points, one more request
+ * brings that together with the root page.
  * @throws SourceError, FormatError
  */
-export async function openCopc(source: ByteSource, options: ReadOptions = {}): Promise<CopcFile> {
+export async function openCopc(source: KnownParts, options: ReadOptions = {}): Promise<CopcFile> {
   const file = source.name;
   const opening = await source.read(0, Math.min(COPC_INFO_END, source.size ?? COPC_INFO_END), options);
   const header = parseLasHeader(opening, file);
@@ -64,7 +72,11 @@ export async function openCopc(source: ByteSource, options: ReadOptions = {}): P
   const bytes = await source.read(0, header.pointsOffset, options);
   const headerLength = new DataView(bytes.buffer, bytes.byteOffset).getUint16(94, true);
   const entries = walkVlrs(bytes, header, headerLength, file);
-  if (isSpreadOut(entries, header)) entries.push(...(await walkEvlrs(source, header, options)));
+  const copy = findVlr(entries, "groma", 5);
+  const firstPage = copy && copiedPage(bytes.subarray(copy.begin, copy.end), info, file);
+  const spread = isSpreadOut(entries, header);
+  if (spread || !firstPage) await readBehind(source, header, info.rootPage, { ...options, spread });
+  if (spread) entries.push(...(await walkEvlrs(source, header, options)));
   const checksums = findVlr(entries, "groma", 4);
   return {
     source,
@@ -72,6 +84,7 @@ export async function openCopc(source: ByteSource, options: ReadOptions = {}): P
     info,
     limits,
     checksums,
+    firstPage,
     ...(await readRecords(source, header, entries, options)),
   };
 }
@@ -79,11 +92,30 @@ export async function openCopc(source: ByteSource, options: ReadOptions = {}): P
 /**
  * Whether what the file says of its coordinates may go on behind the points. Extended records cost requests, so they
  * are only walked where the file does not say its CRS up front, or where a transformation too long for a VLR may
- * follow Groma's record. The hierarchy of a COPC file is an extended record itself: one alone is that.
+ * follow Groma's record. The hierarchy of a COPC file is an extended record itself: one alone is that. A file with a
+ * copy of its first page has checksums; where they do not stand in front, they are the other one.
  */
 function isSpreadOut(entries: readonly VlrEntry[], { evlrCount }: LasHeader): boolean {
-  if (findVlr(entries, "groma", 1)) return !findVlr(entries, "groma", 3) && evlrCount > 1;
+  if (findVlr(entries, "groma", 1)) {
+    const checksumsBehind = findVlr(entries, "groma", 5) && !findVlr(entries, "groma", 4);
+    return !findVlr(entries, "groma", 3) && evlrCount > (checksumsBehind ? 2 : 1);
+  }
   return !findVlr(entries, PROJECTION, 2112);
+}
+
+/** Reads the root page ahead, and with it the extended records around it as far as they are short. */
+async function readBehind(
+  source: KnownParts,
+  { evlrOffset }: LasHeader,
+  { offset, length }: ByteRange,
+  { spread, ...options }: ReadOptions & { readonly spread: boolean },
+): Promise<void> {
+  const isNear = evlrOffset > 0 && Math.abs(offset - evlrOffset) + length <= BEHIND;
+  const begin = isNear ? Math.min(offset, evlrOffset) : offset;
+  const end = offset + length;
+  // A source whose size is not known may end right behind the page.
+  const further = spread && isNear && source.size !== undefined ? Math.min(source.size, begin + BEHIND) : end;
+  await source.readAhead(begin, Math.max(end, further), options);
 }
 
 type Records = Pick<CopcFile, "crs" | "statistics" | "extraBytes">;

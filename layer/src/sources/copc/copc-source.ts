@@ -1,4 +1,5 @@
 import type { ByteSource, ReadOptions } from "../bytes/byte-source.js";
+import { KnownParts } from "../bytes/known-parts.js";
 import type { EncodedChunk, HierarchyEntry, LasEnvelope, PointSource } from "../contract/point-source.js";
 import { readEnvelope } from "../las/envelope.js";
 import { BASE_RECORD_LENGTH, readText } from "../las/las-header.js";
@@ -6,6 +7,7 @@ import { type LazEncoding, recordFields } from "../las/record-fields.js";
 import { Checksums } from "./checksums.js";
 import { type CopcFile, openCopc } from "./copc-file.js";
 import type { ByteRange } from "./copc-info.js";
+import type { FirstPage } from "./first-page.js";
 import { type ChunkRange, checkPageAddress, entriesOfPage, type HierarchyLimits } from "./hierarchy.js";
 import { trustedBox } from "./trusted-box.js";
 
@@ -30,10 +32,10 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
   #checksums: Promise<Checksums | undefined> | undefined;
   readonly #limits: HierarchyLimits;
   /** The root page until it is asked for. */
-  #first: Uint8Array | undefined;
+  #first: FirstPage | undefined;
 
-  /** @param first bytes of the root page */
-  constructor(file: CopcFile, first: Uint8Array) {
+  /** @param first the root page */
+  constructor(file: CopcFile, first: FirstPage) {
     const { source, header, info } = file;
     const { pointFormat, recordLength } = header;
     const [x, y, z] = info.center.map((middle) => middle - info.halfSize);
@@ -44,7 +46,7 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
     this.name = source.name;
     this.pointCount = header.pointCount;
     this.cube = [x, y, z, edge];
-    const { boundingBox, warnings } = trustedBox(header, this.cube, entriesOfPage(first, file.limits));
+    const { boundingBox, warnings } = trustedBox(header, this.cube, entriesOfPage(first.bytes, file.limits));
     this.boundingBox = boundingBox;
     this.warnings = warnings;
     this.#first = first;
@@ -63,9 +65,15 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
 
   /** @throws SourceError, FormatError */
   static async open(bytes: ByteSource, options: ReadOptions = {}): Promise<CopcSource> {
-    const file = await openCopc(bytes, options);
-    const { offset, length } = file.info.rootPage;
-    return new CopcSource(file, await bytes.read(offset, offset + length, options));
+    const parts = new KnownParts(bytes);
+    const file = await openCopc(parts, options);
+    const { rootPage } = file.info;
+    const first = file.firstPage ?? (await readFirstPage(parts, rootPage, options));
+    const source = new CopcSource(file, first);
+    // The checksums of the first page may be among what was read ahead.
+    if (!first.checksums) await source.#openChecksums();
+    parts.forget();
+    return source;
   }
 
   /** Whether a file that begins with these bytes is of the family of LAS, which COPC belongs to. */
@@ -83,8 +91,8 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
     const first = address === this.rootPage ? this.#first : undefined;
     if (first) this.#first = undefined;
     const [bytes, checksums] = await Promise.all([
-      first ?? this.#bytes.read(offset, offset + length, options),
-      this.#openChecksums().then((all) => all?.ofPage(address, options)),
+      first?.bytes ?? this.#bytes.read(offset, offset + length, options),
+      first?.checksums ?? this.#openChecksums().then((all) => all?.ofPage(address, options)),
     ]);
     return entriesOfPage(bytes, this.#limits, checksums);
   }
@@ -107,6 +115,14 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
     });
     return this.#checksums;
   }
+}
+
+async function readFirstPage(
+  bytes: ByteSource,
+  { offset, length }: ByteRange,
+  options: ReadOptions,
+): Promise<FirstPage> {
+  return { bytes: await bytes.read(offset, offset + length, options), checksums: undefined };
 }
 
 /** COPC writers give spacing as an edge's 128th or so; taken where the file leaves it at 0. */
