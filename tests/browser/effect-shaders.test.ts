@@ -5,6 +5,9 @@ import { combinations } from "../../layer/src/effects/scene.fixture.js";
 import { WEBGL2 } from "../../layer/src/effects/webgl2-target.js";
 import { launch } from "./harness.js";
 
+/** As both views have their programs: what belongs to a node comes in a table. */
+const TARGET = { ...WEBGL2, nodeTable: true };
+
 /** A program as the page compiles it, and what it is expected to read. */
 interface Case {
   readonly name: string;
@@ -22,7 +25,7 @@ function cases(): Case[] {
     const plan = planEffects(style, facts);
     for (const pass of ["color", "id", "depth", "splat"] as const) {
       if ((pass === "splat" || pass === "depth") && !plan.active.has("splats")) continue;
-      const { vertex, fragment, attributes, uniforms } = composePointShader(plan, WEBGL2, pass);
+      const { vertex, fragment, attributes, uniforms } = composePointShader(plan, TARGET, pass);
       add({
         name: `${name}: ${pass}`,
         vertex,
@@ -32,7 +35,7 @@ function cases(): Case[] {
       });
     }
     if (passesOf(plan).offscreen) {
-      const { vertex, fragment, uniforms } = composeQuad(plan, WEBGL2);
+      const { vertex, fragment, uniforms } = composeQuad(plan, TARGET);
       add({
         name: `${name}: quad`,
         vertex,

@@ -200,5 +200,78 @@ describe.skipIf(pythonMissing)(
         true,
       );
     });
+
+    it("a frame has as many calls as nodes, and few besides, whatever is drawn", {
+      timeout: 120_000,
+    }, async () => {
+      const counted = await stage.page.evaluate(async () => {
+        const { Stage } = window.page;
+        const stage = new Stage();
+        const layer = await stage.show("density", { maximumScreenSpaceError: 0.5 });
+        stage.look({ range: 30 });
+        const gl = stage.gl as unknown as Record<string, (...given: unknown[]) => unknown>;
+        const names = Object.keys(Object.getPrototypeOf(gl)).filter((name) =>
+          /^(drawArrays|drawElements|uniform\d|uniformMatrix)/.test(name),
+        );
+        /** Calls of a frame that draws nothing anew. */
+        const callsOf = () => {
+          const calls = { draws: 0, uniforms: 0 };
+          for (const name of names) {
+            const own = Object.getPrototypeOf(gl)[name];
+            gl[name] = (...given) => {
+              calls[name.startsWith("draw") ? "draws" : "uniforms"]++;
+              return own.apply(gl, given);
+            };
+          }
+          stage.frame();
+          for (const name of names) delete gl[name];
+          return calls;
+        };
+        const styles = {
+          fixed: { size: "fixed", shape: "square" },
+          adaptive: { size: "adaptive", shape: "disc", color: "elevation" },
+          splats: { splats: true, eyeDomeLighting: true },
+        } as const;
+        const counted: Record<string, { nodes: number; draws: number; uniforms: number }> = {};
+        for (const [name, style] of Object.entries(styles)) {
+          layer.style = style;
+          await stage.settle();
+          stage.frame();
+          const nodes = layer.statistics.nodesVisible;
+          const shown = callsOf();
+          layer.show = false;
+          stage.frame();
+          const hidden = callsOf();
+          layer.show = true;
+          await stage.settle();
+          counted[name] = {
+            nodes,
+            draws: shown.draws - hidden.draws,
+            uniforms: shown.uniforms - hidden.uniforms,
+          };
+        }
+        stage.destroy();
+        return counted;
+      });
+      expect(counted).toMatchInlineSnapshot(`
+        {
+          "adaptive": {
+            "draws": 7,
+            "nodes": 3,
+            "uniforms": 3,
+          },
+          "fixed": {
+            "draws": 7,
+            "nodes": 3,
+            "uniforms": 3,
+          },
+          "splats": {
+            "draws": 12,
+            "nodes": 3,
+            "uniforms": 6,
+          },
+        }
+      `);
+    });
   },
 );

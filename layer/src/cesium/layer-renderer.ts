@@ -90,6 +90,7 @@ export class LayerRenderer implements Renderer<CesiumView> {
 
   /** Puts the points of the last frame into Cesium's list for a pass of picking or of depth. */
   repeat(frameState: FrameState): void {
+    this.#drawing.place(this.content, frameState.camera);
     frameState.commandList.push(...this.#drawing.sceneCommands(this.content));
   }
 
@@ -114,6 +115,7 @@ export class LayerRenderer implements Renderer<CesiumView> {
     if (candidates.length === 0) return undefined;
     signal?.throwIfAborted();
     context.uniformState.update(frameState);
+    this.#drawing.place(this.content, camera);
     const setting = this.#drawing.setting("id", fitFrustum(camera, spheresOf(candidates)), this.content);
     const edge = windowPixels(window, pixelRatio);
     const reach = (edge - 1) / 2;

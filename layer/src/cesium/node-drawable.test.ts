@@ -1,13 +1,7 @@
 import { eastNorthUp, geodeticToEcef } from "@groma/georef";
 import { Cartesian3, Matrix4 } from "cesium";
 import { describe, expect, it } from "vitest";
-import type { Gpu } from "../drawing/gpu.js";
-import { attributeSet } from "../drawing/vertex-attributes.js";
-import type { NodeVertices } from "../workers/index.js";
-import type { CesiumTypes } from "./engine/gpu-objects.js";
-import { type DrawState, matrixOf, NodeDrawable } from "./node-drawable.js";
-
-const FRAME = eastNorthUp([6_378_137, 0, 0]);
+import { matrixOf } from "./node-drawable.js";
 
 describe("matrixOf", () => {
   it("takes the node frame to ECEF without losing a nanometre", () => {
@@ -51,28 +45,5 @@ describe("matrixOf", () => {
       new Cartesian3(),
     );
     expect([up.x, up.y, up.z].map((value) => Math.round(value * 1e12) / 1e12)).toEqual([0, 0, 1]);
-  });
-});
-
-describe("NodeDrawable", () => {
-  it("holds no command that its former style was drawn with", () => {
-    const gpu = { vertexArray: () => ({}), free: () => undefined } as unknown as Gpu<CesiumTypes>;
-    const vertices = {
-      positions: new Float32Array(0),
-      columns: new Map(),
-      box: [0, 0, 0, 1, 1, 1],
-      frame: FRAME,
-    };
-    const node = new NodeDrawable(gpu, vertices as unknown as NodeVertices, 0);
-    const reads = attributeSet([]);
-    const state = { program: { program: {}, reads }, uniformMap: {}, pass: 0 } as unknown as DrawState;
-    const commands = () => [node.sceneCommand(state, 1), node.ownCommand(state, 1)];
-    const [scene, own] = commands();
-    expect(commands()).toEqual([scene, own]);
-    expect(commands()[0]).toBe(scene);
-    node.keep([]);
-    const after = commands();
-    expect(after[0]).not.toBe(scene);
-    expect(after[1]).not.toBe(own);
   });
 });

@@ -1,10 +1,12 @@
 import { Color } from "cesium";
+import { byGroup } from "../drawing/drawn-node.js";
 import type { Program } from "../drawing/programs.js";
-import type { PointPass } from "../effects/index.js";
+import type { EffectPlan, PointPass } from "../effects/index.js";
 import { ClearCommand, type Context, type PassState } from "./engine/cesium-private.js";
 import type { CesiumTypes } from "./engine/gpu-objects.js";
 import type { RenderStates } from "./engine/render-states.js";
-import type { CesiumNode } from "./node-drawable.js";
+import type { CesiumNode, CesiumView } from "./node-drawable.js";
+import { PointBatch } from "./point-batch.js";
 import type { PointFrustum } from "./point-frustum.js";
 
 /** What a pass over the points needs besides the points. */
@@ -13,12 +15,13 @@ export interface PassSetting {
   readonly target: PassState;
   readonly frustum: PointFrustum;
   readonly owner: object;
-  readonly programOf: (node: CesiumNode) => Program<CesiumTypes>;
+  readonly programOf: (plan: EffectPlan) => Program<CesiumTypes>;
 }
 
 /** Passes over the points into pictures of the layer's own, executed at once and not through Cesium's list. */
 export class OffscreenPass {
   readonly #states: RenderStates;
+  #batch: PointBatch | undefined;
 
   constructor(states: RenderStates) {
     this.#states = states;
@@ -30,15 +33,15 @@ export class OffscreenPass {
     new ClearCommand(depth ? { color, depth: 1 } : { color }).execute(context, target);
   }
 
-  /** Draws nodes. */
+  /** Draws nodes, whose groups have been placed. */
   draw(pass: PointPass, nodes: Iterable<CesiumNode>, setting: PassSetting): void {
     const { context, target, frustum, owner, programOf } = setting;
     const renderState = this.#states.of(pass);
     context.uniformState.updateFrustum(frustum.frustum);
-    for (const node of nodes) {
-      const { uploaded, uniforms, count } = node;
-      const state = { owner, program: programOf(node), renderState, uniformMap: uniforms.map, pass: 0 };
-      uploaded.ownCommand(state, count).execute(context, target);
+    this.#batch ??= new PointBatch(context);
+    for (const [{ plan, uniforms }, members] of byGroup<CesiumView>(nodes)) {
+      const state = { owner, program: programOf(plan), renderState, uniformMap: uniforms.map, pass: 0 };
+      this.#batch.command(members, state).execute(context, target);
     }
   }
 }

@@ -1,4 +1,5 @@
-import { BoundingSphere } from "cesium";
+import { BoundingSphere, type Camera, Matrix4 } from "cesium";
+import { byGroup, type DrawnWith } from "../drawing/drawn-node.js";
 import type { GpuMilliseconds } from "../drawing/frame.js";
 import type { LayerContent } from "../drawing/layer-content.js";
 import type { Material } from "../drawing/material.js";
@@ -12,6 +13,7 @@ import type { RenderStates } from "./engine/render-states.js";
 import type { CesiumNode, CesiumView } from "./node-drawable.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
 import { OffscreenTarget, PictureUniforms } from "./offscreen-target.js";
+import { PointBatch } from "./point-batch.js";
 import { fitFrustum, type PointFrustum } from "./point-frustum.js";
 
 /** Stretches of a frame that are measured: drawing the points, and putting their picture into the scene. */
@@ -28,6 +30,8 @@ export class PointDrawing {
   readonly #timer: GpuTimer;
   readonly #target: OffscreenTarget;
   readonly #quad: CompositeQuad;
+  /** The command of each group; it goes with it, since what Cesium derives from it keeps programs and uniforms. */
+  readonly #batches = new WeakMap<DrawnWith<CesiumView>, PointBatch>();
 
   /**
    * @param owner the primitive
@@ -64,20 +68,32 @@ export class PointDrawing {
     const { offscreen, translucent } = passesOf(plan);
     if (!offscreen) this.#target.release();
     if (nodes.length === 0) return [];
+    this.place(content, frameState.camera);
     if (!offscreen) return this.#timed(labelOf(plan, "points"), this.sceneCommands(content));
     const quad = this.#drawOffscreen(frameState, material, content);
     // Cesium executes translucent commands in an order of its own.
     return translucent ? [quad] : this.#timed(labelOf(plan, "picture"), [quad]);
   }
 
-  /** Commands that draw nodes straight into the scene. */
+  /** Commands that draw nodes straight into the scene, one for each program. */
   sceneCommands({ nodes, programs, depth }: LayerContent<CesiumView>): Command[] {
     const owner = this.#owner;
     const common = { owner, renderState: this.#states.of("opaque"), pass: Pass.OPAQUE };
-    return nodes.map(({ uploaded, uniforms, count, plan }) => {
+    return [...byGroup<CesiumView>(nodes)].map(([group, members]) => {
+      const { plan, uniforms } = group;
       const program = programs.of({ plan, pass: "color", into: "scene", logarithmic: depth.scene });
-      return uploaded.sceneCommand({ ...common, program, uniformMap: uniforms.map }, count);
+      return this.#batchOf(group).command(members, { ...common, program, uniformMap: uniforms.map });
     });
+  }
+
+  /** Has the nodes seen by a camera, in float64, in whatever is drawn of them next. */
+  place({ groups }: LayerContent<CesiumView>, { viewMatrix }: Camera): void {
+    const toEye = new Matrix4();
+    for (const group of groups) {
+      group.place(1, ({ uploaded: { modelMatrix } }) => ({
+        u_modelView: Matrix4.multiplyTransformation(viewMatrix, modelMatrix, toEye) as ArrayLike<number>,
+      }));
+    }
   }
 
   /** How a pass of the layer's own draws its points. */
@@ -86,7 +102,7 @@ export class PointDrawing {
     frustum: PointFrustum,
     { programs }: LayerContent<CesiumView>,
   ): Omit<PassSetting, "target"> {
-    const programOf = ({ plan }: CesiumNode) =>
+    const programOf = (plan: EffectPlan) =>
       programs.of({ plan, pass, into: "own", logarithmic: !frustum.orthographic });
     return { context: this.#objects.context, frustum, owner: this.#owner, programOf };
   }
@@ -132,6 +148,15 @@ export class PointDrawing {
     const program = programs.of(quadProgramOf(plan, depth));
     const sphere = BoundingSphere.fromBoundingSpheres([...spheresOf(nodes)]);
     return this.#quad.command(program, uniforms.map, sphere, translucent);
+  }
+
+  #batchOf(group: DrawnWith<CesiumView>): PointBatch {
+    let batch = this.#batches.get(group);
+    if (!batch) {
+      batch = new PointBatch(this.#objects.context);
+      this.#batches.set(group, batch);
+    }
+    return batch;
   }
 
   /** Commands between two that measure them. */

@@ -10,6 +10,15 @@ export interface ViewTypes extends GpuTypes {
   readonly node: UploadedNode;
 }
 
+/** What nodes are drawn with together. */
+export interface DrawnWith<V extends ViewTypes = ViewTypes> {
+  readonly plan: EffectPlan;
+  /** The table of the nodes among them. */
+  readonly uniforms: V["uniforms"];
+  /** Number of the nodes in the table; their copies follow, as many in each. */
+  readonly rows: number;
+}
+
 /** A node as a frame shows it. */
 export interface DrawnNode<V extends ViewTypes = ViewTypes> {
   readonly node: OctreeNode;
@@ -18,11 +27,12 @@ export interface DrawnNode<V extends ViewTypes = ViewTypes> {
   readonly count: number;
   /** Number of its first point among all points drawn. */
   readonly firstId: number;
-  readonly uniforms: V["uniforms"];
   /** What volumes make of it. */
   readonly clips: NodeClips;
-  /** The effects that it is drawn with: those of the layer, or the same without volumes where none crosses it. */
-  readonly plan: EffectPlan;
+  /** Those that it is drawn with: by the effects of the layer, or the same without volumes where none crosses it. */
+  readonly group: DrawnWith<V>;
+  /** Its index among them. */
+  readonly row: number;
 }
 
 /** The node and the index in its drawing order that a number among all points drawn stands for, counted from 0. */
@@ -40,4 +50,17 @@ export function pointOf<Node extends Pick<DrawnNode, "firstId" | "count">>(
   const drawn = nodes[low - 1];
   const index = drawn ? id - drawn.firstId : 0;
   return drawn && index < drawn.count ? { drawn, index } : undefined;
+}
+
+/** Nodes by what they are drawn in, in their order. */
+export function byGroup<V extends ViewTypes>(
+  nodes: Iterable<DrawnNode<V>>,
+): Map<DrawnWith<V>, DrawnNode<V>[]> {
+  const groups = new Map<DrawnWith<V>, DrawnNode<V>[]>();
+  for (const node of nodes) {
+    const there = groups.get(node.group);
+    if (there) there.push(node);
+    else groups.set(node.group, [node]);
+  }
+  return groups;
 }

@@ -15,6 +15,7 @@ import type { FrameAllowance } from "./frame-allowance.js";
 import type { Gpu } from "./gpu.js";
 import type { Material } from "./material.js";
 import { Materials } from "./materials.js";
+import type { NodeGroup } from "./node-group.js";
 import { NodeUploads } from "./node-uploads.js";
 import { type LogarithmicDepth, pointProgramsOf, programsOf } from "./program-needs.js";
 import { Programs } from "./programs.js";
@@ -42,6 +43,7 @@ export class LayerContent<V extends ViewTypes> {
   readonly #uploads: NodeUploads<V["node"]>;
   #depth: LogarithmicDepth = { own: false, scene: false };
   #nodes: DrawnNode<V>[] = [];
+  #groups: NodeGroup<V>[] = [];
   #undrawn = 0;
 
   /**
@@ -62,6 +64,11 @@ export class LayerContent<V extends ViewTypes> {
   /** Nodes of the last frame, as they are drawn, by rising `firstId`. */
   get nodes(): readonly DrawnNode<V>[] {
     return this.#nodes;
+  }
+
+  /** What they are drawn in, the rows of each of their tables as the frame began. */
+  get groups(): readonly NodeGroup<V>[] {
+    return this.#groups;
   }
 
   /** Nodes that the last frame wanted and that were here, and that it did not draw yet. */
@@ -127,6 +134,7 @@ export class LayerContent<V extends ViewTypes> {
   /** Nothing of the layer is in the next frame. */
   rest(): void {
     this.#nodes = [];
+    this.#groups = [];
   }
 
   /** Frees what a node has on the GPU. */
@@ -148,7 +156,7 @@ export class LayerContent<V extends ViewTypes> {
 
   /** Frees all. */
   destroy(): void {
-    this.#nodes = [];
+    this.rest();
     this.#uploads.destroy();
     this.#materials.destroy();
     this.programs.destroy();
@@ -168,33 +176,41 @@ export class LayerContent<V extends ViewTypes> {
 
   #collect(material: Material<V>, { selection, clips: answers }: ContentRequest): DrawnNode<V>[] {
     const reads = this.#reads(material);
-    const plain = withoutClips(material.plan);
+    const { plan } = material;
+    const plain = withoutClips(plan);
     const drawn: DrawnNode<V>[] = [];
+    const members = new Map<NodeGroup<V>, DrawnNode<V>[]>();
+    for (const each of [plan, plain]) members.set(material.groupOf(each), []);
     let firstId = 0;
     selection.nodes.forEach((node, index) => {
       const uploaded = this.#uploads.ready(node, reads);
       const clips = uploaded && answers.of(uploaded.vertices);
       if (!uploaded || !clips || clips.state === "out") return;
       const count = Math.min(selection.counts[index], uploaded.vertices.count);
-      const plan = clips.state === "in" ? plain : material.plan;
-      drawn.push({ node, uploaded, count, firstId, uniforms: material.uniformsOf(node), clips, plan });
+      const group = material.groupOf(clips.state === "in" ? plain : plan);
+      const nodes = members.get(group) ?? [];
+      const one = { node, uploaded, count, firstId, clips, group, row: nodes.length };
+      nodes.push(one);
+      drawn.push(one);
       firstId += count;
     });
     const octreeIndices = material.showOctree(drawn);
     const clipRecords = material.showClips(drawn);
-    drawn.forEach(({ node, uploaded, firstId, uniforms }, index) => {
-      const { columns, toCube } = uploaded.vertices;
-      const values = nodeUniforms(material.plan, {
-        columns,
-        firstId,
+    const values = drawn.map(({ node, uploaded: { vertices }, firstId }, index) =>
+      nodeUniforms(plan, {
+        ...{ columns: vertices.columns, toCube: vertices.toCube, firstId },
         level: node.key.depth,
         spacing: node.bounds?.spacing ?? 0,
         octreeIndex: octreeIndices?.[index] ?? 0,
-        toCube,
         clips: clipRecords[index] ?? [0, 0],
-      });
-      uniforms.set(values);
-    });
+      }),
+    );
+    this.#groups = [];
+    for (const [group, nodes] of members) {
+      const own = values.filter((_, index) => drawn[index].group === group);
+      group.take(group.plan.key === plan.key ? plan : plain, nodes, own);
+      if (nodes.length > 0) this.#groups.push(group);
+    }
     return drawn;
   }
 }

@@ -8,9 +8,9 @@ import {
   readsNodeTexture,
   styleTextures,
 } from "../effects/index.js";
-import type { OctreeNode } from "../octree/index.js";
 import type { DrawnNode, ViewTypes } from "./drawn-node.js";
 import type { Gpu, Texels } from "./gpu.js";
+import { NodeGroup } from "./node-group.js";
 
 /** First texel and number of records of a node in the texture of clips. */
 type ClipRecords = readonly (readonly [first: number, count: number])[];
@@ -20,12 +20,15 @@ export class Material<V extends ViewTypes> {
   readonly #gpu: Gpu<V>;
   readonly #uniforms: V["uniforms"];
   readonly #textures = new Map<string, V["texture"]>();
-  readonly #nodes = new WeakMap<OctreeNode, V["uniforms"]>();
+  /** By the keys of the effects that they are drawn with. */
+  readonly #groups = new Map<string, NodeGroup<V>>();
   #plan: EffectPlan;
   #style: PointCloudStyle | undefined;
   #filter: PointFilter | undefined;
   /** Nodes and counts that the octree's texture shows. */
-  #octree: { readonly drawn: readonly DrawnNode<V>[]; readonly indices: Uint32Array } | undefined;
+  #octree:
+    | { readonly drawn: readonly Pick<DrawnNode, "node" | "count">[]; readonly indices: Uint32Array }
+    | undefined;
   /** What the texture of clips holds, and where. */
   #clips: { readonly drawn: readonly NodeClips[]; readonly records: ClipRecords } | undefined;
 
@@ -51,14 +54,14 @@ export class Material<V extends ViewTypes> {
     return this.#uniforms;
   }
 
-  /** Uniforms of one node, and of all. */
-  uniformsOf(node: OctreeNode): V["uniforms"] {
-    let uniforms = this.#nodes.get(node);
-    if (!uniforms) {
-      uniforms = this.#gpu.uniforms(this.#uniforms);
-      this.#nodes.set(node, uniforms);
+  /** The nodes that are drawn with a set of effects: that of the layer, or the same without volumes. */
+  groupOf(plan: EffectPlan): NodeGroup<V> {
+    let group = this.#groups.get(plan.key);
+    if (!group) {
+      group = new NodeGroup(this.#gpu, plan, this.#uniforms);
+      this.#groups.set(plan.key, group);
     }
-    return uniforms;
+    return group;
   }
 
   /**
@@ -82,7 +85,7 @@ export class Material<V extends ViewTypes> {
    * Encodes the octree of the drawn nodes in a texture, where an effect reads it.
    * @returns the texel of each node; undefined where none does
    */
-  showOctree(drawn: readonly DrawnNode<V>[]): Uint32Array | undefined {
+  showOctree(drawn: readonly Pick<DrawnNode<V>, "node" | "uploaded" | "count">[]): Uint32Array | undefined {
     if (!readsNodeTexture(this.#plan, "octree")) return undefined;
     if (this.#octree && sameNodes(this.#octree.drawn, drawn)) return this.#octree.indices;
     const { texture, width, height, indices } = encodeVisibleOctree(
@@ -104,7 +107,7 @@ export class Material<V extends ViewTypes> {
    * Lays the records of the drawn nodes' volumes into a texture, where an effect reads it.
    * @returns those of each node; none where no effect does
    */
-  showClips(drawn: readonly DrawnNode<V>[]): ClipRecords {
+  showClips(drawn: readonly Pick<DrawnNode<V>, "clips">[]): ClipRecords {
     if (!readsNodeTexture(this.#plan, "clips")) return [];
     const there = this.#clips;
     const same =
@@ -119,6 +122,8 @@ export class Material<V extends ViewTypes> {
 
   /** Frees the textures. */
   destroy(): void {
+    for (const group of this.#groups.values()) group.destroy();
+    this.#groups.clear();
     for (const texture of this.#textures.values()) this.#gpu.free(texture);
     this.#textures.clear();
   }
@@ -137,7 +142,10 @@ export class Material<V extends ViewTypes> {
   }
 }
 
-function sameNodes(a: readonly DrawnNode[], b: readonly DrawnNode[]): boolean {
+function sameNodes(
+  a: readonly Pick<DrawnNode, "node" | "count">[],
+  b: readonly Pick<DrawnNode, "node" | "count">[],
+): boolean {
   return (
     a.length === b.length && a.every(({ node, count }, at) => node === b[at].node && count === b[at].count)
   );

@@ -15,6 +15,7 @@ import {
   type ShaderTarget,
 } from "./declaration/shader.js";
 import { type EffectPlan, effectsOf, passesOf } from "./effect-plan.js";
+import { NODE_UNIFORMS, type NodeLayout, nodeLayout } from "./node-layout.js";
 import { readBy, shaderText, stagedStatements, unique } from "./shader-text.js";
 
 /**
@@ -27,23 +28,14 @@ export function composePointShader(
   target: ShaderTarget,
   pass: PointPass = "color",
 ): PointShader {
-  const context: Omit<PartContext<unknown>, "variant"> = {
-    target,
-    pass,
-    colourings: plan.scene.colourings,
-    offscreen: passesOf(plan).offscreen,
-    runs: ({ name }) => [...plan.active].some((active) => active === name),
-    attribute: attributeName,
-  };
-  const parts: Part[] = [base(context)];
-  for (const effect of effectsOf(plan)) {
-    const part = effect.part?.({ ...context, variant: plan.variants.get(effect.name) });
-    if (part) parts.push(part);
-  }
+  const parts = partsOf(plan, target, pass);
   const attributes = attributesOf(parts);
   const uniforms = parts.flatMap((part) => part.uniforms ?? []);
   const varyings = unique(parts.flatMap((part) => part.varyings ?? []));
+  const all = [...uniforms, ...target.uniforms];
+  const filled = target.nodeTable ? [...all.filter(({ scope }) => scope !== "node"), ...NODE_UNIFORMS] : all;
   const vertex = shaderText(target, {
+    nodes: target.nodeTable ? nodeLayoutOf(plan, target) : undefined,
     uniforms,
     declarations: [
       ...attributes.map(attributeLine),
@@ -73,8 +65,36 @@ export function composePointShader(
     vertex,
     fragment,
     attributes,
-    uniforms: readBy(vertex + fragment, [...uniforms, ...target.uniforms]),
+    uniforms: readBy(vertex + fragment, filled),
   };
+}
+
+/** What belongs to a node in all programs of a set of effects. */
+export function nodeLayoutOf(plan: EffectPlan, target: ShaderTarget): NodeLayout {
+  const uniforms = PASSES.flatMap((pass) => partsOf(plan, target, pass)).flatMap(
+    (part) => part.uniforms ?? [],
+  );
+  return nodeLayout(unique([...uniforms, ...target.uniforms]));
+}
+
+const PASSES: readonly PointPass[] = ["color", "depth", "splat", "id"];
+
+/** What each effect adds to the program of a pass. */
+function partsOf(plan: EffectPlan, target: ShaderTarget, pass: PointPass): Part[] {
+  const context: Omit<PartContext<unknown>, "variant"> = {
+    target,
+    pass,
+    colourings: plan.scene.colourings,
+    offscreen: passesOf(plan).offscreen,
+    runs: ({ name }) => [...plan.active].some((active) => active === name),
+    attribute: attributeName,
+  };
+  const parts: Part[] = [base(context)];
+  for (const effect of effectsOf(plan)) {
+    const part = effect.part?.({ ...context, variant: plan.variants.get(effect.name) });
+    if (part) parts.push(part);
+  }
+  return parts;
 }
 
 /** What every program of points begins with: the position, and what its pass writes. */

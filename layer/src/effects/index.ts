@@ -7,7 +7,7 @@ export {
   type PointShape,
   type SizeMode,
 } from "./catalogue/index.js";
-export { composePointShader } from "./compose.js";
+export { composePointShader, nodeLayoutOf } from "./compose.js";
 export { composeQuad } from "./compose-quad.js";
 export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./declaration/classes.js";
 export { drawnSpacing, footprint } from "./declaration/drawn-spacing.js";
@@ -44,6 +44,14 @@ export {
   styleTextures,
 } from "./effect-plan.js";
 export { groundSpacing, type Patch } from "./ground-spacing.js";
+export {
+  NODE_NUMBER,
+  NODE_TABLE,
+  NODE_TABLE_WIDTH,
+  type NodeLayout,
+  type NodeValues,
+  writeNode,
+} from "./node-layout.js";
 export {
   type CloudPlacing,
   cloudPlacing,

@@ -1,4 +1,5 @@
 import type { ShaderTarget, ShaderWord, UniformDeclaration } from "./declaration/shader.js";
+import { type NodeLayout, nodeReading } from "./node-layout.js";
 
 /** What the `main` of a shader is written from. */
 export interface ShaderSource {
@@ -9,19 +10,27 @@ export interface ShaderSource {
   /** Functions; what several effects need comes in once. */
   readonly functions: readonly string[];
   readonly statements: readonly string[];
+  /** Where what belongs to nodes is read from, where that is no uniform of each. */
+  readonly nodes?: NodeLayout | undefined;
 }
 
 /** A shader's text: only the uniforms that it reads are declared, and words are what the target calls them. */
 export function shaderText(target: ShaderTarget, source: ShaderSource): string {
-  const functions = [...new Set(source.functions.map((text) => text.trim()))];
-  const main = `void main() {\n${source.statements.map((line) => `  ${line}\n`).join("")}}\n`;
-  const body = [...functions, main].join("\n").replace(/\$([A-Za-z]+)/g, (_, word: ShaderWord) => {
-    if (!Object.hasOwn(target.words, word)) throw new Error(`shaders know no word $${word}`);
-    return target.words[word];
-  });
-  const uniforms = readBy(body, [...source.uniforms, ...target.uniforms]);
-  const head = [...source.declarations, ...uniforms.map(uniformLine)].map((line) => `${line}\n`).join("");
-  return `${target.header}${head}\n${body}`;
+  const worded = (text: string) =>
+    text.replace(/\$([A-Za-z]+)/g, (_, word: ShaderWord) => {
+      if (!Object.hasOwn(target.words, word)) throw new Error(`shaders know no word $${word}`);
+      return target.words[word];
+    });
+  const functions = [...new Set(source.functions.map((text) => text.trim()))].map(worded);
+  const statements = source.statements.map(worded);
+  const read = readBy([...functions, ...statements].join("\n"), [...source.uniforms, ...target.uniforms]);
+  const inTable = (uniform: UniformDeclaration) => source.nodes !== undefined && uniform.scope === "node";
+  const nodes = source.nodes && nodeReading(source.nodes, read.filter(inTable));
+  const uniforms = [...read.filter((uniform) => !inTable(uniform)), ...(nodes?.uniforms ?? [])];
+  const lines = [...(nodes?.statements ?? []), ...statements].map((line) => `  ${line}\n`);
+  const head = [...source.declarations, ...uniforms.map(uniformLine), ...(nodes?.globals ?? [])];
+  const body = [...functions, `void main() {\n${lines.join("")}}\n`].join("\n");
+  return `${target.header}${head.map((line) => `${line}\n`).join("")}\n${body}`;
 }
 
 /** Statements of one stage after the other. @param shared stages whose lines come in once */

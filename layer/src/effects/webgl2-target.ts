@@ -12,8 +12,8 @@ export const WEBGL2: ShaderTarget = {
     onGlobe: "(u_onGlobe * vec4(a_position, 1.0)).xyz",
   },
   uniforms: [
-    { name: "u_modelView", type: "mat4", scope: "view" },
-    { name: "u_onGlobe", type: "mat4", scope: "view" },
+    { name: "u_modelView", type: "mat4", scope: "node" },
+    { name: "u_onGlobe", type: "mat4", scope: "node" },
     { name: "u_projection", type: "mat4", scope: "view" },
     { name: "u_viewport", type: "vec4", scope: "view" },
     { name: "u_pixelRatio", type: "float", scope: "view" },

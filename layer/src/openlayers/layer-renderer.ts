@@ -4,13 +4,13 @@ import { type ContentRequest, LayerContent } from "../drawing/layer-content.js";
 import { nearestId, windowPixels } from "../drawing/pick-window.js";
 import { quadProgramOf } from "../drawing/program-needs.js";
 import type { Program } from "../drawing/programs.js";
-import { type PointPass, passesOf } from "../effects/index.js";
+import { type EffectPlan, type PointPass, passesOf } from "../effects/index.js";
 import { GlObjects, type GlTypes } from "./engine/gl-objects.js";
 import { GlUniforms } from "./engine/gl-uniforms.js";
 import type { MapCamera } from "./map-camera.js";
-import { type MapNode, type MapView, NodeDrawable } from "./node-drawable.js";
+import { type MapView, NodeDrawable } from "./node-drawable.js";
 import { Picture } from "./picture.js";
-import { clear, drawPoints, drawQuad, type PassTarget } from "./point-passes.js";
+import { clear, drawPoints, drawQuad, type PassTarget, placeNodes } from "./point-passes.js";
 
 const UNMEASURED: GpuMilliseconds = { points: undefined, picture: undefined };
 
@@ -70,6 +70,7 @@ export class LayerRenderer implements Renderer<MapView> {
     const { material, nodes } = this.content;
     if (!material || nodes.length === 0) return;
     this.#setView(camera, camera.width, camera.height);
+    placeNodes(this.content.groups, camera);
     const { offscreen, points } = passesOf(material.plan);
     if (!offscreen) {
       this.#picture.release();
@@ -161,8 +162,8 @@ export class LayerRenderer implements Renderer<MapView> {
   }
 
   /** The programs of a pass. */
-  #programs(pass: PointPass, into: "scene" | "own"): (node: MapNode) => Program<GlTypes> {
+  #programs(pass: PointPass, into: "scene" | "own"): (plan: EffectPlan) => Program<GlTypes> {
     const { programs } = this.content;
-    return ({ plan }) => programs.of({ plan, pass, into, logarithmic: false });
+    return (plan) => programs.of({ plan, pass, into, logarithmic: false });
   }
 }

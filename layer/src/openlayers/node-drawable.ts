@@ -31,14 +31,13 @@ export class NodeDrawable extends NodeBuffers<GlTypes> implements UploadedNode {
   /** From above, a height that all points are lifted by does not show. */
   lift(): void {}
 
-  /** Draws its first points with the program that is in use. */
-  draw(gl: WebGL2RenderingContext, reads: AttributeSet, count: number): void {
+  /** Has its points drawn next, by a program that reads these attributes. */
+  bind(gl: WebGL2RenderingContext, reads: AttributeSet): void {
     const { array, constants } = this.array(reads);
     gl.bindVertexArray(array);
     for (const { location, value } of constants) {
       const [x = 0, y = 0, z = 0, w = 1] = value;
       gl.vertexAttrib4f(location, x, y, z, w);
     }
-    gl.drawArrays(gl.POINTS, 0, count);
   }
 }

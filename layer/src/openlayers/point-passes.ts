@@ -1,10 +1,11 @@
-import type { GpuTypes } from "../drawing/gpu.js";
+import { byGroup } from "../drawing/drawn-node.js";
+import type { NodeGroup } from "../drawing/node-group.js";
 import type { Program } from "../drawing/programs.js";
-import type { PointPass } from "../effects/index.js";
+import { type EffectPlan, NODE_NUMBER, type PointPass } from "../effects/index.js";
 import type { GlTypes } from "./engine/gl-objects.js";
 import type { GlFramebuffer } from "./engine/gl-types.js";
 import type { MapCamera } from "./map-camera.js";
-import type { MapNode } from "./node-drawable.js";
+import type { MapNode, MapView } from "./node-drawable.js";
 
 /** What is drawn into, in pixels: the canvas, or a picture of the layer's own. */
 export interface PassTarget {
@@ -24,27 +25,36 @@ export function clear(gl: WebGL2RenderingContext, target: PassTarget, depth: boo
   gl.clear(depth ? gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT : gl.COLOR_BUFFER_BIT);
 }
 
-/** Draws nodes, once for each world of the map that shows. */
+/** Has the nodes seen by a camera, once for each world of the map that shows, in whatever is drawn of them next. */
+export function placeNodes(groups: readonly NodeGroup<MapView>[], { worlds, modelView }: MapCamera): void {
+  for (const group of groups) {
+    group.place(worlds.length, ({ uploaded: { vertices, onGlobe } }, copy) => ({
+      u_modelView: modelView(vertices.frame.origin, worlds[copy]),
+      u_onGlobe: onGlobe,
+    }));
+  }
+}
+
+/** Draws nodes that have been placed. */
 export function drawPoints(
   gl: WebGL2RenderingContext,
   pass: PointPass,
   nodes: Iterable<MapNode>,
   camera: MapCamera,
   target: PassTarget,
-  programOf: (node: MapNode) => Program<GlTypes>,
+  programOf: (plan: EffectPlan) => Program<GlTypes>,
 ): void {
   bind(gl, target);
   setState(gl, pass);
-  let used: GpuTypes["program"] | undefined;
-  for (const node of nodes) {
-    const { program, reads } = programOf(node);
-    if (program !== used) program.use(node.uniforms);
-    used = program;
-    node.uniforms.set({ u_onGlobe: node.uploaded.onGlobe });
-    for (const world of camera.worlds) {
-      node.uniforms.set({ u_modelView: camera.modelView(node.uploaded.vertices.frame.origin, world) });
-      program.useNode(node.uniforms);
-      node.uploaded.draw(gl, reads, node.count);
+  for (const [group, members] of byGroup<MapView>(nodes)) {
+    const { program, reads } = programOf(group.plan);
+    program.use(group.uniforms);
+    for (const { uploaded, row, count } of members) {
+      uploaded.bind(gl, reads);
+      camera.worlds.forEach((_, copy) => {
+        program.setInteger(NODE_NUMBER, copy * group.rows + row);
+        gl.drawArrays(gl.POINTS, 0, count);
+      });
     }
   }
   gl.bindVertexArray(null);

@@ -44,6 +44,8 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
         "prototype.endFrame",
         "uniformState",
         "colorBufferHalfFloat",
+        "va._bind()",
+        "va.numberOfVertices",
       ],
     ],
     ["Renderer/UniformState.js", ["prototype.update = ", "prototype.updateFrustum = "]],
@@ -56,7 +58,7 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
     // Constant attributes are set at each draw, since they are no part of a vertex array.
     [
       "Renderer/VertexArray.js",
-      ["vertexArrayDestroyable", "setConstantAttributes", "componentsPerAttribute"],
+      ["vertexArrayDestroyable", "setConstantAttributes", "componentsPerAttribute", "_bind = ", "_unBind = "],
     ],
     ["Scene/DerivedCommand.js", ["czm_log_depth_main", "czm_non_pick_main", "createLogDepthCommand"]],
     [

@@ -24,6 +24,10 @@ export interface BufferOptions {
 
 /** `Renderer/VertexArray`; destroys the buffers it was made of, where they allow it. */
 export interface VertexArray {
+  /** Called by a command once its program and uniforms are set, before it draws. */
+  _bind(): void;
+  /** Called after that. */
+  _unBind(): void;
   destroy(): void;
 }
 

@@ -50,13 +50,15 @@ export const CESIUM: ShaderTarget = {
   header: "",
   output: "",
   words: {
-    modelView: "czm_modelView",
+    modelView: "u_modelView",
     projection: "czm_projection",
     viewport: "czm_viewport",
     pixelRatio: "czm_pixelRatio",
     onGlobe: "a_position",
   },
+  nodeTable: true,
   uniforms: [
+    { name: "u_modelView", type: "mat4", scope: "node" },
     { name: "u_pickColor", type: "vec4", scope: "view" },
     { name: "u_depthRange", type: "vec3", scope: "view" },
   ],

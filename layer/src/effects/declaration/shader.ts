@@ -30,6 +30,11 @@ export interface ShaderTarget {
   readonly words: Readonly<Record<ShaderWord, string>>;
   /** Uniforms of the view's own that the words and the functions below may read; declared where they are read. */
   readonly uniforms: readonly UniformDeclaration[];
+  /**
+   * Whether what belongs to a node is read from a table of all nodes drawn, so that many are drawn with the same uniforms;
+   * else from uniforms of each.
+   */
+  readonly nodeTable?: boolean;
   /** Lines before the functions of a fragment shader that draws points for the scene. */
   readonly declarations: readonly string[];
   /** Expression for a colour, RGBA, as the view's picture takes it. */

@@ -10,12 +10,16 @@ out vec3 v_color;
 out vec2 v_paraboloid;
 uniform highp sampler2D u_classes;
 uniform highp sampler2D u_octree;
-uniform int u_octreeIndex;
-uniform mat4 u_toCube;
-uniform float u_nodeSize;
 uniform vec2 u_sizeLimits;
 uniform int u_returns;
-uniform vec2 u_range0;
+uniform highp sampler2D u_nodes;
+uniform int u_node;
+mat4 u_toCube;
+mat4 u_modelView;
+int u_octreeIndex;
+vec2 u_range0;
+float u_nodeSize;
+vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
 vec4 classEntry(float number) {
   return texelFetch(u_classes, ivec2(int(number + 0.5), 0), 0);
@@ -44,7 +48,21 @@ float pixelsPerMetre(float w) {
   return 0.5 * czm_projection[1][1] * czm_viewport.w / w;
 }
 void main() {
-  vec4 eye = czm_modelView * vec4(a_position, 1.0);
+  int ofNode = u_node * 8;
+  vec4 node0 = nodeValues(ofNode + 0);
+  vec4 node1 = nodeValues(ofNode + 1);
+  vec4 node2 = nodeValues(ofNode + 2);
+  vec4 node3 = nodeValues(ofNode + 3);
+  vec4 node4 = nodeValues(ofNode + 4);
+  vec4 node5 = nodeValues(ofNode + 5);
+  vec4 node6 = nodeValues(ofNode + 6);
+  vec4 node7 = nodeValues(ofNode + 7);
+  u_toCube = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_modelView = transpose(mat4(node3, node4, node5, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_octreeIndex = int(node6.z) * 65536 + int(node6.w);
+  u_range0 = node7.xy;
+  u_nodeSize = node7.z;
+  vec4 eye = u_modelView * vec4(a_position, 1.0);
   vec2 visible = visibleLevels((u_toCube * vec4(a_position, 1.0)).xyz);
   bool isFirst = a_returnNumber < 1.5;
   bool isLast = a_returnNumber > a_numberOfReturns - 0.5;
@@ -104,14 +122,18 @@ in float a_numberOfReturns;
 in float a_intensity;
 flat out highp uint v_id;
 out vec2 v_paraboloid;
-uniform int u_firstId;
 uniform highp sampler2D u_octree;
-uniform int u_octreeIndex;
-uniform mat4 u_toCube;
-uniform float u_nodeSize;
 uniform vec2 u_sizeLimits;
 uniform int u_returns;
-uniform vec2 u_range0;
+uniform highp sampler2D u_nodes;
+uniform int u_node;
+mat4 u_toCube;
+mat4 u_modelView;
+int u_firstId;
+int u_octreeIndex;
+vec2 u_range0;
+float u_nodeSize;
+vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
 /* x: levels from the point's own node down to the deepest drawn one; y: log2 of that one's spacing over its level's. */
 vec2 visibleLevels(vec3 place) {
@@ -137,7 +159,22 @@ float pixelsPerMetre(float w) {
   return 0.5 * czm_projection[1][1] * czm_viewport.w / w;
 }
 void main() {
-  vec4 eye = czm_modelView * vec4(a_position, 1.0);
+  int ofNode = u_node * 8;
+  vec4 node0 = nodeValues(ofNode + 0);
+  vec4 node1 = nodeValues(ofNode + 1);
+  vec4 node2 = nodeValues(ofNode + 2);
+  vec4 node3 = nodeValues(ofNode + 3);
+  vec4 node4 = nodeValues(ofNode + 4);
+  vec4 node5 = nodeValues(ofNode + 5);
+  vec4 node6 = nodeValues(ofNode + 6);
+  vec4 node7 = nodeValues(ofNode + 7);
+  u_toCube = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_modelView = transpose(mat4(node3, node4, node5, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_firstId = int(node6.x) * 65536 + int(node6.y);
+  u_octreeIndex = int(node6.z) * 65536 + int(node6.w);
+  u_range0 = node7.xy;
+  u_nodeSize = node7.z;
+  vec4 eye = u_modelView * vec4(a_position, 1.0);
   vec2 visible = visibleLevels((u_toCube * vec4(a_position, 1.0)).xyz);
   bool isFirst = a_returnNumber < 1.5;
   bool isLast = a_returnNumber > a_numberOfReturns - 0.5;

@@ -4,18 +4,22 @@
 in vec3 a_position;
 in float a_intensity;
 out vec3 v_color;
-uniform vec2 u_value1;
 uniform highp sampler2D u_gradient;
 uniform highp sampler2D u_octree;
-uniform int u_octreeIndex;
-uniform mat4 u_toCube;
-uniform float u_nodeLevel;
 uniform vec2 u_levels;
 uniform float u_blend;
 uniform float u_pointSize;
 uniform highp sampler2D u_clips;
-uniform vec2 u_clipRecords;
 uniform vec4 u_highlight;
+uniform highp sampler2D u_nodes;
+uniform int u_node;
+mat4 u_toCube;
+mat4 u_modelView;
+vec2 u_value1;
+int u_octreeIndex;
+vec2 u_clipRecords;
+float u_nodeLevel;
+vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
 vec3 gradientColor(float at) {
   float place = clamp(at, 0.0, 1.0) * 255.0;
@@ -99,7 +103,23 @@ ivec4 clipRoles(vec3 p) {
   return counts;
 }
 void main() {
-  vec4 eye = czm_modelView * vec4(a_position, 1.0);
+  int ofNode = u_node * 9;
+  vec4 node0 = nodeValues(ofNode + 0);
+  vec4 node1 = nodeValues(ofNode + 1);
+  vec4 node2 = nodeValues(ofNode + 2);
+  vec4 node3 = nodeValues(ofNode + 3);
+  vec4 node4 = nodeValues(ofNode + 4);
+  vec4 node5 = nodeValues(ofNode + 5);
+  vec4 node6 = nodeValues(ofNode + 6);
+  vec4 node7 = nodeValues(ofNode + 7);
+  vec4 node8 = nodeValues(ofNode + 8);
+  u_toCube = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_modelView = transpose(mat4(node3, node4, node5, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_value1 = node6.zw;
+  u_octreeIndex = int(node7.x) * 65536 + int(node7.y);
+  u_clipRecords = node7.zw;
+  u_nodeLevel = node8.x;
+  vec4 eye = u_modelView * vec4(a_position, 1.0);
   vec2 visible = visibleLevels((u_toCube * vec4(a_position, 1.0)).xyz);
   ivec4 roles = clipRoles(a_position);
   if (roles.z > 0 || (roles.x > 0 && roles.y == 0)) {
@@ -136,10 +156,14 @@ void main() {
 // id: vertex
 in vec3 a_position;
 flat out highp uint v_id;
-uniform int u_firstId;
 uniform float u_pointSize;
 uniform highp sampler2D u_clips;
-uniform vec2 u_clipRecords;
+uniform highp sampler2D u_nodes;
+uniform int u_node;
+mat4 u_modelView;
+int u_firstId;
+vec2 u_clipRecords;
+vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
 vec4 clipTexel(int index) {
   return texelFetch(u_clips, ivec2(index % 256, index / 256), 0);
@@ -196,7 +220,16 @@ ivec4 clipRoles(vec3 p) {
   return counts;
 }
 void main() {
-  vec4 eye = czm_modelView * vec4(a_position, 1.0);
+  int ofNode = u_node * 9;
+  vec4 node3 = nodeValues(ofNode + 3);
+  vec4 node4 = nodeValues(ofNode + 4);
+  vec4 node5 = nodeValues(ofNode + 5);
+  vec4 node6 = nodeValues(ofNode + 6);
+  vec4 node7 = nodeValues(ofNode + 7);
+  u_modelView = transpose(mat4(node3, node4, node5, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_firstId = int(node6.x) * 65536 + int(node6.y);
+  u_clipRecords = node7.zw;
+  vec4 eye = u_modelView * vec4(a_position, 1.0);
   ivec4 roles = clipRoles(a_position);
   if (roles.z > 0 || (roles.x > 0 && roles.y == 0)) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);

@@ -4,10 +4,14 @@
 in vec3 a_position;
 in float a_elevation;
 out vec3 v_color;
-uniform vec2 u_value0;
 uniform highp sampler2D u_gradient;
 uniform vec3 u_tone;
 uniform float u_pointSize;
+uniform highp sampler2D u_nodes;
+uniform int u_node;
+mat4 u_modelView;
+vec2 u_value0;
+vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
 vec3 gradientColor(float at) {
   float place = clamp(at, 0.0, 1.0) * 255.0;
@@ -23,7 +27,14 @@ vec3 tone(vec3 value) {
   return vec3(tone(value.r), tone(value.g), tone(value.b));
 }
 void main() {
-  vec4 eye = czm_modelView * vec4(a_position, 1.0);
+  int ofNode = u_node * 4;
+  vec4 node0 = nodeValues(ofNode + 0);
+  vec4 node1 = nodeValues(ofNode + 1);
+  vec4 node2 = nodeValues(ofNode + 2);
+  vec4 node3 = nodeValues(ofNode + 3);
+  u_modelView = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_value0 = node3.zw;
+  vec4 eye = u_modelView * vec4(a_position, 1.0);
   vec3 color = gradientColor(tone(clamp(a_elevation * u_value0.x + u_value0.y, 0.0, 1.0)));
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
@@ -53,11 +64,22 @@ void main() {
 // id: vertex
 in vec3 a_position;
 flat out highp uint v_id;
-uniform int u_firstId;
 uniform float u_pointSize;
+uniform highp sampler2D u_nodes;
+uniform int u_node;
+mat4 u_modelView;
+int u_firstId;
+vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
 void main() {
-  vec4 eye = czm_modelView * vec4(a_position, 1.0);
+  int ofNode = u_node * 4;
+  vec4 node0 = nodeValues(ofNode + 0);
+  vec4 node1 = nodeValues(ofNode + 1);
+  vec4 node2 = nodeValues(ofNode + 2);
+  vec4 node3 = nodeValues(ofNode + 3);
+  u_modelView = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
+  u_firstId = int(node3.x) * 65536 + int(node3.y);
+  vec4 eye = u_modelView * vec4(a_position, 1.0);
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
   gl_PointSize = width;

@@ -8,11 +8,14 @@ import {
   type Texels,
   type VertexInput,
 } from "../../drawing/gpu.js";
-import { type PointShader, WEBGL2 } from "../../effects/index.js";
+import { type PointShader, type ShaderTarget, WEBGL2 } from "../../effects/index.js";
 import type { ColumnData } from "../../workers/index.js";
 import { GlProgram } from "./gl-program.js";
 import type { GlBuffer, GlFramebuffer, GlTexture, GlVertexArray, PictureFormat } from "./gl-types.js";
 import { GlUniforms } from "./gl-uniforms.js";
+
+/** What belongs to a node comes in a table. */
+const TARGET: ShaderTarget = { ...WEBGL2, nodeTable: true };
 
 /** What drawing is given of WebGL 2's objects. */
 export interface GlTypes extends GpuTypes {
@@ -25,7 +28,7 @@ export interface GlTypes extends GpuTypes {
 
 /** Makes all GPU objects of a layer in one context, and knows what is alive. */
 export class GlObjects implements Gpu<GlTypes> {
-  readonly target = WEBGL2;
+  readonly target = TARGET;
   readonly gl: WebGL2RenderingContext;
   readonly #alive = new Map<Destroyable, { readonly kind: GpuKind; readonly bytes: number }>();
   readonly #counts: Record<GpuKind, number> = { ...NO_OBJECTS };

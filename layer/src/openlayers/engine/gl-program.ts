@@ -16,8 +16,7 @@ export class GlProgram implements Destroyable {
   readonly #gl: WebGL2RenderingContext;
   readonly #shader: PointShader;
   #program: WebGLProgram | undefined;
-  #common: readonly Slot[] = [];
-  #own: readonly Slot[] = [];
+  #slots: readonly Slot[] = [];
 
   constructor(gl: WebGL2RenderingContext, shader: PointShader) {
     this.#gl = gl;
@@ -43,25 +42,24 @@ export class GlProgram implements Destroyable {
     }
     this.#program = program;
     let unit = 0;
-    const slots = uniforms.flatMap((uniform): Slot[] => {
+    this.#slots = uniforms.flatMap((uniform): Slot[] => {
       const location = gl.getUniformLocation(program, uniform.name);
       if (!location) return [];
       return [{ ...uniform, location, unit: uniform.type === "sampler2D" ? unit++ : 0 }];
     });
-    this.#own = slots.filter(isOfNode);
-    this.#common = slots.filter((slot) => !isOfNode(slot));
   }
 
-  /** Draws with it from now on, with the values that hold for all nodes. */
+  /** Draws with it from now on, with these values. */
   use(values: GlUniforms): void {
     this.link();
     this.#gl.useProgram(this.#program ?? null);
-    for (const slot of this.#common) this.#set(slot, values.get(slot.name));
+    for (const slot of this.#slots) this.#set(slot, values.get(slot.name));
   }
 
-  /** Takes the values of one node. */
-  useNode(values: GlUniforms): void {
-    for (const slot of this.#own) this.#set(slot, values.get(slot.name));
+  /** Changes an integer while it is in use. */
+  setInteger(name: string, value: number): void {
+    const slot = this.#slots.find((candidate) => candidate.name === name);
+    if (slot) this.#gl.uniform1i(slot.location, value);
   }
 
   destroy(): void {
@@ -89,11 +87,6 @@ export class GlProgram implements Destroyable {
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.uniform1i(location, unit);
   }
-}
-
-/** Matrices of a node change with it, although the view fills them. */
-function isOfNode({ scope, name }: UniformDeclaration): boolean {
-  return scope === "node" || name === "u_modelView" || name === "u_onGlobe";
 }
 
 function compile(gl: WebGL2RenderingContext, type: number, text: string): WebGLShader {

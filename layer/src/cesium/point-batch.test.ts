@@ -1,0 +1,76 @@
+import { BoundingSphere, Cartesian3, Matrix4 } from "cesium";
+import { expect, it } from "vitest";
+import { attributeSet } from "../drawing/vertex-attributes.js";
+import type { Context, VertexArray } from "./engine/cesium-private.js";
+import type { CesiumNode } from "./node-drawable.js";
+import { type DrawState, NodesVolume, PointBatch } from "./point-batch.js";
+
+/** A context that keeps what is done with it. */
+function recorder() {
+  const calls: unknown[][] = [];
+  const program = {};
+  const record =
+    (name: string) =>
+    (...given: unknown[]) =>
+      void calls.push([name, ...given]);
+  const gl = {
+    ...{ POINTS: 0, CURRENT_PROGRAM: 1, getParameter: () => program },
+    getUniformLocation: (_: unknown, name: string) => name,
+    uniform1i: record("number"),
+    drawArrays: record("draw"),
+  };
+  const arrayOf = (name: string): VertexArray => ({
+    _bind: () => void calls.push(["bind", name]),
+    _unBind: () => void calls.push(["unbind", name]),
+    destroy: () => undefined,
+  });
+  return { calls, context: { _gl: gl } as unknown as Context, arrayOf };
+}
+
+const state = {
+  program: { program: {}, reads: attributeSet([]) },
+  uniformMap: {},
+  pass: 0,
+} as unknown as DrawState;
+
+it("draws exactly its nodes, each by its row in the table, whenever Cesium binds it", () => {
+  const { calls, context, arrayOf } = recorder();
+  const batch = new PointBatch(context);
+  const node = (name: string, row: number, count: number) =>
+    ({
+      row,
+      count,
+      uploaded: { arrayOf: () => arrayOf(name), sphere: new BoundingSphere(Cartesian3.UNIT_X, row + 1) },
+    }) as unknown as CesiumNode;
+  const nodes = [node("a", 0, 10), node("c", 2, 7)];
+  const command = batch.command(nodes, state);
+  expect(command.count).toBe(0);
+  expect(Matrix4.equals(command.modelMatrix, Matrix4.IDENTITY)).toBe(true);
+  command.vertexArray._bind();
+  command.vertexArray._unBind();
+  expect(calls).toEqual([
+    ["bind", "a"],
+    ["number", "u_node", 0],
+    ["draw", 0, 0, 10],
+    ["bind", "c"],
+    ["number", "u_node", 2],
+    ["draw", 0, 0, 7],
+    ["unbind", "c"],
+  ]);
+  calls.length = 0;
+  const again = batch.command([nodes[1]], state);
+  expect(again).toBe(command);
+  again.vertexArray._bind();
+  expect(calls.filter(([name]) => name === "draw")).toEqual([["draw", 0, 0, 7]]);
+});
+
+it("lies as near and as far as its nodes do, not as the sphere around them", () => {
+  const volume = new NodesVolume();
+  const at = (x: number, y: number) => new BoundingSphere(new Cartesian3(x, y, 0), 1);
+  volume.hold([at(100, 0), at(100, 5000)]);
+  const { start, stop } = volume.computePlaneDistances(Cartesian3.ZERO, Cartesian3.UNIT_X);
+  expect([start, stop]).toEqual([99, 101]);
+  expect(volume.radius).toBeGreaterThan(2500);
+  volume.hold([at(7, 0)]);
+  expect(volume.computePlaneDistances(Cartesian3.ZERO, Cartesian3.UNIT_X).start).toBe(6);
+});

@@ -1,0 +1,85 @@
+import { BoundingSphere, type Cartesian3, Interval, Matrix4, PrimitiveType } from "cesium";
+import type { Program } from "../drawing/programs.js";
+import { NODE_NUMBER } from "../effects/index.js";
+import { BatchArray } from "./engine/batch-array.js";
+import { type Context, DrawCommand, type RenderState, type UniformMap } from "./engine/cesium-private.js";
+import type { CesiumTypes } from "./engine/gpu-objects.js";
+import type { CesiumNode } from "./node-drawable.js";
+
+/** How nodes are drawn: by which program, where to, and with which values. */
+export interface DrawState {
+  readonly owner: object;
+  readonly program: Program<CesiumTypes>;
+  readonly renderState: RenderState;
+  readonly uniformMap: UniformMap;
+  /** One of Cesium's passes. */
+  readonly pass: number;
+}
+
+/** A command that draws any number of nodes with one program. */
+export class PointBatch {
+  readonly #array: BatchArray;
+  readonly #volume = new NodesVolume();
+  #command: DrawCommand | undefined;
+
+  constructor(context: Context) {
+    this.#array = new BatchArray(context, NODE_NUMBER);
+  }
+
+  /** The command, which draws these nodes from now on; Cesium derives those for depth, colour range and `scene.pick` from it. */
+  command(nodes: readonly CesiumNode[], state: DrawState): DrawCommand {
+    const { owner, program, renderState, uniformMap, pass } = state;
+    this.#array.draws = nodes.map(({ uploaded, row, count }) => ({
+      array: uploaded.arrayOf(program.reads),
+      number: row,
+      count,
+    }));
+    this.#volume.hold(nodes.map(({ uploaded }) => uploaded.sphere));
+    const changing = { shaderProgram: program.program, renderState, uniformMap, pass };
+    if (this.#command) return Object.assign(this.#command, changing);
+    this.#command = new DrawCommand({
+      ...changing,
+      owner,
+      vertexArray: this.#array,
+      primitiveType: PrimitiveType.POINTS,
+      count: 0,
+      // The table of nodes says where each of them is.
+      modelMatrix: Matrix4.IDENTITY,
+      boundingVolume: this.#volume,
+      pickId: "u_pickColor",
+    });
+    return this.#command;
+  }
+}
+
+const interval = new Interval();
+
+/**
+ * Sphere around nodes, for Cesium to cull by. Near and far planes are fitted to the nodes themselves, since the sphere may
+ * reach behind the camera where none of them does.
+ */
+export class NodesVolume extends BoundingSphere {
+  #spheres: readonly BoundingSphere[] = [];
+
+  /** Stands for these spheres from now on. */
+  hold(spheres: readonly BoundingSphere[]): void {
+    this.#spheres = spheres;
+    BoundingSphere.fromBoundingSpheres([...spheres], this);
+  }
+
+  /** Least and greatest distance along a direction, metres. */
+  override computePlaneDistances(
+    position: Cartesian3,
+    direction: Cartesian3,
+    result = new Interval(),
+  ): Interval {
+    result.start = Number.POSITIVE_INFINITY;
+    result.stop = Number.NEGATIVE_INFINITY;
+    for (const sphere of this.#spheres) {
+      const { start, stop } = sphere.computePlaneDistances(position, direction, interval);
+      result.start = Math.min(result.start, start);
+      result.stop = Math.max(result.stop, stop);
+    }
+    return result;
+  }
+}
