@@ -32,7 +32,7 @@ export function startingPoints(
 
 /**
  * Newton's iteration for the source coordinates of an ECEF point, from the nearest of the starting points. A step that
- * leaves the domain is cut off at its edge; one that does not come nearer (a kink, a hole of a grid) is halved.
+ * leaves the domain is cut off before its edge; one that does not come nearer (a kink, a hole of a grid) is halved.
  *
  * @returns whether a place within 1 µm was found; then it is in `out`
  */
@@ -61,8 +61,8 @@ export function invert(
     let share = 1;
     let better = false;
     while (share > 1e-3 && !better) {
-      const nextX = Math.max(domain.minX, Math.min(domain.maxX, x + share * step[0]));
-      const nextY = Math.max(domain.minY, Math.min(domain.maxY, y + share * step[1]));
+      const nextX = within(domain.minX, domain.maxX, x, share * step[0]);
+      const nextY = within(domain.minY, domain.maxY, y, share * step[1]);
       const nextZ = z + share * step[2];
       differentiate(nextX, nextY, nextZ, trial, trialJacobian);
       const nextError = misfit(trial);
@@ -84,6 +84,15 @@ export function invert(
   out[offset + 1] = y;
   out[offset + 2] = z;
   return true;
+}
+
+/** Share of the way to an edge that a step which leads beyond it goes: on the edge itself may lie a pole, without derivatives. */
+const TOWARDS_EDGE = 0.9;
+
+function within(least: number, greatest: number, from: number, step: number): number {
+  if (from + step > greatest) return from + TOWARDS_EDGE * (greatest - from);
+  if (from + step < least) return from + TOWARDS_EDGE * (least - from);
+  return from + step;
 }
 
 function nearest(starts: Float64Array, target: readonly [number, number, number]): [number, number] {
