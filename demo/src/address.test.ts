@@ -56,9 +56,12 @@ describe("the options of the page", () => {
 
   it("are read together", () => {
     expect(
-      read("cloud=/data/s.copc.laz&budget=300000&size=2.5&color=intensity&fly=0&crs=EPSG:2056&other=1"),
+      read(
+        "cloud=/data/s.copc.laz&budget=300000&size=2.5&color=intensity&fly=0&crs=EPSG:2056&georef=s.georef&other=1",
+      ),
     ).toEqual({
       cloud: "http://localhost:8080/data/s.copc.laz",
+      georef: "http://localhost:8080/s.georef",
       budget: 300_000,
       size: 2.5,
       color: "intensity",

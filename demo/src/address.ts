@@ -19,6 +19,8 @@ export interface PageOptions {
   readonly crs?: string;
   /** Height reference of the cloud: `EPSG:5728` or `ellipsoidal`. */
   readonly vertical?: string;
+  /** Absolute address of the georeference that `groma georef` made for the cloud. */
+  readonly georef?: string;
   /** Whether the camera flies to the cloud rather than being there at once. */
   readonly fly: boolean;
   /** Whether the map beside the globe is shown from the beginning. */
@@ -28,8 +30,8 @@ export interface PageOptions {
 const MOST_POINTS = 100_000_000;
 
 /**
- * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `fly`, `map`. Others are
- * left alone.
+ * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `georef`, `fly`, `map`. Others
+ * are left alone.
  * @param page the page's whole address
  * @throws PageError PAGE_ADDRESS, PAGE_OPTION
  */
@@ -41,6 +43,7 @@ export function readPageOptions(page: string): PageOptions {
   const color = query.get("color");
   const crs = query.get("crs");
   const vertical = query.get("vertical");
+  const georef = query.get("georef");
   return {
     ...(cloud !== null && { cloud: cloudAddress(cloud, page) }),
     ...(budget !== undefined && { budget }),
@@ -48,6 +51,7 @@ export function readPageOptions(page: string): PageOptions {
     ...(color && { color }),
     ...(crs && { crs }),
     ...(vertical && { vertical }),
+    ...(georef && { georef: cloudAddress(georef, page) }),
     ...(word(query, "map", ["0", "1"]) === "1" && { map: true }),
     fly: word(query, "fly", ["0", "1"]) !== "0",
   };

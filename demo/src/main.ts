@@ -132,11 +132,11 @@ function start(viewer: Viewer): void {
 
   /** Opens the cloud that the page's address names. */
   function openNamed(): void {
-    const { cloud, color, crs, vertical } = options;
+    const { cloud, color, crs, vertical, georef } = options;
     if (!cloud) return;
     chooser.fill(new URL(location.href).searchParams.get("cloud") ?? "");
     const style = { ...lasting().style, ...(color && { color }) };
-    void open(cloud, cloud, { ...lasting(), style, crs, vertical });
+    void open(cloud, cloud, { ...lasting(), style, crs, vertical, transformation: georef });
   }
 
   /** Opens the cloud that the reader chose. */
@@ -248,8 +248,9 @@ function tellFailures(layer: PointCloudLayer): void {
 }
 
 /** Keeps the page's address in step with what it shows, so that it can be reloaded and passed on. */
-function rememberCloud({ from, how: { vertical }, crs }: Opened): void {
+function rememberCloud({ from, how: { vertical, transformation }, crs }: Opened): void {
   const page = new URL(location.href);
+  if (transformation === undefined) page.searchParams.delete("georef");
   for (const name of ["cloud", "crs", "vertical"]) page.searchParams.delete(name);
   if (typeof from === "string") {
     const { origin, pathname, search } = new URL(from);

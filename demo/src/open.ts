@@ -8,7 +8,9 @@ import {
 import type { PrimitiveCollection } from "cesium";
 
 /** How a cloud is opened and drawn. */
-export interface OpenOptions extends PointCloudLayerOptions, Pick<PointCloudOptions, "crs" | "vertical"> {
+export interface OpenOptions
+  extends PointCloudLayerOptions,
+    Pick<PointCloudOptions, "crs" | "vertical" | "transformation"> {
   /** Coordinate system for a cloud that names none. Never used in place of one that the file names. */
   readonly crsIfMissing?: string | undefined;
 }
