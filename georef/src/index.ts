@@ -138,3 +138,4 @@ export {
   verticalSystems,
 } from "./vertical/systems.js";
 export { type Undulation, undulationOf } from "./vertical/undulation.js";
+export { isAboveGeoid, type OwnLevel, ownLevel, ownLevelNote } from "./vertical/zero-level.js";

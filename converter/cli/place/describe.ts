@@ -61,12 +61,12 @@ export function geodeticBounds(scan: Scan, truth: Truth): GeodeticBounds | undef
  *
  * @param geoids grids that they go through; undefined as long as nothing is settled
  */
-export function heightInWords({ height }: Crs, geoids?: readonly string[]): string {
+export function heightInWords({ height, verticalUnit }: Crs, geoids?: readonly string[]): string {
   switch (height.kind) {
     case "ellipsoidal":
       return "ellipsoidal";
     case "geoid": {
-      const above = `above ${height.model}${height.epsg ? ` (EPSG:${height.epsg})` : ""}`;
+      const above = `${verticalUnit.size < 0 ? "counted downwards from" : "above"} ${height.model}${height.epsg ? ` (EPSG:${height.epsg})` : ""}`;
       return geoids === undefined ? above : `${above}, ${geoidInWords(geoids)}`;
     }
     case "unknown":
@@ -129,9 +129,8 @@ function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "hei
 /** Why heights above a geoid are of unknown worth. */
 function unknownHeight(parts: readonly AccuracyPart[]): string {
   const note = parts.find(({ name }) => name === "height")?.note ?? "";
-  return /not in use at this place/.test(note)
-    ? "height system not in use at this place"
-    : "geoid not applied";
+  if (/not in use at this place/.test(note)) return "height system not in use at this place";
+  return /level of its own/.test(note) ? "heights count from a level of their own" : "geoid not applied";
 }
 
 /** What a reader has to know of the way that was chosen, one sentence each. */

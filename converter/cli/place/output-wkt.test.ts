@@ -23,6 +23,10 @@ describe("the WKT of an output", () => {
     ["a height system that replaces that of the file", { wkt: AWKWARD, givenVertical: "EPSG:7837" }],
     ["heights above the ellipsoid", { wkt: UTM32, givenVertical: "ellipsoidal" }],
     ["WKT 2 with a height system", { wkt: WKT2, givenVertical: "EPSG:5709" }],
+    ["depths", { given: "EPSG:25832", givenVertical: "EPSG:5861" }],
+    ["depths in feet, by codes", { given: "EPSG:26918+6358" }],
+    ["depths in the feet of the plane", { given: "EPSG:2994", givenVertical: "EPSG:5715" }],
+    ["WKT 2 with depths", { wkt: WKT2, givenVertical: "EPSG:5715" }],
     [
       "a PROJ string",
       { given: "+proj=sterea +lat_0=52 +lon_0=5 +k=0.9999 +x_0=1 +y_0=2 +ellps=bessel +towgs84=565,50,465" },

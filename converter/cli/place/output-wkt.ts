@@ -69,7 +69,8 @@ function vertical1({ height, verticalUnit }: Crs): string {
       : height.kind === "ellipsoidal"
         ? ['"Ellipsoid"', 2002]
         : ['"unknown"', 2005];
-  return `VERT_CS[${name},VERT_DATUM[${name},${type}],${unitNode(verticalUnit)},AXIS["Up",UP]]`;
+  const axis = verticalUnit.size < 0 ? 'AXIS["Depth",DOWN]' : 'AXIS["Up",UP]';
+  return `VERT_CS[${name},VERT_DATUM[${name},${type}],${unitNode({ ...verticalUnit, size: Math.abs(verticalUnit.size) })},${axis}]`;
 }
 
 /**
@@ -89,10 +90,11 @@ function ownVertical({
 function compound2(plane: string, { name, height, verticalUnit }: Crs): string {
   if (height.kind === "ellipsoidal") return plane;
   const vertical = height.kind === "geoid" ? quoted(height.model) : '"unknown"';
-  const unit = `LENGTHUNIT[${quoted(verticalUnit.name)},${verticalUnit.size}]`;
+  const unit = `LENGTHUNIT[${quoted(verticalUnit.name)},${Math.abs(verticalUnit.size)}]`;
   const own = ownVertical({ height, verticalUnit });
   const id = own ? `,ID["EPSG",${own.code}]` : "";
-  const axis = `CS[vertical,1],AXIS["gravity-related height (H)",up],${unit}`;
+  const direction = verticalUnit.size < 0 ? '"depth (D)",down' : '"gravity-related height (H)",up';
+  const axis = `CS[vertical,1],AXIS[${direction}],${unit}`;
   return `COMPOUNDCRS[${quoted(name)},${plane},VERTCRS[${vertical},VDATUM[${vertical}],${axis}${id}]]`;
 }
 

@@ -6,11 +6,14 @@ import {
   EGM96_NOTE,
   ENGINE,
   ecefToGeodetic,
+  egm96Undulation,
   encodeRecord,
   encodeTransformation,
   type GeoreferenceRecord,
   guessHeight,
   type OperationReport,
+  ownLevel,
+  ownLevelNote,
   pointTransform,
   similarityParts,
   type Truth,
@@ -71,7 +74,7 @@ export async function makeRecords(
   const bytes = encodeTransformation(transformation);
   const truth = truthOf({ crs, transformation: bytes }, (minZ + maxZ) / 2, surroundings.file);
   const report = withKnownShift(own, crs, truth, domain);
-  const guess = crs.height.kind === "unknown" ? await guessFor(crs, truth, domain) : undefined;
+  const guess = await guessFor(crs, truth, domain);
   const outsideOf = heightSystemAbroad(crs, truth, { min, max });
   const operation = operationReport(report, guess, notes, outsideOf);
   const accuracy = accuracyParts(crs, scale, TOLERANCE + report.fitBound, {
@@ -119,6 +122,7 @@ function operationReport(
     if (note !== EGM96_NOTE || outsideOf === undefined) return note;
     return `height by the geoid model ${EGM96}: ${outsideOf} is not in use at this place`;
   });
+  const level = guess !== undefined && !report.notes.includes(UNKNOWN_HEIGHT_NOTE) ? [guess] : [];
   return {
     name: report.operation,
     accuracy: report.accuracy,
@@ -126,16 +130,21 @@ function operationReport(
     grids: report.grids,
     lacking: report.lacking.map(({ operation, accuracy, grids }) => ({ name: operation, accuracy, grids })),
     worstDifference: report.checkedPoints > 0 ? report.worstDifference : null,
-    notes: [...found.map(({ text }) => text), ...notes, ...passedOver],
+    notes: [...found.map(({ text }) => text), ...notes, ...level, ...passedOver],
   };
 }
 
-/** What heights of unknown reference may be, in words; nothing where the middle of the data set has no place. */
+/**
+ * What heights of unknown reference may be, or how far off those are that count from a level of their own, in words;
+ * nothing for others, and where the middle of the data set has no place.
+ */
 async function guessFor(
   crs: Crs,
   truth: Truth,
   { minX, minY, minZ, maxX, maxY, maxZ }: Domain,
 ): Promise<string | undefined> {
+  const level = geoidsOf(truth).length === 0 ? ownLevel(crs) : undefined;
+  if (crs.height.kind !== "unknown" && !level) return undefined;
   const ecef = new Float64Array(3);
   pointTransform(truth)((minX + maxX) / 2, (minY + maxY) / 2, (minZ + maxZ) / 2, ecef, 0);
   if (!ecef.every(Number.isFinite)) return undefined;
@@ -143,5 +152,7 @@ async function guessFor(
   ecefToGeodetic(ecef[0], ecef[1], ecef[2], geodetic);
   const code = /^EPSG:(\d+)/.exec(crs.code ?? "")?.[1];
   const countries = countriesOf(code === undefined ? undefined : Number(code));
-  return guessHeight(await egm96(), heightSystems(), crs, geodetic[0], geodetic[1], countries).note;
+  const [longitude, latitude] = [geodetic[0]!, geodetic[1]!];
+  if (level) return ownLevelNote(crs, level, egm96Undulation(await egm96(), longitude, latitude));
+  return guessHeight(await egm96(), heightSystems(), crs, longitude, latitude, countries).note;
 }

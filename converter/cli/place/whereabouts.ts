@@ -117,7 +117,7 @@ function heightNote(crs: Crs, centre: Place): CrsNote[] | undefined {
   if (!system || far === 0) return undefined;
   const horizontal = planeCode(crs);
   const countries = countriesOf(horizontal);
-  const clues = { ...centre, unit: crs.verticalUnit.size, horizontal, countries };
+  const clues = { ...centre, unit: Math.abs(crs.verticalUnit.size), horizontal, countries };
   const likely = likelySystems(heightSystems(), clues);
   const hint = likely.length === 0 ? "" : `; in use there: ${named(likely)}`;
   const where = `the middle of the data set (${pointInWords(centre)}) lies ${length(far)} outside of the area of use`;

@@ -5,6 +5,7 @@ import {
   deriveTransformation,
   EGM96,
   EGM96_NOTE,
+  isAboveGeoid,
   withWorthThere,
 } from "@groma/georef";
 import proj4 from "proj4";
@@ -28,7 +29,7 @@ export async function proj4jsTransformation(
   domain: Domain,
   { tolerance, file }: EngineOptions = {},
 ): Promise<EngineResult> {
-  const geoid = crs.height.kind === "geoid" ? await egm96() : undefined;
+  const geoid = isAboveGeoid(crs) ? await egm96() : undefined;
   const transformation = await deriveTransformation(crs, domain, { egm96: geoid, tolerance, file });
   const [projection] = transformation.steps;
   const { datum } = withWorthThere(crs, compileTransformation(transformation, file), domain);

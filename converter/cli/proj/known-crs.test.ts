@@ -43,12 +43,18 @@ describe.skipIf(!proj)(`a CRS by PROJ${absent}`, () => {
     expect(await known(crs.wkt!)).toMatchObject({ proj4: crs.proj4 });
   });
 
+  it("counts depths downwards", async () => {
+    expect(await known("EPSG:26918+6358")).toMatchObject({
+      height: { kind: "geoid", epsg: 6358 },
+      verticalUnit: { name: "US survey foot", size: expect.closeTo(-1200 / 3937, 9), declared: true },
+    });
+  });
+
   it.each([
     ["nothing", "EPSG:999999", "CRS_UNKNOWN"],
     ["a height system alone", "EPSG:5728", "CRS_UNSUPPORTED"],
     ["geocentric coordinates", "EPSG:4978", "CRS_UNSUPPORTED"],
     ["an engineering system", "EPSG:5800", "CRS_UNSUPPORTED"],
-    ["depths", "EPSG:4326+5715", "CRS_UNSUPPORTED"],
   ])("is refused when it is %s", async (_, text, code) => {
     await expect(known(text)).rejects.toMatchObject({ code, file: "x.las" });
   });

@@ -14,7 +14,7 @@ const NAMED: ReadonlyMap<string, Unit> = new Map([
  * string has left of it, without the datum.
  *
  * @throws CrsError CRS_UNKNOWN when PROJ does not know it either, CRS_UNSUPPORTED when it is no place on the earth (a
- *   height system alone, geocentric or engineering coordinates) or has depths
+ *   height system alone, geocentric or engineering coordinates)
  */
 export async function knownCrs(proj: Proj, source: CrsText, signal?: AbortSignal): Promise<Crs> {
   const whole = await projJson(proj, source, signal);
@@ -26,9 +26,8 @@ export async function knownCrs(proj: Proj, source: CrsText, signal?: AbortSignal
     throw unsupported(source.name, `"${whole.name}" has no places in plane`);
   }
   const up = vertical ? axesOf(vertical)[0] : z;
-  if (up?.direction === "down")
-    throw unsupported(source.name, `its depths ("${whole.name}") are not supported`);
-  const declared = up && unitOf(up, "linear");
+  const upwards = up && unitOf(up, "linear");
+  const declared = upwards && up.direction === "down" ? { ...upwards, size: -upwards.size } : upwards;
   const fallback = horizontalUnit.kind === "linear" ? horizontalUnit : METRE;
   const code = codeOf(whole, plane, vertical);
   return {

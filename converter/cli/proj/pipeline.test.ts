@@ -88,6 +88,18 @@ describe("a pipeline", () => {
     expect(kinds(UTM, "+step +proj=hgridshift +grids=@null", CART)).toEqual(["geocentric"]);
   });
 
+  it("turns depths into heights, in the unit that they have", () => {
+    expect(parse(UTM, "+step +proj=axisswap +order=1,2,-3", CART)).toMatchObject({
+      steps: [{ kind: "height", metresPerUnit: -1 }, { kind: "geocentric" }],
+      metresPerUnit: -1,
+    });
+    expect(parse("+step +proj=axisswap +order=1,2,-3", UTM, CART).metresPerUnit).toBe(-1);
+    expect(parse(UTM, "+step +proj=affine +s33=-0.3048", CART).metresPerUnit).toBe(-0.3048);
+    expect(parse(UTM, "+step +inv +proj=affine +s33=-0.5", CART).metresPerUnit).toBe(-2);
+    expect(() => parse(UTM, "+step +proj=affine +xoff=1", CART)).toThrow(/\+xoff/);
+    expect(() => parse(UTM, "+step +proj=affine +s33=0", CART)).toThrow(/s33=0/);
+  });
+
   it("adds the same offset everywhere, in either direction", () => {
     const tokyo = "+step +proj=geogoffset +dlat=11.5 +dlon=-10.25 +dh=-36";
     expect(parse(UTM, tokyo, CART).steps.slice(0, 2)).toEqual([

@@ -37,8 +37,10 @@ function readProjection(pipeline: readonly StepText[]): { count: number; metresP
   for (const [i, step] of pipeline.entries()) {
     const { name, inverse, parameters } = step;
     if (name === "axisswap") {
-      // Signs and swaps of the plane are part of what is sampled; z takes no part in it.
-      if (!/^-?[12],-?[12]$/.test(parameters.get("order") ?? "")) throw refuseStep(step, orderOf(step));
+      // Signs and swaps of the plane are part of what is sampled; z takes no part in it but for its sign.
+      const order = /^-?[12],-?[12](,-?3)?$/.exec(parameters.get("order") ?? "");
+      if (!order) throw refuseStep(step, orderOf(step));
+      if (order[1] === ",-3") metresPerUnit = -metresPerUnit;
     } else if (name === "unitconvert") {
       const units = readUnits(step);
       metresPerUnit *= units.height;
@@ -158,8 +160,10 @@ class Walk {
       return;
     }
     if (name === "axisswap") {
-      if (parameters.get("order") !== "2,1") throw refuseStep(step, orderOf(step));
-      this.#swapped = !this.#swapped;
+      const order = parameters.get("order");
+      if (order === "1,2,-3") this.#height(-1);
+      else if (order === "2,1") this.#swapped = !this.#swapped;
+      else throw refuseStep(step, orderOf(step));
       return;
     }
     // An inverse push is a pop, and the other way round.
@@ -185,6 +189,12 @@ class Walk {
       if (grids[0].name !== "null") this.#planned.push({ kind: "verticalShift", multiplier, grids, before });
     } else if (name === "geogoffset") {
       this.#offset(step);
+    } else if (name === "affine") {
+      // What PROJ makes of a unit of depths.
+      only(step, ["s33"]);
+      const factor = Number(parameters.get("s33"));
+      if (!Number.isFinite(factor) || factor === 0) throw refuseStep(step, `+s33=${parameters.get("s33")}`);
+      this.#height(inverse ? 1 / factor : factor);
     } else throw refuseStep(step);
   }
 

@@ -1,7 +1,13 @@
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { type Crs, compileTransformation, type Domain, encodeTransformation } from "@groma/georef";
+import {
+  type Crs,
+  compileTransformation,
+  type Domain,
+  ecefToGeodetic,
+  encodeTransformation,
+} from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import { dataFolder } from "../../../tests/project.js";
 import { runPipeline } from "./cct.js";
@@ -170,6 +176,19 @@ describe.skipIf(!plain)(`PROJ alone${absent}`, () => {
     } finally {
       rmSync(folder, { recursive: true, force: true });
     }
+  });
+
+  it.each([
+    ["EPSG:32632+5715", 1],
+    ["EPSG:32618+6358", 1200 / 3937],
+  ])("lays the depths of %s downwards, without a geoid of its own", async (code, unit) => {
+    const crs = crsOf(code, { kind: "geoid", model: "depth" }, { ...METRE, size: -unit });
+    const { transformation, report } = await projTransformation(plain!, crs, box(500_000, 5_000_000, 100));
+    const [ecef, place] = [new Float64Array(3), new Float64Array(3)];
+    compileTransformation(transformation).evaluate(500_050, 5_000_050, 100, ecef, 0);
+    ecefToGeodetic(ecef[0], ecef[1], ecef[2], place);
+    expect(place[2]).toBeCloseTo(-100 * unit, 6);
+    expect(report.grids).toEqual([]);
   });
 
   it("says so when z is only taken for ellipsoidal", async () => {

@@ -10,6 +10,7 @@ import {
   ecefToGeodetic,
   egm96Step,
   type GromaError,
+  isAboveGeoid,
   PATCHWORK_TOLERANCE,
   PlacementError,
   spread,
@@ -152,7 +153,7 @@ async function chooseFor(
     choice,
     passedOver: [...best.passedOver, ...passedOver],
     operations: withHeights.length > 0 ? withHeights : flat,
-    substitute: crs.height.kind === "geoid",
+    substitute: isAboveGeoid(crs),
   };
 }
 

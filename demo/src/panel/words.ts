@@ -63,7 +63,10 @@ export function heightWords(
     geoids.length > 0
       ? `geoid applied: ${geoids.join(", ")}${worth}`
       : "geoid not applied: drawn as if above the ellipsoid";
-  return noted(`above ${height.model.replace(/ height$/i, "")}${code}`, [geoid, ...unit]);
+  return noted(
+    `${verticalUnit.size < 0 ? "counted downwards from" : "above"} ${height.model.replace(/ height$/i, "")}${code}`,
+    [geoid, ...unit],
+  );
 }
 
 /** What places come from. */

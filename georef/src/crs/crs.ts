@@ -44,7 +44,10 @@ export interface Crs {
   /** The text that was read, when it was WKT. */
   readonly wkt?: string;
   readonly horizontalUnit: Unit;
-  /** Unit of z; when the source declares none it is the horizontal linear unit (metre for angles). */
+  /**
+   * Unit of z, its size negative where z counts downwards (depths); when the source declares none it is the horizontal
+   * linear unit (metre for angles).
+   */
   readonly verticalUnit: Unit & { readonly declared: boolean };
   readonly height: HeightReference;
   /** Absent only in records of other writers. */

@@ -6,7 +6,7 @@ import { conversionNodes } from "./geotiff-projection.js";
 import type { CrsModel, HorizontalModel, VerticalModel } from "./model.js";
 import { unknown, unsupported } from "./refusal.js";
 import type { WktItem, WktNode } from "./tree.js";
-import { unitByCode, unitOf } from "./units.js";
+import { directed, unitByCode, unitOf } from "./units.js";
 import { readWkt } from "./wkt.js";
 
 const MODEL_TYPE = 1024;
@@ -164,7 +164,8 @@ function readVertical(values: KeyValues, lookup: EpsgLookup | undefined): Vertic
     return { name: "ellipsoidal height", reference: "ellipsoidal", unit };
   const found = readEpsgVertical(OLD_VERTICALS.get(vertical) ?? vertical, lookup);
   // The unit that the file states is that of its z, whatever the unit of the CRS it names.
-  return { ...found, unit: unit ?? found.unit };
+  const down = (found.unit?.size ?? 1) < 0;
+  return { ...found, unit: unit ? directed(unit, down) : found.unit };
 }
 
 /** A key that holds a code; 0 and values that are none are as good as absent. */

@@ -5,7 +5,7 @@ import type { CrsModel, VerticalModel } from "./model.js";
 import { unknown } from "./refusal.js";
 import { sameSize } from "./same.js";
 import { excerpt } from "./tree.js";
-import { METRE } from "./units.js";
+import { directed, METRE } from "./units.js";
 
 /** A CRS with the height reference that the user gives, and what has to be known of the unit of z. */
 interface WithVertical {
@@ -32,7 +32,9 @@ export function withGivenVertical(
 ): WithVertical {
   const given = readGiven(text, lookup);
   const declared = heightsOf(model)?.unit ?? unitOfFile();
-  const vertical = { ...given, unit: declared ?? assumedUnit(given, model) };
+  const down = (given.unit?.size ?? 1) < 0;
+  const unit = declared ?? assumedUnit(given, model) ?? (down ? planeUnit(model) : undefined);
+  const vertical = { ...given, unit: unit && directed(unit, down) };
   const note = noteOf(given, model, declared);
   return {
     model: withHeights(model, vertical),
@@ -52,9 +54,7 @@ function readGiven(text: string, lookup: EpsgLookup | undefined): VerticalModel 
 
 /** The unit of z that the given system says; nothing where the plane's is to be assumed. */
 function assumedUnit({ unit }: VerticalModel, model: CrsModel): Unit | undefined {
-  return unit && (!sameSize(unit.size, METRE.size) || sameSize(planeUnit(model).size, METRE.size))
-    ? unit
-    : undefined;
+  return unit && (!sameLength(unit, METRE) || sameLength(planeUnit(model), METRE)) ? unit : undefined;
 }
 
 /** The unit that z has where nothing says one. */
@@ -67,14 +67,19 @@ function noteOf(given: VerticalModel, model: CrsModel, declared: Unit | undefine
   const plane = planeUnit(model);
   const itself = given.reference === "ellipsoidal" ? "" : `; ${given.name} itself is in ${own.name}`;
   if (declared) {
-    if (sameSize(declared.size, own.size)) return undefined;
+    if (sameLength(declared, own)) return undefined;
     return `z stays in ${declared.name}, as declared${itself}${otherWay(given, model, own)}`;
   }
-  if (sameSize(plane.size, own.size)) return undefined;
+  if (sameLength(plane, own)) return undefined;
   if (assumedUnit(given, model)) {
     return `z is taken in ${own.name}, the unit of ${given.name}: no unit of z is declared, and the plane is in ${plane.name}`;
   }
   return `z is taken in ${plane.name}, the unit of the plane, since none is declared${itself}${otherWay(given, model, own)}`;
+}
+
+/** Whether two units are one, whichever way they count. */
+function sameLength(a: Unit, b: Unit): boolean {
+  return sameSize(Math.abs(a.size), Math.abs(b.size));
 }
 
 /** How to say that z is in the unit of the given system. */

@@ -63,7 +63,7 @@ export interface HorizontalModel {
 export interface VerticalModel {
   readonly name: string;
   readonly code?: number | undefined;
-  /** Absent when the text names none. */
+  /** Absent when the text names none; of depths its size is negative. */
   readonly unit?: Unit | undefined;
   readonly reference: HeightReference["kind"];
 }

@@ -22,7 +22,7 @@ export function resolveCrs(sources: CrsSources, lookup?: EpsgLookup): Crs {
  *
  * @param lookup table of EPSG codes; without one, codes are refused as unknown
  * @throws CrsError CRS_MISSING (no source says anything), CRS_UNKNOWN (not understood), CRS_UNSUPPORTED (understood,
- *   but not done here: grids, depths, other axes, other projections)
+ *   but not done here: grids, other axes, other projections)
  */
 export function resolveWithNotes(sources: CrsSources, lookup?: EpsgLookup): ResolvedCrs {
   try {

@@ -158,11 +158,11 @@ describe("heights", () => {
     expect(read({ given: "EPSG:4326" }).verticalUnit).toMatchObject({ size: 1, declared: false });
   });
 
-  it("are refused as depths", () => {
+  it("count downwards as depths", () => {
     const depth = 'VERTCRS["depth",VDATUM["d"],CS[vertical,1],AXIS["depth (D)",down],LENGTHUNIT["metre",1]]';
-    expect(refusal({ wkt: `COMPOUNDCRS["c",${wkt1()},${depth}]` })).toBe(
-      'CRS_UNSUPPORTED: "depth" counts depths, not heights',
-    );
+    const { verticalUnit, height } = read({ wkt: `COMPOUNDCRS["c",${wkt1()},${depth}]` });
+    expect(verticalUnit).toMatchObject({ name: "metre", size: -1, declared: true });
+    expect(height).toEqual({ kind: "geoid", model: "depth" });
   });
 });
 

@@ -65,6 +65,12 @@ export function unitOf(name: string, kind: Unit["kind"], size: number): Unit {
   return { name, kind, size };
 }
 
+/** A unit of heights, or, with a negative size, of depths, which count downwards. */
+export function directed(unit: Unit, down: boolean): Unit {
+  const size = Math.abs(unit.size);
+  return { ...unit, size: down ? -size : size };
+}
+
 /** The unit as PROJ writes it: `+units=us-ft`, else `+to_meter=`. */
 export function projUnit(unit: Unit): string {
   for (const [name, known] of BY_PROJ_NAME) {

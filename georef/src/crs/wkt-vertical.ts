@@ -1,7 +1,7 @@
 import type { VerticalModel } from "./model.js";
 import { unsupported } from "./refusal.js";
 import { child, children, epsgCode, number, text, type WktNode } from "./tree.js";
-import { unitOf } from "./units.js";
+import { directed, METRE, unitOf } from "./units.js";
 
 export const VERTICAL = ["VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"];
 
@@ -11,17 +11,17 @@ const ELLIPSOIDAL = 2002;
 /**
  * Reads a vertical CRS.
  * @param grid name of the geoid grid that a BOUNDCRS ties to it, if any
- * @throws Refusal CRS_UNSUPPORTED for depths and shifted heights
+ * @throws Refusal CRS_UNSUPPORTED for shifted heights
  */
 export function readVertical(node: WktNode, grid?: string): VerticalModel {
   const name = text(node, 1);
   const downAxis = children(node, "AXIS").some((axis) => text(axis, 2).toLowerCase() === "down");
   const parameters = new Map(children(node, "PARAMETER").map((item) => [text(item, 1), number(item, 2)]));
-  if (downAxis || parameters.get("Direction") === -1)
-    throw unsupported(`"${name}" counts depths, not heights`);
   if ((parameters.get("Vertical_Shift") ?? 0) !== 0) throw unsupported(`"${name}" shifts its heights`);
 
-  const unit = child(node, "UNIT", "LENGTHUNIT") ?? child(child(node, "AXIS") ?? node, "UNIT", "LENGTHUNIT");
+  const measure =
+    child(node, "UNIT", "LENGTHUNIT") ?? child(child(node, "AXIS") ?? node, "UNIT", "LENGTHUNIT");
+  const unit = measure && unitOf(text(measure, 1), "linear", number(measure, 2));
   const datum = child(node, "VERT_DATUM", "VDATUM", "VERTICALDATUM", "VRF");
   const extension = datum && children(datum, "EXTENSION").find((item) => text(item, 1) === "PROJ4_GRIDS");
   // ESRI marks ellipsoidal heights with the geodetic datum in place of a vertical one.
@@ -29,7 +29,7 @@ export function readVertical(node: WktNode, grid?: string): VerticalModel {
   return {
     name: grid ?? (extension ? text(extension, 2) : name),
     code: epsgCode(node),
-    unit: unit && unitOf(text(unit, 1), "linear", number(unit, 2)),
+    unit: downAxis || parameters.get("Direction") === -1 ? directed(unit ?? METRE, true) : unit,
     reference: ellipsoidal ? "ellipsoidal" : isUnknown(datum) ? "unknown" : "geoid",
   };
 }

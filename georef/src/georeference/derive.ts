@@ -8,11 +8,15 @@ import type { Bounds, Grid } from "../grid/window.js";
 import { fitPatchwork, PATCHWORK_TOLERANCE } from "../transformation/patchwork.js";
 import type { DatumShiftStep, Step, Transformation } from "../transformation/step.js";
 import { egm96Step } from "../vertical/egm96.js";
+import { isAboveGeoid } from "../vertical/zero-level.js";
 import { boundsOfPlaces, spread } from "./area.js";
 
 /** How a transformation is derived. */
 export interface DerivedOptions {
-  /** For heights above a geoid, whichever it is: EGM96. Without it such heights are taken as they are. */
+  /**
+   * For heights above a geoid, whichever it is: EGM96. Without it such heights are taken as they are, and so are those
+   * that count from a level of their own.
+   */
   readonly egm96?: Grid | undefined;
   /** Metres that the fit of the projection may be off. Default: {@link PATCHWORK_TOLERANCE}. */
   readonly tolerance?: number | undefined;
@@ -44,7 +48,7 @@ export async function deriveTransformation(
   if (crs.verticalUnit.size !== 1) steps.push({ kind: "height", metresPerUnit: crs.verticalUnit.size });
   const shift = datumShift(crs.proj4);
   if (shift) steps.push(shift);
-  if (egm96 && crs.height.kind === "geoid") steps.push(egm96Step(egm96, boundsOf(sample, domain)));
+  if (egm96 && isAboveGeoid(crs)) steps.push(egm96Step(egm96, boundsOf(sample, domain)));
   steps.push({ kind: "geocentric", ellipsoid: { a: WGS84.a, f: WGS84.f } });
   return { steps };
 }

@@ -1,6 +1,7 @@
 import type { Crs } from "../crs/crs.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
 import { EGM96 } from "../vertical/egm96.js";
+import { ownLevel, ownLevelNote } from "../vertical/zero-level.js";
 import type { OperationReport } from "./operation-report.js";
 
 /** One named part of what a stated position is worth. */
@@ -29,7 +30,7 @@ export interface Placing {
   readonly operation: Pick<OperationReport, "name" | "accuracy" | "ballpark">;
   /** Grids that heights go through, by their files; {@link EGM96} for the geoid that stands for a missing one. */
   readonly geoids: readonly string[];
-  /** For heights of unknown reference: what they may be, and how far off the points then are. */
+  /** For heights of unknown reference or a level of their own: what they may be, and how far off the points then are. */
   readonly guess?: string | undefined;
   /** The height system of a data set that lies outside of its area of use: nobody states what it is worth there. */
   readonly outsideOf?: string | undefined;
@@ -68,7 +69,7 @@ export function accuracyParts(
   return [
     ...storageParts(crs, scale, fitBound),
     placing ? operationPart(placing.operation) : datumPart(crs.datum),
-    heightPart(crs.height, placing),
+    heightPart(crs, placing),
   ];
 }
 
@@ -121,11 +122,18 @@ function operationPart({ name, accuracy, ballpark }: Placing["operation"]): Accu
   return { name: "datum operation", metres: ballpark ? null : accuracy, note };
 }
 
-function heightPart(height: Crs["height"], placing: Placing | undefined): AccuracyPart {
+function heightPart(
+  { height, verticalUnit }: Pick<Crs, "height" | "verticalUnit">,
+  placing: Placing | undefined,
+): AccuracyPart {
   const name = "height";
   if (height.kind === "ellipsoidal") return { name, metres: 0, note: "ellipsoidal" };
   if (height.kind === "unknown") {
     return { name, metres: null, note: placing?.guess ?? "reference unknown, drawn as ellipsoidal" };
+  }
+  const level = ownLevel({ height, verticalUnit });
+  if (level && !placing?.geoids.length) {
+    return { name, metres: null, note: placing?.guess ?? ownLevelNote({ height }, level) };
   }
   if (!placing) return { name, metres: null, note: `${height.model}: drawn without its geoid` };
   if (placing.outsideOf !== undefined) {

@@ -49,7 +49,7 @@ function readCrs(crs: Json): Crs {
   if (typeof declared !== "boolean") throw new FieldError("crs.verticalUnit.declared", "true or false");
   const proj4 = text(crs.proj4, "crs.proj4");
   if (!/^\+proj=[a-z]/.test(proj4)) throw new FieldError("crs.proj4", "a PROJ string");
-  const verticalUnit = readUnit(crs.verticalUnit, "crs.verticalUnit");
+  const verticalUnit = readUnit(crs.verticalUnit, "crs.verticalUnit", "either way");
   if (verticalUnit.kind !== "linear") throw new FieldError("crs.verticalUnit.kind", '"linear"');
   return {
     name: text(crs.name, "crs.name"),
@@ -63,13 +63,14 @@ function readCrs(crs: Json): Crs {
   };
 }
 
-function readUnit(value: unknown, member: string): Unit {
+function readUnit(value: unknown, member: string, counts: "up" | "either way" = "up"): Unit {
   const unit = readObject(value, member);
   if (unit.kind !== "linear" && unit.kind !== "angular")
     throw new FieldError(`${member}.kind`, "linear or angular");
   const size = number(unit.size, `${member}.size`);
   // From a nanometre to a light second: beyond that it is no unit of a scan.
-  if (!(size > 1e-9 && size < 3e8)) throw new FieldError(`${member}.size`, "the size of a unit");
+  const length = counts === "up" ? size : Math.abs(size);
+  if (!(length > 1e-9 && length < 3e8)) throw new FieldError(`${member}.size`, "the size of a unit");
   return { name: text(unit.name, `${member}.name`), kind: unit.kind, size };
 }
 

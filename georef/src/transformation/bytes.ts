@@ -139,6 +139,12 @@ export class ByteReader {
     return value;
   }
 
+  nonZero(what: string): number {
+    const value = this.f64(what);
+    this.check(value !== 0, `${what} of ${value}`);
+    return value;
+  }
+
   varint(): number {
     let value = 0;
     for (let scale = 1; ; scale *= 128) {

@@ -56,7 +56,7 @@ function readStep(reader: ByteReader, kind: Step["kind"]): Step {
     case "projection":
       return { kind, patchwork: readPatchwork(reader) };
     case "height":
-      return { kind, metresPerUnit: reader.positive("a height unit") };
+      return { kind, metresPerUnit: reader.nonZero("a height unit") };
     case "horizontalShift": {
       const direction = DIRECTIONS[reader.u8()];
       reader.check(direction !== undefined, "a grid shift of unknown direction");

@@ -22,7 +22,7 @@ export interface ProjectionStep {
   readonly patchwork: Patchwork;
 }
 
-/** z · metresPerUnit. */
+/** z · metresPerUnit, which is negative where z counts downwards. */
 export interface HeightStep {
   readonly kind: "height";
   readonly metresPerUnit: number;

@@ -35,7 +35,7 @@ export function guessHeight(
     longitude: longitude / DEGREE,
     latitude: latitude / DEGREE,
     horizontal: Number(/^EPSG:(\d+)/.exec(code ?? "")?.[1] ?? Number.NaN),
-    unit: verticalUnit.size,
+    unit: Math.abs(verticalUnit.size),
     countries,
   });
   const [first] = likely;

@@ -104,11 +104,10 @@ describe("verticalLookup", () => {
     expect(own.verticalUnit.size).toBeCloseTo(size, 12);
   });
 
-  it("refuses depths by name, and knows no horizontal system", () => {
+  it("has depths that count downwards, and knows no horizontal system", () => {
     const given = "+proj=longlat +ellps=WGS84 +towgs84=0,0,0";
-    expect(() => resolveCrs({ file: "a", given, givenVertical: "EPSG:5861" }, lookup)).toThrow(
-      expect.objectContaining({ code: "CRS_UNSUPPORTED", cause: expect.stringContaining("LAT depth") }),
-    );
+    const own = resolveCrs({ file: "a", given, givenVertical: "EPSG:5861" }, lookup);
+    expect(own).toMatchObject({ verticalUnit: { size: -1 }, height: { model: "LAT depth" } });
     expect(lookup(2056)).toBeUndefined();
   });
 });

@@ -282,12 +282,23 @@ describe("georeferenceOf a file with a transformation", () => {
     ["CRS_UNKNOWN", "EPSG:1", /EPSG:1 is not a vertical coordinate system/],
     ["CRS_UNKNOWN", "NAP", /"NAP" is not a known height reference/],
     ["CRS_UNKNOWN", "EPSG:2056+5728", /is not a known height reference/],
-    ["CRS_UNSUPPORTED", "EPSG:5861", /"LAT depth" counts depths, not heights/],
   ])("%s for %s", async (code, vertical, cause) => {
     for (const file of [withRecords(record, transformation), {}]) {
       await expect(
         open(file, { crs: undefined, vertical, ...("records" in file ? {} : { crs: UTM }) }),
       ).rejects.toThrow(expect.objectContaining({ code, cause: expect.stringMatching(cause) }));
+    }
+  });
+
+  it("lays given depths downwards, without a geoid and of unknown accuracy", async () => {
+    for (const file of [withRecords(record, transformation), {}]) {
+      const opened = await open(file, { vertical: "EPSG:5861", ...(!("records" in file) && { crs: UTM }) });
+      expect(opened.crs.verticalUnit.size).toBeLessThan(0);
+      expect(opened.geoids).toEqual([]);
+      expect(opened.accuracy.parts.find(({ name }) => name === "height")).toMatchObject({
+        metres: null,
+        note: expect.stringMatching(/LAT depth: counts from a level of its own/),
+      });
     }
   });
 

@@ -14,6 +14,7 @@ import {
   encodeTransformation,
   type GeoreferenceRecord,
   type Grid,
+  isAboveGeoid,
   isInside,
   type OperationReport,
   PlacementError,
@@ -132,7 +133,8 @@ export async function systemAbroad(
 }
 
 /**
- * The way of a conversion in plane, with the heights of another reference: above a geoid by EGM96, else as they are.
+ * The way of a conversion in plane, with the heights of another reference: above a geoid by EGM96, else as they are,
+ * those that count from a level of their own included.
  *
  * @param transformation of the conversion
  */
@@ -142,7 +144,7 @@ export function regiven(
   source: Declared,
   egm96: Grid | undefined,
 ): Uint8Array {
-  const geoid = egm96 && egm96Step(egm96, boundsOf(transformation, source));
+  const geoid = egm96 && isAboveGeoid(crs) ? egm96Step(egm96, boundsOf(transformation, source)) : undefined;
   return encodeTransformation(withHeights(transformation, { metresPerUnit: crs.verticalUnit.size, geoid }));
 }
 
@@ -153,7 +155,7 @@ export function operationRegiven(
   crs: Crs,
 ): OperationReport {
   const inPlane = steps.flatMap((step) => (step.kind === "horizontalShift" ? [step.window.grid] : []));
-  const geoid = crs.height.kind === "geoid";
+  const geoid = isAboveGeoid(crs);
   const told = notes.filter((note) => !/^height/.test(note));
   const replaced = steps.some(({ kind }) => kind === "verticalShift")
     ? ["what the operation does to heights is replaced by the height reference given"]

@@ -56,5 +56,5 @@ export function cutFacts(title: string, crs: Crs | undefined): CutFacts {
 }
 
 function inWords({ name, size }: Unit): LengthUnit {
-  return { text: UNIT_TEXTS.get(name) ?? name, size };
+  return { text: UNIT_TEXTS.get(name) ?? name, size: Math.abs(size) };
 }

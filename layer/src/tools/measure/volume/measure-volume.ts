@@ -153,7 +153,7 @@ function errorsOf(
   { square, covered }: VolumeSums,
   { precision }: WorthOptions,
 ): OwnError[] {
-  const step = (cloud.scale[2] * cloud.crs.verticalUnit.size) / Math.sqrt(12);
+  const step = (cloud.scale[2] * Math.abs(cloud.crs.verticalUnit.size)) / Math.sqrt(12);
   const given = typeof precision === "function" ? precision(cloud) : precision;
   const errors: OwnError[] = [
     { name: "quantisation", standard: square * step, note: "rounding to the stored integers" },

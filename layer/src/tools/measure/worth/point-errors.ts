@@ -87,7 +87,7 @@ function quantisation({ crs: { horizontalUnit, verticalUnit }, scale }: Measured
   return {
     ...{ name: "quantisation", known: true, reach: 0, shape: "rectangular", of: "record" },
     horizontal: deviation(Math.max(scale[0], scale[1]) * metres),
-    up: deviation(scale[2] * verticalUnit.size),
+    up: deviation(scale[2] * Math.abs(verticalUnit.size)),
     note: "rounding to the stored integers",
   };
 }
