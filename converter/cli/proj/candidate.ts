@@ -41,7 +41,7 @@ const SAME_UNIT = 1e-9;
  * @throws ProjError PROJ_FAILED when PROJ does not take it
  * @throws PlacementError PLACE_DOMAIN when it has no place for any point
  */
-async function tryOperation(
+export async function tryOperation(
   proj: Proj,
   operation: Operation,
   domain: Domain,

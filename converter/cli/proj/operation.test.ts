@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { listOperations, readOperations } from "./operation.js";
+import { listOperations, operationAreas, readAreas, readOperations } from "./operation.js";
 import { findProj } from "./program/find.js";
 
 const proj = await findProj();
@@ -27,6 +27,12 @@ Error when exporting to PROJ string: unsupported
 `;
 
 describe("the answer of projinfo", () => {
+  it("has areas of use, but for operations that it cannot write", () => {
+    const bbox = { south_latitude: -47, west_longitude: 166, north_latitude: -34, east_longitude: -178 };
+    const answer = `PROJJSON:\n${JSON.stringify({ name: "one", bbox })}\n{"name":"two"}\n{broken\nError when exporting to PROJJSON: x\n`;
+    expect([...readAreas(answer)]).toEqual([["one", [166, -47, -178, -34]]]);
+  });
+
   it("is read", () => {
     expect(readOperations(ANSWER)).toEqual([
       {
@@ -76,6 +82,17 @@ describe.skipIf(!proj)(`projinfo itself${absent}`, () => {
     const named = [...missing, ...usable.map(({ pipeline = "" }) => pipeline)].join(" ");
     expect(named).toContain("de_bkg_gcg2016.tif");
     expect(named).not.toContain("GCG2016.txt");
+  });
+
+  it("has the areas of use of the operations too, by their names", async () => {
+    const source = { name: "ED50", text: "EPSG:23031" };
+    const box = { west: 0.5, south: 42, east: 2, north: 44 };
+    const operations = await listOperations(proj!, source, { box });
+    const areas = await operationAreas(proj!, source, { box });
+    const names = operations.map(({ name }) => name);
+    expect([...areas.keys()].sort()).toEqual(names.sort());
+    const [, , , north] = areas.get(names.find((name) => name.includes("(28)"))!)!;
+    expect(north).toBe(43.56);
   });
 
   it.each([

@@ -1,4 +1,4 @@
-import { CrsError } from "@groma/georef";
+import { type AreaOfUse, CrsError } from "@groma/georef";
 import { withCurrentNames } from "./grids/current-names.js";
 import type { Proj } from "./program/find.js";
 import { failed, run } from "./program/run.js";
@@ -52,7 +52,18 @@ export async function listOperations(
   source: CrsText,
   options: ListOptions = {},
 ): Promise<Operation[]> {
-  const { box } = options;
+  const operations = readOperations(await ask(proj, source, "PROJ", options));
+  if (!operations) throw failed(proj.projinfo, "its list of operations cannot be read");
+  return Promise.all(operations.map((operation) => withCurrentNames(operation, proj.directories)));
+}
+
+/** The answer of `projinfo` for a way from a CRS. */
+async function ask(
+  proj: Proj,
+  source: CrsText,
+  notation: "PROJ" | "PROJJSON",
+  { box, direct, signal }: ListOptions,
+): Promise<string> {
   const area = box ? ["--bbox", [box.west, box.south, box.east, box.north].map(decimal).join(",")] : [];
   return withArgument(source, async (argument) => {
     const outcome = await run(
@@ -60,16 +71,51 @@ export async function listOperations(
       [
         ...["-s", argument, "-t", TARGET],
         ...["--spatial-test", "intersects", ...area],
-        ...(options.direct ? ["--pivot-crs", "never"] : []),
-        ...["-o", "PROJ", "--single-line"],
+        ...(direct ? ["--pivot-crs", "never"] : []),
+        ...["-o", notation, "--single-line"],
       ],
-      { environment: proj.environment, signal: options.signal },
+      { environment: proj.environment, signal },
     );
     if (outcome.status !== 0) throw unknownCrs(source, outcome.stderr);
-    const operations = readOperations(outcome.stdout);
-    if (!operations) throw failed(proj.projinfo, "its list of operations cannot be read");
-    return Promise.all(operations.map((operation) => withCurrentNames(operation, proj.directories)));
+    return outcome.stdout;
   });
+}
+
+/**
+ * The rectangles around the areas of use of the operations that {@link listOperations} lists, by the operations' names;
+ * without those that PROJ cannot write as PROJJSON.
+ *
+ * @throws CrsError CRS_UNKNOWN; ProjError PROJ_FAILED
+ */
+export async function operationAreas(
+  proj: Proj,
+  source: CrsText,
+  options: ListOptions,
+): Promise<Map<string, AreaOfUse>> {
+  return readAreas(await ask(proj, source, "PROJJSON", options));
+}
+
+/** Reads the answer of `projinfo -s … -t … -o PROJJSON --single-line`. */
+export function readAreas(text: string): Map<string, AreaOfUse> {
+  const areas = new Map<string, AreaOfUse>();
+  for (const line of text.split("\n")) {
+    const { name, bbox } = line.startsWith("{") ? parsed(line) : {};
+    const sides = ["west_longitude", "south_latitude", "east_longitude", "north_latitude"];
+    const [west, south, east, north] = sides.map((side) => bbox?.[side] ?? Number.NaN);
+    if (name !== undefined && Number.isFinite(west + south + east + north)) {
+      areas.set(name, [west, south, east, north]);
+    }
+  }
+  return areas;
+}
+
+/** What is read here of an operation in PROJJSON; nothing of a line that is none. */
+function parsed(line: string): { readonly name?: string; readonly bbox?: Readonly<Record<string, number>> } {
+  try {
+    return JSON.parse(line);
+  } catch {
+    return {};
+  }
 }
 
 /** Reads the answer of `projinfo -s … -t … -o PROJ --single-line`; nothing when it is no such answer. */

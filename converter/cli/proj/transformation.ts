@@ -22,6 +22,7 @@ import { type Choice, choose, type PassedOver } from "./candidate.js";
 import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
 import { egm96 } from "./egm96.js";
+import { type Elsewhere, elsewhereNote, type Listed, placedElsewhere } from "./elsewhere.js";
 import { howToGet } from "./grids/current-names.js";
 import { type DegreeBox, listOperations, type Operation } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
@@ -63,7 +64,7 @@ export async function projTransformation(
   const source = await sourceTexts(proj, crs, options.text, signal);
   const box = await boxOf(proj, source, domain, file, signal);
   const chosen = await chooseFor(proj, crs, source, domain, box, signal);
-  const { choice, operations, passedOver, substitute } = chosen;
+  const { choice, operations, passedOver, substitute, from } = chosen;
   const { candidate, windows } = choice;
   const { tolerance = PATCHWORK_TOLERANCE } = options;
   const { transformation, patchwork } = await assemble(proj, candidate, windows, {
@@ -80,14 +81,17 @@ export async function projTransformation(
     signal,
   );
 
-  const notes = notesFor(crs, choice, substitute);
+  const other = await placedElsewhere(proj, from, candidate, domain, box, crs.verticalUnit.size, signal);
+  const { accuracy } = candidate.operation;
+  const counted = other && (accuracy === null || other.worth > accuracy) ? other : undefined;
+  const notes = notesFor(crs, choice, substitute, counted);
   const grids = [...new Set(windows.map(({ grid }) => grid))];
   return {
     transformation: substitute ? await withEgm96(transformation, candidate.places) : transformation,
     report: {
       engine: { name: "PROJ", version: proj.version },
       operation: candidate.operation.name,
-      accuracy: candidate.operation.accuracy,
+      accuracy: accuracy === null ? null : Math.max(accuracy, counted?.worth ?? 0),
       ballpark: candidate.operation.ballpark,
       grids: substitute ? [...grids, EGM96] : grids,
       lacking: lackingIn(operations, candidate.operation, substitute),
@@ -127,6 +131,8 @@ interface Chosen {
   readonly passedOver: readonly PassedOver[];
   /** The list that it was chosen from, or the better list that had none. */
   readonly operations: readonly Operation[];
+  /** What it was chosen from. */
+  readonly from: Listed;
   /** Heights go by EGM96, because PROJ would take them over as they are. */
   readonly substitute: boolean;
 }
@@ -144,7 +150,8 @@ async function chooseFor(
   const withHeights = source.compound ? await list(source.compound) : [];
   const best = await choose(proj, withHeights, domain, metresPerUnit, signal);
   if (best.choice && !best.choice.candidate.operation.name.includes(BALLPARK_HEIGHT)) {
-    return { ...best, choice: best.choice, operations: withHeights, substitute: false };
+    const from = { source: source.compound!, operations: withHeights };
+    return { ...best, choice: best.choice, operations: withHeights, from, substitute: false };
   }
   const flat = await list(source.horizontal);
   const { choice, passedOver, blocked } = await choose(proj, flat, domain, metresPerUnit, signal);
@@ -153,6 +160,7 @@ async function chooseFor(
     choice,
     passedOver: [...best.passedOver, ...passedOver],
     operations: withHeights.length > 0 ? withHeights : flat,
+    from: { source: source.horizontal, operations: flat },
     substitute: isAboveGeoid(crs),
   };
 }
@@ -172,7 +180,12 @@ function lackingIn(operations: readonly Operation[], chosen: Operation, substitu
   return lacking.slice(0, LACKING_MAX);
 }
 
-function notesFor(crs: Crs, { candidate }: Choice, substitute: boolean): string[] {
+function notesFor(
+  crs: Crs,
+  { candidate }: Choice,
+  substitute: boolean,
+  other: Elsewhere | undefined,
+): string[] {
   const notes: string[] = [];
   if (crs.height.kind === "unknown") notes.push(UNKNOWN_HEIGHT_NOTE);
   if (substitute) notes.push(EGM96_NOTE);
@@ -181,6 +194,7 @@ function notesFor(crs: Crs, { candidate }: Choice, substitute: boolean): string[
       "PROJ knows no shift of this datum for this place: expect errors of up to some hundred metres",
     );
   }
+  if (other) notes.push(elsewhereNote(other));
   if (!candidate.covers) notes.push("parts of the data set's bounds lie outside of the operation's grids");
   return notes;
 }

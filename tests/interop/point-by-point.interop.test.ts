@@ -1,0 +1,71 @@
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+import { compileTransformation, type Domain } from "@groma/georef";
+import { describe, expect, it } from "vitest";
+import { projTransformation } from "../../converter/cli/proj/transformation.js";
+import { proj, projMissing } from "../proj.js";
+import { pythonMissing, runPython } from "../python.js";
+import { distance } from "./groma.js";
+
+const missing = projMissing ?? pythonMissing;
+const METRE = { name: "metre", kind: "linear", size: 1, declared: true } as const;
+/** Points along each side of a data set. */
+const SIDE = 9;
+
+/** Folder of PROJ's database, which the referee reads too. */
+function database(): string {
+  const folder = proj!.directories.find((directory) => existsSync(join(directory, "proj.db")));
+  if (folder === undefined) throw new Error("PROJ's database is in none of its folders");
+  return folder;
+}
+
+function raster({ minX, minY, maxX, maxY }: Domain): number[][] {
+  const at = (from: number, to: number, i: number) => from + ((to - from) * i) / (SIDE - 1);
+  return Array.from({ length: SIDE * SIDE }, (_, i) => [
+    at(minX, maxX, i % SIDE),
+    at(minY, maxY, Math.floor(i / SIDE)),
+    50,
+  ]);
+}
+
+describe.skipIf(missing)(
+  `data across the areas of operations${missing ? ` (skipped: ${missing})` : ""}`,
+  () => {
+    it.each([
+      // Spain's operation of ED50 ends at 43.56° N; France's goes on.
+      ["EPSG:23031", 400_000, 4_700_000, 100_000, 200_000],
+      // Alaska and Yukon, NAD27.
+      ["EPSG:26707", 450_000, 6_900_000, 100_000, 100_000],
+      // Sinai, Israel and Jordan.
+      ["EPSG:23036", 550_000, 3_300_000, 250_000, 300_000],
+    ])(
+      "%s at %i, %i: no point is farther from PROJ's own than stated",
+      async (code, minX, minY, width, height) => {
+        const domain = { minX, minY, minZ: 0, maxX: minX + width, maxY: minY + height, maxZ: 100 };
+        const crs = { name: code, code, proj4: "", horizontalUnit: METRE, verticalUnit: METRE } as const;
+        const { transformation, report } = await projTransformation(
+          proj!,
+          { ...crs, height: { kind: "unknown" } },
+          domain,
+        );
+        const points = raster(domain);
+        const theirs = runPython<(number[] | null)[]>(
+          "interop/point_by_point.py",
+          [code, database()],
+          JSON.stringify(points),
+        );
+        const { evaluate } = compileTransformation(transformation);
+        const ecef = new Float64Array(3);
+        const far = points.map(([x, y, z], i) => {
+          evaluate(x!, y!, z!, ecef, 0);
+          return theirs[i] ? distance([...ecef], theirs[i]) : 0;
+        });
+        const farthest = Math.max(...far);
+        console.info(`${code}: ${farthest} m, ${report.accuracy} m stated by ${report.operation}`);
+        expect(farthest).toBeGreaterThan(1);
+        expect(farthest).toBeLessThanOrEqual(report.accuracy!);
+        expect(report.notes.join()).toMatch(/of the data set's bounds PROJ has another operation/);
+      },
+    );
+  },
+);
