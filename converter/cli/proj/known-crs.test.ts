@@ -1,3 +1,4 @@
+import { exactTransform } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import { knownCrs } from "./known-crs.js";
 import { findProj } from "./program/find.js";
@@ -41,6 +42,22 @@ describe.skipIf(!proj)(`a CRS by PROJ${absent}`, () => {
     const crs = await known(text);
     expect(crs.proj4).toMatch(/^\+proj=cass .*\+towgs84=598,73,418/);
     expect(await known(crs.wkt!)).toMatchObject({ proj4: crs.proj4 });
+  });
+
+  it("is derived, and then has no PROJ string that proj4js could read", async () => {
+    const degree = 'ANGLEUNIT["degree",0.0174532925199433]';
+    const base = `BASEGEOGCRS["WGS 84",DATUM["World Geodetic System 1984",ELLIPSOID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0,${degree}]]`;
+    const parameters = `PARAMETER["Latitude of natural origin",0,${degree}],PARAMETER["Longitude of natural origin",9,${degree}],PARAMETER["Scale factor at natural origin",0.9996],PARAMETER["False easting",500000,LENGTHUNIT["metre",1]],PARAMETER["False northing",0,LENGTHUNIT["metre",1]]`;
+    const utm = `BASEPROJCRS["UTM",${base},CONVERSION["UTM zone 32N",METHOD["Transverse Mercator",ID["EPSG",9807]],${parameters}]]`;
+    const site = `DERIVINGCONVERSION["site",METHOD["Affine parametric transformation",ID["EPSG",9624]],PARAMETER["A0",-500000,LENGTHUNIT["metre",1]],PARAMETER["A1",1,SCALEUNIT["unity",1]],PARAMETER["A2",0,SCALEUNIT["unity",1]],PARAMETER["B0",-5000000,LENGTHUNIT["metre",1]],PARAMETER["B1",0,SCALEUNIT["unity",1]],PARAMETER["B2",1,SCALEUNIT["unity",1]]]`;
+    const axes = `CS[Cartesian,2],AXIS["(E)",east,ORDER[1],LENGTHUNIT["metre",1]],AXIS["(N)",north,ORDER[2],LENGTHUNIT["metre",1]]`;
+    const crs = await known(`DERIVEDPROJCRS["of a site",${utm},${site},${axes}]`);
+    expect(crs).toMatchObject({
+      name: "of a site",
+      horizontalUnit: { size: 1 },
+      proj4: "+proj=derived +no_defs",
+    });
+    expect(() => exactTransform(crs, 0)).toThrow(expect.objectContaining({ code: "CRS_UNSUPPORTED" }));
   });
 
   it("counts depths downwards", async () => {

@@ -83,14 +83,22 @@ function heightOf(vertical: ProjJson | undefined, z: ProjAxis | undefined): Crs[
   return { kind: "geoid", model: system.name ?? "unnamed", ...(epsg !== undefined && { epsg }) };
 }
 
+/** In place of the PROJ string of a derived CRS, which has none: what proj4js refuses by name. */
+const DERIVED = "+proj=derived +no_defs";
+
 async function projString(
   proj: Proj,
   source: CrsText,
   plane: ProjJson,
   signal: AbortSignal | undefined,
 ): Promise<string> {
-  const text = await written(proj, { name: source.name, text: JSON.stringify(plane) }, "PROJ", signal);
-  return text.replace(/ \+type=crs$/, "");
+  try {
+    const text = await written(proj, { name: source.name, text: JSON.stringify(plane) }, "PROJ", signal);
+    return text.replace(/ \+type=crs$/, "");
+  } catch (error) {
+    if (error instanceof CrsError && inside(plane).type?.startsWith("Derived")) return DERIVED;
+    throw error;
+  }
 }
 
 function unsupported(file: string, cause: string): CrsError {

@@ -88,6 +88,16 @@ describe("a pipeline", () => {
     expect(kinds(UTM, "+step +proj=hgridshift +grids=@null", CART)).toEqual(["geocentric"]);
   });
 
+  it("takes the plane of a derived CRS and a rotated pole for parts of the projection", () => {
+    const affine = "+step +inv +proj=affine +xoff=-500000 +s11=1 +s12=0 +yoff=-5000000 +s21=0 +s22=1";
+    expect(parse(affine, UTM, CART)).toMatchObject({ projection: 2, steps: [{ kind: "geocentric" }] });
+    expect(() => parse("+step +proj=affine +s33=2", UTM, CART)).toThrow(/\+s33/);
+    const degrees = "+step +proj=unitconvert +xy_in=deg +xy_out=rad";
+    const rotated = "+step +inv +proj=ob_tran +o_proj=longlat +o_lon_p=-162 +o_lat_p=39.25 +ellps=WGS84";
+    expect(parse(degrees, rotated, CART)).toMatchObject({ projection: 2, steps: [{ kind: "geocentric" }] });
+    expect(() => parse(degrees, rotated.replace("longlat", "merc"), CART)).toThrow(/ob_tran/);
+  });
+
   it("turns depths into heights, in the unit that they have", () => {
     expect(parse(UTM, "+step +proj=axisswap +order=1,2,-3", CART)).toMatchObject({
       steps: [{ kind: "height", metresPerUnit: -1 }, { kind: "geocentric" }],

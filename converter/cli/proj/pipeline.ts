@@ -41,6 +41,9 @@ function readProjection(pipeline: readonly StepText[]): { count: number; metresP
       const order = /^-?[12],-?[12](,-?3)?$/.exec(parameters.get("order") ?? "");
       if (!order) throw refuseStep(step, orderOf(step));
       if (order[1] === ",-3") metresPerUnit = -metresPerUnit;
+    } else if (name === "affine") {
+      // A derived CRS: its plane is turned and moved into that of another one, which is part of what is sampled too.
+      only(step, IN_PLANE);
     } else if (name === "unitconvert") {
       const units = readUnits(step);
       metresPerUnit *= units.height;
@@ -57,6 +60,9 @@ function readProjection(pipeline: readonly StepText[]): { count: number; metresP
     "no map projection",
   );
 }
+
+/** Parameters of `affine` that leave z and time alone. */
+const IN_PLANE = ["xoff", "yoff", "s11", "s12", "s21", "s22"];
 
 /**
  * Steps that follow and turn the sphere alone are part of the projection: `longlat`, which counts longitude from another
