@@ -122,6 +122,8 @@ module.exports = {
     layer("tools/draw", ["tools/measure", "errors"]),
     layer("tools/profile", ["tools/exact", "query", "clips", "options", "errors"]),
     layer("tools/terrain", []),
+    layer("tools/alignment", ["errors"]),
+    layer("tools/ellipsoid", ["tools/profile", "tools/sections", "query"]),
     layer("tools/plot", ["tools/profile", "tools/terrain"]),
     layer("export", [
       "tools/sections",

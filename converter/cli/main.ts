@@ -164,8 +164,25 @@ const profile = program
   .command("profile")
   .description("write all points in a strip along a line, record by record, to a file")
   .argument("<files...>", "COPC files or their addresses")
-  .requiredOption("--line <FILE>", "GeoJSON file with one LineString")
-  .addOption(givenCrs("--line-crs", "line"))
+  .requiredOption(
+    "--line <FILE>",
+    "line: GeoJSON with one LineString, DXF with a polyline, LandXML with an alignment",
+  )
+  .option(
+    "--line-name <NAME>",
+    "layer of the polyline in DXF, or name of the alignment, where there are several",
+  )
+  .addOption(
+    new Option(
+      "--line-crs <CRS>",
+      "coordinates of the line: longitude and latitude (GeoJSON), or those of the scan (DXF, LandXML)",
+    ).choices(["EPSG:4326", "source"]),
+  )
+  .addOption(
+    new Option("--plane <which>", "where points are decided: in the plane of the scans, or on the ellipsoid")
+      .choices(["source", "ellipsoid"])
+      .default("source"),
+  )
   .addOption(
     new Option("--width <W>", "width of the strip: metres; with --line-crs source, units of the scan")
       .argParser(positive)
@@ -176,7 +193,11 @@ const profile = program
       .choices(["grid", "geodesic"])
       .default("grid"),
   )
-  .addOption(new Option("--start <S>", "chainage at the start of the line").argParser(finite).default(0))
+  .addOption(
+    new Option("--start <S>", "chainage at the start of the line (0, or what LandXML says)").argParser(
+      finite,
+    ),
+  )
   .option("--chainage", "add chainage and offset along the line to each LAS record, as extra bytes")
   .option("--straightened", "lay the points of DXF along the line: x is the chainage, y the height")
   .option("--sections", "cut across the line instead: to a .zip of files, a .pdf of pages, or .xml (LandXML)")

@@ -41,6 +41,7 @@ export { eastNorthUp, type Frame, levelFrame, pointIn, pointOf, turnIn, turnOut 
 export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
 export { ENGINE, type ExactTransform, exactTransform } from "./engines/exact.js";
 export { type SourceTransform, sourceTransform } from "./engines/inverse-truth.js";
+export { type LocalPlane, localPlane } from "./engines/local-plane.js";
 export { isOwnPlane, type MapPlane, planeTransform, truthOnMap } from "./engines/map-plane.js";
 export { type GridPlane, gridPlane, type PlaneInverse } from "./engines/projection.js";
 export {

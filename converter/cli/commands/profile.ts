@@ -1,23 +1,29 @@
 import { basename, extname } from "node:path";
-import { type StationOptions, stations } from "@groma/layer/tools";
+import { StationEquations, type StationOptions, stations } from "@groma/layer/tools";
 import type { CutRequest } from "../cut/cut.js";
-import { readLine } from "../cut/geojson.js";
-import { type GivenCrs, inSource, lengthsOnEarth } from "../cut/place.js";
-import { corridor, crossSections } from "../cut/volumes.js";
+import { readGivenLine } from "../cut/line-file.js";
+import type { GivenCrs } from "../cut/place.js";
+import { layLine } from "../cut/profile-line.js";
+import { crossSections } from "../cut/volumes.js";
 import type { CutOptions } from "../cut/writers.js";
 import type { ProgressKind } from "../given/choices.js";
 import { tellCut } from "./cut.js";
 
 export interface ProfileCommandOptions extends CutOptions, StationOptions {
-  /** GeoJSON file with the line. */
+  /** File with the line: GeoJSON, DXF or LandXML. */
   readonly line: string;
-  readonly lineCrs: GivenCrs;
+  /** Layer of the polyline, or name of the alignment. */
+  readonly lineName?: string;
+  /** Default: longitude and latitude for GeoJSON, those of the scan for the others. */
+  readonly lineCrs?: GivenCrs;
+  /** In which plane points are decided. */
+  readonly plane: "source" | "ellipsoid";
   /** Of the whole strip: source units, or metres where the line is in longitude and latitude. */
   readonly width: number;
   /** How chainage is counted: in the plane, source units, or along geodesics, metres. */
   readonly stations: "grid" | "geodesic";
-  /** Chainage at the start of the line, in the same unit. */
-  readonly start: number;
+  /** Chainage at the start of the line, in the same unit. Default: what its file says, else 0. */
+  readonly start?: number;
   /** Cuts across the line, at an interval and at stations, instead of along it. */
   readonly sections?: true;
   /** How far sections reach. Default: half the width. In the unit of the width. */
@@ -32,22 +38,34 @@ export interface ProfileCommandOptions extends CutOptions, StationOptions {
 
 /** The `profile` command: all points in a strip along a line, or in cross-sections of it. */
 export async function runProfile(files: readonly string[], options: ProfileCommandOptions): Promise<void> {
-  const { line: file, lineCrs, width, start, sections, thickness, spacing } = options;
+  const { line: file, lineCrs, lineName, width, sections, thickness, spacing } = options;
   const { left = width / 2, right = width / 2, interval, at } = options;
-  const line = await readLine(file);
-  const select: CutRequest["select"] = async (origin) => {
-    const lengths = options.stations === "geodesic" ? await lengthsOnEarth(line, lineCrs, origin) : undefined;
-    const inPlane = await inSource(line, lineCrs, origin, file);
-    const strip = corridor(inPlane, width, { lengths, start }, file);
-    if (!sections) return { origin, volume: strip, along: strip, spacing };
-    const { unit } = inPlane;
+  const line = await readGivenLine(file, lineName);
+  const { start = line.start } = options;
+  const { equations } = line;
+  const stationing = new StationEquations(equations);
+  const stationOf = (chainage: number) => stationing.stationOf(chainage).station;
+  const choices = { ...options, line, start, crs: lineCrs ?? line.usualCrs, given: file };
+  let facts: CutRequest["facts"];
+  const select: CutRequest["select"] = async (origin, all) => {
+    const { strip, unit, ellipsoid } = await layLine(origin, all, choices);
+    facts = ellipsoid?.facts;
+    const along = ellipsoid?.corridor(strip) ?? strip;
+    if (!sections) return { origin, volume: along, along, spacing };
     const widths = { left: left * unit, right: right * unit, thickness: thickness * unit };
     const volume = crossSections(strip, (from, to) => stations(from, to, { interval, at }), widths);
-    return { origin, volume, line: strip, spacing };
+    return { origin, volume: ellipsoid?.sections(volume) ?? volume, line: along, spacing };
   };
-  await tellCut("profile", files, options, {
+  const request: CutRequest = {
     title: basename(file, extname(file)),
     ...(sections && { sections }),
     select,
-  });
+    facts: (known) => facts?.(known) ?? known,
+  };
+  await tellCut(
+    "profile",
+    files,
+    { ...options, ...(equations.length > 0 && { equations, stationOf }) },
+    request,
+  );
 }

@@ -29,8 +29,13 @@ export interface CutRequest {
   readonly title?: string | undefined;
   /** Whether cross-sections are selected. */
   readonly sections?: true | undefined;
-  /** Says what is wanted of an opened file. */
-  readonly select: (opened: OpenedPoints["points"]) => Promise<CutSelection>;
+  /** Says what is wanted of an opened file, given all of them. */
+  readonly select: (
+    opened: OpenedPoints["points"],
+    all: readonly OpenedPoints["points"][],
+  ) => Promise<CutSelection>;
+  /** What documents say of the coordinates, where that is not what the first file says. */
+  readonly facts?: ((known: CutFacts) => CutFacts) | undefined;
 }
 
 /**
@@ -54,18 +59,18 @@ export async function cut(
   const opened: OpenedPoints[] = [];
   try {
     const selections: CutSelection[] = [];
-    for (const input of inputs) {
-      const one = await openPoints(input, signal);
-      opened.push(one);
-      const selection = await select(one.points);
+    for (const input of inputs) opened.push(await openPoints(input, signal));
+    const all = opened.map(({ points }) => points);
+    for (const one of all) {
+      const selection = await select(one, all);
       selections.push(
-        writer.placed?.(options) ? { ...selection, geodetic: await geodeticOf(one.points) } : selection,
+        writer.placed?.(options) ? { ...selection, geodetic: await geodeticOf(one) } : selection,
       );
     }
     const named = title ?? basename(inputs[0]!);
     const unknown = { text: "units", size: 1 };
     const facts: CutFacts = writer.documents
-      ? await factsOf(opened[0]!.points, named)
+      ? (request.facts ?? asKnown)(await factsOf(opened[0]!.points, named))
       : { title: named, unit: unknown, heightUnit: unknown };
     let [points, read] = [0, 0];
     await writeWhole(out, overwrite, async (unfinished) => {
@@ -81,6 +86,8 @@ export async function cut(
     await Promise.all(opened.map((one) => one.close()));
   }
 }
+
+const asKnown = (facts: CutFacts): CutFacts => facts;
 
 function empty(out: string): SelectionError {
   return new SelectionError({

@@ -1,4 +1,4 @@
-import { ecefToGeodetic, GromaError, pointTransform } from "@groma/georef";
+import { type Crs, ecefToGeodetic, GromaError, pointTransform, samePlane } from "@groma/georef";
 import type { CutFacts, PointSelection } from "@groma/layer/export";
 import type { RecordedPoints } from "@groma/layer/query";
 import { geodesicLengths, sourceLine } from "@groma/layer/tools";
@@ -61,19 +61,58 @@ export async function inSource(
   return { positions: sourceLine(space, radians, given), unit: 1 / named.horizontalUnit.size };
 }
 
+/** Metres in a unit of a file's plane; undefined where that is not known, or no length. */
+export async function unitOf({ source }: RecordedPoints): Promise<number | undefined> {
+  try {
+    const { horizontalUnit } = (await placed(declarationOf(source))).crs;
+    return horizontalUnit.kind === "linear" ? horizontalUnit.size : undefined;
+  } catch (error) {
+    if (error instanceof GromaError) return undefined;
+    throw error;
+  }
+}
+
+/** What planes files have. */
+export interface Planes {
+  /** Whether the coordinates of one of them are angles. */
+  readonly angles: boolean;
+  /** Whether they are not all the same. */
+  readonly different: boolean;
+}
+
+/** @throws CrsError, RecordError */
+export async function planesOf(opened: readonly RecordedPoints[]): Promise<Planes> {
+  const systems: Crs[] = [];
+  for (const { source } of opened) systems.push((await placed(declarationOf(source))).crs);
+  return {
+    angles: systems.some(({ horizontalUnit }) => horizontalUnit.kind === "angular"),
+    different: systems.some((system) => !samePlane(systems[0]!, system)),
+  };
+}
+
 /**
- * Where source coordinates of a file are: longitude and latitude in degrees, height above the ellipsoid in metres.
+ * Where source coordinates of a file are: longitude and latitude in radians, height above the ellipsoid in metres.
  * @throws CrsError, RecordError
  */
-export async function geodeticOf({
+export async function radiansOf({
   source,
 }: RecordedPoints): Promise<NonNullable<PointSelection["geodetic"]>> {
-  const { truth } = await placed(declarationOf(source));
-  const transform = pointTransform(truth);
+  const transform = pointTransform((await placed(declarationOf(source))).truth);
   const ecef = new Float64Array(3);
   return (x, y, z, out) => {
     transform(x, y, z, ecef, 0);
     ecefToGeodetic(ecef[0]!, ecef[1]!, ecef[2]!, out);
+  };
+}
+
+/**
+ * Where source coordinates of a file are: longitude and latitude in degrees, height above the ellipsoid in metres.
+ * @throws CrsError, RecordError
+ */
+export async function geodeticOf(origin: RecordedPoints): Promise<NonNullable<PointSelection["geodetic"]>> {
+  const radians = await radiansOf(origin);
+  return (x, y, z, out) => {
+    radians(x, y, z, out);
     out[0]! /= DEGREE;
     out[1]! /= DEGREE;
   };

@@ -1,8 +1,10 @@
 import { readFile, rm, writeFile as writeBytes } from "node:fs/promises";
 import { extname } from "node:path";
 import type {
+  AlongLine,
   ByteSink,
   CutFacts,
+  DatedOptions,
   ExportOptions,
   GroundOptions,
   PictureScale,
@@ -10,7 +12,6 @@ import type {
   SectionFormat,
   SectionSelection,
 } from "@groma/layer/export";
-import type { Corridor } from "@groma/layer/tools";
 import { compressFile } from "../core/core.js";
 import { OptionError } from "../given/option-error.js";
 import { BlockFile } from "./block-file.js";
@@ -26,12 +27,15 @@ export interface CutOptions extends PictureScale {
   readonly straightened?: boolean | undefined;
   /** The ground that documents show. */
   readonly ground?: GroundOptions | undefined;
+  /** Where stations are counted anew, and the stations that follow. */
+  readonly equations?: DatedOptions["equations"];
+  readonly stationOf?: ((chainage: number) => number) | undefined;
   /** Files of each cross-section in an archive. */
   readonly files?: readonly SectionFormat[] | undefined;
 }
 
 /** What is written: points as they are selected, or as they lie in cross-sections of a line. */
-export type CutSelection = PointSelection | (SectionSelection & { readonly line: Corridor });
+export type CutSelection = PointSelection | (SectionSelection & { readonly line: AlongLine });
 
 interface WriteOptions extends ExportOptions, CutOptions {
   readonly facts: CutFacts;
@@ -126,7 +130,7 @@ function ofSections(
     selections: readonly SectionSelection[],
     sink: ByteSink,
     options: WriteOptions & {
-      readonly line: Corridor;
+      readonly line: AlongLine;
       readonly store: BlockFile;
       readonly unfinished: string;
     },
@@ -135,7 +139,7 @@ function ofSections(
   return async (selections, unfinished, options) => {
     const library = await import("@groma/layer/export");
     const store = await BlockFile.create(`${unfinished}.blocks`);
-    const sections = selections as readonly (SectionSelection & { readonly line: Corridor })[];
+    const sections = selections as readonly (SectionSelection & { readonly line: AlongLine })[];
     try {
       const { line } = sections[0]!;
       return await writeFile(unfinished, (sink) =>

@@ -44,10 +44,11 @@ export async function eachAlong(
     for (let index = 0; index < wanted.length; index++) {
       const record = wanted[index];
       const at = 3 * record;
-      along?.locate(xyz[at] * scale[0] + offset[0], xyz[at + 1] * scale[1] + offset[1], place);
+      point.height = xyz[at + 2] * scale[2] + offset[2];
+      const [x, y] = [xyz[at] * scale[0] + offset[0], xyz[at + 1] * scale[1] + offset[1]];
+      along?.locate(x, y, place, point.height);
       point.chainage = place[0];
       point.offset = place[1];
-      point.height = xyz[at + 2] * scale[2] + offset[2];
       if (red && green && blue) {
         point.red = red(record);
         point.green = green(record);

@@ -41,7 +41,8 @@ export async function exportCsv(
       let row = `${coordinates.of(xyz[at], 0)},${coordinates.of(xyz[at + 1], 1)},${coordinates.of(xyz[at + 2], 2)}`;
       if (withLine) {
         place.fill(Number.NaN);
-        along?.locate(coordinates.value(xyz[at], 0), coordinates.value(xyz[at + 1], 1), place);
+        const [px, py, pz] = [0, 1, 2].map((axis) => coordinates.value(xyz[at + axis], axis));
+        along?.locate(px, py, place, pz);
         row += `,${alongText(place[0])},${alongText(place[1])}`;
       }
       text.add(`${row}${valuesText(columns, batch, point)}${spacing > 0 ? `,${spacing}` : ""}\r\n`);

@@ -8,7 +8,7 @@ import {
   groundOf,
   thinnedInWords,
 } from "./ground.js";
-import { type LandXmlSection, landXmlOf } from "./landxml.js";
+import { type LandXmlContent, type LandXmlSection, landXmlOf } from "./landxml.js";
 import { pdfOf } from "./picture/pdf.js";
 import { svgOf } from "./picture/svg.js";
 import { type AlongLine, type PointSelection, spacingOf } from "./selection.js";
@@ -49,6 +49,8 @@ export async function exportPicture(
 
 /** When documents were made, for those that say it. */
 export interface DatedOptions extends DocumentOptions {
+  /** Of the line, for LandXML. */
+  readonly equations?: LandXmlContent["equations"];
   /** Default: now. */
   readonly date?: Date | undefined;
 }
@@ -74,7 +76,15 @@ export async function exportLandXml(
   const spacing = spacingOf(selections);
   const thinned = spacing > 0 ? `; ${thinnedInWords(spacing, facts.unit)}` : "";
   const method = `${groundInWords(wanted, facts.unit)}${thinned}`;
-  for (const part of landXmlOf({ facts, line, ground, sections, method, date })) {
+  for (const part of landXmlOf({
+    facts,
+    line,
+    ground,
+    sections,
+    equations: options.equations,
+    method,
+    date,
+  })) {
     text.add(part);
     await text.rest();
   }

@@ -53,7 +53,8 @@ export async function exportDxf(
       const at = 3 * point;
       const [x, y, z] = [0, 1, 2].map((axis) => coordinates.of(xyz[at + axis], axis));
       if (layout === "straightened" && along) {
-        along.locate(coordinates.value(xyz[at], 0), coordinates.value(xyz[at + 1], 1), place);
+        const [px, py, pz] = [0, 1, 2].map((axis) => coordinates.value(xyz[at + axis], axis));
+        along.locate(px, py, place, pz);
         text.add(pointText(place[0].toFixed(DIGITS), z, place[1].toFixed(DIGITS)));
       } else {
         text.add(pointText(x, y, z));

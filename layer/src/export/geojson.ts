@@ -47,7 +47,7 @@ export async function exportGeoJson(
       }
       const properties: string[] = [];
       if (along) {
-        along.locate(x, y, place);
+        along.locate(x, y, place, z);
         properties.push(`"chainage":${number(place[0])}`, `"offset":${number(place[1])}`);
       }
       for (const { column, key } of columns) {

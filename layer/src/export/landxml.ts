@@ -20,6 +20,14 @@ export interface LandXmlContent {
   /** Ground along the line, by chainage. */
   readonly ground?: GroundRuns | undefined;
   readonly sections?: readonly LandXmlSection[] | undefined;
+  /** From which chainages on stations are counted anew, as `StationEquation` of `@groma/layer/tools`. */
+  readonly equations?:
+    | readonly {
+        readonly internal: number;
+        readonly ahead: number;
+        readonly increment?: "increasing" | "decreasing" | undefined;
+      }[]
+    | undefined;
   /** How the ground follows from the points, in words. */
   readonly method: string;
   /** When the file was made. */
@@ -52,6 +60,7 @@ export function* landXmlOf({
   line,
   ground,
   sections,
+  equations,
   method,
   date,
 }: LandXmlContent): Generator<string> {
@@ -78,6 +87,8 @@ export function* landXmlOf({
     yield `<Line length="${length(line.chainages[index] - line.chainages[index - 1])}" staStart="${length(line.chainages[index - 1])}">${ends}</Line>\n`;
   }
   yield "</CoordGeom>\n";
+  for (const { internal, ahead, increment = "increasing" } of equations ?? [])
+    yield `<StaEquation staInternal="${length(internal)}" staAhead="${length(ahead)}" staIncrement="${increment}"/>\n`;
   const surface = (element: string, runs: GroundRuns) => {
     const lists = runs.filter((run) => run.length > 1);
     if (lists.length === 0) return "";

@@ -104,7 +104,8 @@ function putAlong(
   const place = new Float64Array(2).fill(Number.NaN);
   for (let index = 0, at = length; index < wanted.length; index++, at += step) {
     const point = 3 * wanted[index];
-    along?.locate(xyz[point] * scale[0] + offset[0], xyz[point + 1] * scale[1] + offset[1], place);
+    const z = xyz[point + 2] * scale[2] + offset[2];
+    along?.locate(xyz[point] * scale[0] + offset[0], xyz[point + 1] * scale[1] + offset[1], place, z);
     view.setFloat64(at, place[0], true);
     view.setFloat64(at + 8, place[1], true);
   }

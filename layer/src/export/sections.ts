@@ -8,7 +8,7 @@ import { type DatedOptions, spanOf, USUAL_GROUND } from "./documents.js";
 import { exportDxf } from "./dxf.js";
 import { exportGeoJson } from "./geojson.js";
 import { drawSheet, groundInWords, groundOf } from "./ground.js";
-import { type LandXmlSection, landXmlOf } from "./landxml.js";
+import { type LandXmlContent, type LandXmlSection, landXmlOf } from "./landxml.js";
 import { exportLas } from "./las.js";
 import { pdfOf } from "./picture/pdf.js";
 import type { Sheet } from "./picture/sheet.js";
@@ -37,6 +37,10 @@ export type SectionFormat = "las" | "laz" | "csv" | "geojson" | "dxf" | "svg" | 
 export interface SectionOptions extends DatedOptions {
   /** The line that they cross. */
   readonly line: AlongLine;
+  /** Stations as they are written, by chainage: those of station equations. Default: the chainage itself. */
+  readonly stationOf?: ((chainage: number) => number) | undefined;
+  /** The station equations behind them, for LandXML. */
+  readonly equations?: LandXmlContent["equations"];
   /** Keeps points between reading and writing. Default: in `Blob`s. */
   readonly store?: BlockStore | undefined;
 }
@@ -87,10 +91,13 @@ export async function exportSections(
       grounds.push(await groundOfSection(section, options));
       if (own.length === 0) continue;
       for (const format of files) {
-        yield { name: `${fileName(name, place)}.${format}`, content: await fileOf(section, format, options) };
+        yield {
+          name: `section-${name}_${stationOf(place, options)}.${format}`,
+          content: await fileOf(section, format, options),
+        };
       }
     }
-    yield { name: "sections.csv", content: listOf(sections, counts) };
+    yield { name: "sections.csv", content: listOf(sections, counts, options) };
     yield { name: "sections.xml", content: [...landXml(grounds, { ...options, date })].join("") };
   }
   await writeArchive(entries(), sink, date);
@@ -167,12 +174,16 @@ async function countOf(selections: readonly PointSelection[]): Promise<number> {
 }
 
 /** What a reader calls a section: its number and its station. */
-function titleOf({ name, place }: ReadSection, { facts }: SectionOptions): string {
-  return `${facts.title}, section ${name}, station ${stationText(place.station, 3)}`;
+function titleOf({ name, place }: ReadSection, options: SectionOptions): string {
+  return `${options.facts.title}, section ${name}, station ${stationOf(place, options)}`;
 }
 
-function fileName(name: string, { station }: SectionPlace): string {
-  return `section-${name}_${stationText(station, 3)}`;
+/** The station of a section as it is written. */
+function stationOf(
+  { station }: SectionPlace,
+  { stationOf: of = (chainage) => chainage }: SectionOptions,
+): string {
+  return stationText(of(station), 3);
 }
 
 async function groundOfSection(section: ReadSection, options: SectionOptions): Promise<LandXmlSection> {
@@ -183,8 +194,8 @@ async function groundOfSection(section: ReadSection, options: SectionOptions): P
 }
 
 function landXml(sections: readonly LandXmlSection[], options: SectionOptions): Generator<string> {
-  const { facts, line, ground = USUAL_GROUND, date = new Date() } = options;
-  return landXmlOf({ facts, line, sections, method: groundInWords(ground, facts.unit), date });
+  const { facts, line, ground = USUAL_GROUND, date = new Date(), equations } = options;
+  return landXmlOf({ facts, line, sections, equations, method: groundInWords(ground, facts.unit), date });
 }
 
 async function sheetOf(section: ReadSection, options: SectionOptions): Promise<Sheet> {
@@ -229,11 +240,15 @@ async function inMemory(fill: (sink: ByteSink) => Promise<unknown>): Promise<Blo
 }
 
 /** Places of all sections as CSV, with every digit, so that anyone can cut them again. */
-function listOf(sections: readonly ReadSection[], counts: readonly number[]): string {
+function listOf(
+  sections: readonly ReadSection[],
+  counts: readonly number[],
+  options: SectionOptions,
+): string {
   const rows = sections.map(({ name, place }, index) => {
     const { vertices } = place.strip;
     const numbers = [place.station, ...place.centre, ...vertices[0], ...vertices[1], counts[index]];
-    return `${name},${stationText(place.station, 3)},${numbers.join(",")}`;
+    return `${name},${stationOf(place, options)},${numbers.join(",")}`;
   });
   const names = "section,station,chainage,x,y,left_x,left_y,right_x,right_y,points";
   return `${[names, ...rows].join("\r\n")}\r\n`;

@@ -14,8 +14,9 @@ export interface AlongLine {
   readonly chainages: readonly number[];
   /**
    * @param out receives the chainage (distance along the line) and the signed offset from it, left positive
+   * @param z without a part in it where the line lies in the plane of the coordinates
    */
-  locate(x: number, y: number, out: Float64Array): void;
+  locate(x: number, y: number, out: Float64Array, z?: number): void;
 }
 
 /** Points that are written to one file. */

@@ -6,6 +6,7 @@ export type {
   FaultWire,
   GromaError,
   HeightReference,
+  LocalPlane,
   StatedAccuracy,
   Unit,
   Vector,
@@ -26,10 +27,22 @@ export type {
 export type { NumberType, PointAttribute } from "../sources/contract/point-attribute.js";
 export type { LasEnvelope, LasVariableRecord } from "../sources/contract/point-source.js";
 export type { RecordedNode, StoredAttribute } from "../workers/index.js";
+export type { Alignment } from "./alignment/alignment.js";
+export { readDxfLine } from "./alignment/read-dxf.js";
+export { readLandXml } from "./alignment/read-landxml.js";
+export { type Station, type StationEquation, StationEquations } from "./alignment/station-equations.js";
 export { BoxVolume } from "./area/box-volume.js";
 export { PolygonVolume } from "./area/polygon-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
+export {
+  CorridorOnEllipsoid,
+  CrossSectionsOnEllipsoid,
+  type Geodetic,
+  type InPlane,
+  type OnEllipsoid,
+  type SourceBounds,
+} from "./ellipsoid/on-ellipsoid.js";
 export * from "./measure/index.js";
 export { PlotIndex, type PlottedPart, type PlottedPoint } from "./plot/plot-index.js";
 export {

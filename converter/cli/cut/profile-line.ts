@@ -1,0 +1,151 @@
+import { GromaError, localPlane } from "@groma/georef";
+import type { CutFacts } from "@groma/layer/export";
+import type { RecordedPoints } from "@groma/layer/query";
+import {
+  type Corridor,
+  CorridorOnEllipsoid,
+  type CrossSections,
+  CrossSectionsOnEllipsoid,
+  type Geodetic,
+  geodesicLengths,
+} from "@groma/layer/tools";
+import { OptionError } from "../given/option-error.js";
+import type { GivenLine } from "./line-file.js";
+import {
+  type GivenCrs,
+  inSource,
+  lengthsOnEarth,
+  type Planes,
+  planesOf,
+  radiansOf,
+  unitOf,
+} from "./place.js";
+import { corridor } from "./volumes.js";
+
+const DEGREE = Math.PI / 180;
+
+/** How a line is laid through files. */
+export interface LineChoices {
+  readonly line: GivenLine;
+  readonly crs: GivenCrs;
+  /** Of the strip: source units, or metres. */
+  readonly width: number;
+  /** How chainage is counted. */
+  readonly stations: "grid" | "geodesic";
+  /** Chainage at the start. */
+  readonly start: number;
+  /** In which plane points are decided: that of the files, where they have one in common, or one of the ellipsoid. */
+  readonly plane: "source" | "ellipsoid";
+  /** File of the line, for errors. */
+  readonly given: string;
+}
+
+/** A line as it lies in the plane of one file. */
+export interface LaidLine {
+  readonly strip: Corridor;
+  /** Units of that plane for a unit of the lengths that were given. */
+  readonly unit: number;
+  /** The plane on the ellipsoid that the strip lies in; undefined: that of the file. */
+  readonly ellipsoid: OnEllipsoid | undefined;
+}
+
+/** What brings a strip in a plane of the ellipsoid to a file. */
+export interface OnEllipsoid {
+  corridor(strip: Corridor): CorridorOnEllipsoid;
+  sections(sections: CrossSections): CrossSectionsOnEllipsoid;
+  /** What documents say of coordinates in that plane. */
+  facts(facts: CutFacts): CutFacts;
+}
+
+/**
+ * Lays a line through one of several files.
+ * @throws OptionError OPTION_CRS, OPTION_LINE, OPTION_STATIONS; CrsError, RecordError, PlacementError
+ */
+export async function layLine(
+  origin: RecordedPoints,
+  all: readonly RecordedPoints[],
+  choices: LineChoices,
+): Promise<LaidLine> {
+  const { line, crs, width, start, plane, given } = choices;
+  const { angles, different } = await known(all, crs);
+  const onEllipsoid = plane === "ellipsoid" || different || (angles && crs !== "source");
+  if (!onEllipsoid) return inPlaneOf(origin, choices);
+  if (crs === "source") {
+    throw new OptionError({
+      ...{
+        code: "OPTION_CRS",
+        file: given,
+        cause: "files without a common plane have no coordinates for a line",
+      },
+      fix: "give the line in longitude and latitude, with --line-crs EPSG:4326",
+    });
+  }
+  const radians = line.vertices.map(([x, y]) => [x * DEGREE, y * DEGREE] as const);
+  const [longitude, latitude] = [0, 1].map(
+    (axis) => radians.reduce((sum, vertex) => sum + vertex[axis]!, 0) / radians.length,
+  ) as [number, number];
+  const local = localPlane(longitude, latitude);
+  const place = new Float64Array(2);
+  const positions = radians.map(([long, lat]) => {
+    local.toPlane(long, lat, place);
+    return [place[0]!, place[1]!] as const;
+  });
+  const lengths = choices.stations === "geodesic" ? geodesicLengths(radians) : undefined;
+  const strip = corridor({ positions, unit: 1 }, width, { lengths, start }, given);
+  const geodetic: Geodetic = await radiansOf(origin);
+  const { boundingBox } = origin.source;
+  const middle = [longitude, latitude].map((angle) => `${(angle / DEGREE).toFixed(4)}°`).join(", ");
+  return {
+    strip,
+    unit: 1,
+    ellipsoid: {
+      corridor: (inner) => new CorridorOnEllipsoid(inner, local, geodetic, boundingBox),
+      sections: (inner) => new CrossSectionsOnEllipsoid(inner, local, geodetic, boundingBox),
+      facts: ({ epsg: _epsg, ...facts }) => ({
+        ...facts,
+        crs: `transverse Mercator plane of WGS 84 about ${middle}`,
+        unit: { text: "m", size: 1 },
+      }),
+    },
+  };
+}
+
+/** What planes files have; a line in their own coordinates does not need to know, where they do not say. */
+async function known(all: readonly RecordedPoints[], crs: GivenCrs): Promise<Planes> {
+  try {
+    return await planesOf(all);
+  } catch (error) {
+    if (crs === "source" && error instanceof GromaError) return { angles: false, different: false };
+    throw error;
+  }
+}
+
+/** In the plane of the file's own coordinates. */
+async function inPlaneOf(origin: RecordedPoints, choices: LineChoices): Promise<LaidLine> {
+  const { line, crs, width, stations, start, given } = choices;
+  const geodesic = stations === "geodesic" ? await lengthsOnEarth(line.vertices, crs, origin) : undefined;
+  const { positions, unit } = await inSource(line.vertices, crs, origin, given);
+  const own = crs === "source" ? await scaled(line, positions, origin) : { positions, lengths: undefined };
+  const strip = corridor(
+    { positions: own.positions, unit },
+    width,
+    { lengths: geodesic ?? own.lengths, start },
+    given,
+  );
+  return { strip, unit, ellipsoid: undefined };
+}
+
+/** A line whose file names another unit than the scan has, in the unit of the scan; with its true lengths. */
+async function scaled(
+  { lengths, unit }: GivenLine,
+  positions: GivenLine["vertices"],
+  origin: RecordedPoints,
+) {
+  const own = unit === undefined ? undefined : await unitOf(origin);
+  const factor = own === undefined ? 1 : unit! / own;
+  if (Math.abs(factor - 1) < 1e-12) return { positions, lengths };
+  return {
+    positions: positions.map(([x, y]) => [x * factor, y * factor] as const),
+    lengths: lengths?.map((length) => length * factor),
+  };
+}

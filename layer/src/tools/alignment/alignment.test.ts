@@ -1,0 +1,189 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { TOLERANCE } from "./alignment.js";
+import { readDxfLine } from "./read-dxf.js";
+import { readLandXml } from "./read-landxml.js";
+import { StationEquations } from "./station-equations.js";
+
+const refused = (message: RegExp) =>
+  expect.objectContaining({ code: "FORMAT_ALIGNMENT", message: expect.stringMatching(message) });
+
+const landXml = (parts: string, attributes = 'name="A" staStart="1000"', more = "") =>
+  `<?xml version="1.0"?><LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2">
+<Units><Metric linearUnit="meter" areaUnit="squareMeter"/></Units>
+<CgPoints><CgPoint name="7">20 30</CgPoint></CgPoints>
+<Alignments><Alignment ${attributes}><CoordGeom>${parts}</CoordGeom>${more}</Alignment></Alignments></LandXML>`;
+
+/** The angle between x to y of the x axis and a place, and its length by the power series of Fresnel's integrals. */
+function clothoidEnd(length: number, curvature: number): [number, number] {
+  const turn = (length * curvature) / 2;
+  let [x, y, term] = [0, 0, 1];
+  for (let n = 0; n < 30; n++) {
+    const part = (length * term) / (2 * n + 1);
+    if (n % 2 === 0) x += n % 4 === 0 ? part : -part;
+    else y += n % 4 === 1 ? part : -part;
+    term *= turn / (n + 1);
+  }
+  return [x, y];
+}
+
+describe("an alignment of LandXML", () => {
+  it("has lines, arcs and clothoids by their true lengths, northing before easting", () => {
+    // 100 m east, a clothoid of 50 m into a left arc of 200 m radius, and the quarter of it.
+    const [ex, ey] = clothoidEnd(50, 1 / 200);
+    const turn = 50 / 400;
+    const corner = 100 + ex - ey / Math.tan(turn);
+    const [sx, sy] = [100 + ex, ey];
+    const [cx, cy] = [sx - 200 * Math.sin(turn), sy + 200 * Math.cos(turn)];
+    const end = [cx + 200 * Math.sin(turn + Math.PI / 2), cy - 200 * Math.cos(turn + Math.PI / 2)];
+    const text = landXml(`<Line><Start>0 0</Start><End>0 100</End></Line>
+<Spiral length="50" radiusStart="INF" radiusEnd="200" rot="ccw" spiType="clothoid"><Start>0 100</Start><PI>0 ${corner}</PI><End>${sy} ${sx}</End></Spiral>
+<Curve rot="ccw"><Start>${sy} ${sx}</Start><Center>${cy} ${cx}</Center><End>${end[1]} ${end[0]}</End></Curve>`);
+    const { vertices, lengths, start, unit, name } = readLandXml(text, undefined, "axis.xml");
+    expect({ start, unit, name }).toEqual({ start: 1000, unit: 1, name: "A" });
+    expect(lengths.reduce((sum, length) => sum + length, 0)).toBeCloseTo(150 + 100 * Math.PI, 8);
+    let along = 0;
+    for (const [index, length] of lengths.entries()) {
+      const [a, b] = [vertices[index], vertices[index + 1]];
+      const chord = Math.hypot(b[0] - a[0], b[1] - a[1]);
+      expect(chord).toBeLessThanOrEqual(length + 1e-9);
+      // What a chord lacks of its arc bounds its sagitta: s² ≈ 3/8 · c · (arc - c).
+      expect(Math.sqrt((3 / 8) * chord * Math.max(0, length - chord))).toBeLessThan(1.05 * TOLERANCE + 1e-7);
+      along += length;
+      if (along > 150 + 1e-6) expect(Math.hypot(b[0] - cx, b[1] - cy)).toBeCloseTo(200, 6);
+      else if (along > 100 + 1e-6) {
+        const [x, y] = clothoidEnd(along - 100, (along - 100) / 50 / 200);
+        expect(b[0]).toBeCloseTo(100 + x, 7);
+        expect(b[1]).toBeCloseTo(y, 7);
+      }
+    }
+    expect(vertices[vertices.length - 1]).toEqual(end);
+  });
+
+  it("takes right turns, references to points, irregular lines and station equations", () => {
+    const text = landXml(
+      `<Line><Start>0 10</Start><End pntRef="7"/></Line>
+<Curve rot="cw"><Start>20 30</Start><Center>20 40</Center><End>20 50</End></Curve>
+<IrregularLine><Start>20 50</Start><End>0 60</End><PntList2D>20 50 10 55 0 60</PntList2D></IrregularLine>`,
+      'name="B"',
+      '<StaEquation staInternal="50" staAhead="200"/><StaEquation staInternal="80" staAhead="20" staIncrement="decreasing"/>',
+    );
+    const { vertices, lengths, equations } = readLandXml(text, "B", "axis.xml");
+    expect(vertices.slice(0, 2)).toEqual([
+      [10, 0],
+      [30, 20],
+    ]);
+    expect(vertices.slice(-3)).toEqual([
+      [50, 20],
+      [55, 10],
+      [60, 0],
+    ]);
+    // Clockwise from the west of the centre: over the north.
+    expect(Math.max(...vertices.map(([, y]) => y))).toBeCloseTo(30, 3);
+    expect(lengths.reduce((sum, length) => sum + length, 0)).toBeCloseTo(
+      20 * Math.SQRT2 + 10 * Math.PI + 2 * Math.hypot(5, 10),
+      6,
+    );
+    expect(equations).toEqual([
+      { internal: 50, ahead: 200, increment: "increasing" },
+      { internal: 80, ahead: 20, increment: "decreasing" },
+    ]);
+  });
+
+  it.each([
+    ["<a><b></a>", /well-formed/],
+    [landXml(""), /it has no line/],
+    [landXml("<Line><Start>0 0</Start></Line>"), /a Line of it has no End/],
+    [
+      landXml("<Line><Start>0 0</Start><End>0 1</End></Line><Line><Start>5 5</Start><End>6 6</End></Line>"),
+      /begins away/,
+    ],
+    [
+      landXml('<Spiral spiType="bloss" length="1"><Start>0 0</Start><PI>0 1</PI><End>0 2</End></Spiral>'),
+      /type bloss/,
+    ],
+    [
+      landXml(
+        '<Spiral length="50" radiusStart="INF" radiusEnd="20" rot="cw"><Start>0 0</Start><PI>0 30</PI><End>0 50</End></Spiral>',
+      ),
+      /away from its End/,
+    ],
+    [
+      landXml('<Curve rot="cw"><Start>0 0</Start><Center>0 10</Center><End>0 30</End></Curve>'),
+      /other distances/,
+    ],
+    [landXml("<Chain>1 2</Chain>"), /a Chain of it has no Start/],
+  ])("is refused where %s", (text, message) => {
+    expect(() => readLandXml(text, undefined, "axis.xml")).toThrow(refused(message));
+  });
+});
+
+const dxf = (...entities: string[]) => `0\nSECTION\n2\nENTITIES\n${entities.join("")}0\nENDSEC\n0\nEOF\n`;
+const light = (layer: string, ...vertices: number[][]) =>
+  `0\nLWPOLYLINE\n8\n${layer}\n90\n${vertices.length}\n70\n0\n${vertices.map(([x, y, bulge]) => `10\n${x}\n20\n${y}\n${bulge ? `42\n${bulge}\n` : ""}`).join("")}`;
+
+describe("a polyline of DXF", () => {
+  it("has vertices and arcs by their bulges, left of the chord where these are positive", () => {
+    const half = light("axis", [0, 0, 1], [10, 0, -1], [20, 0, 0], [20, 5]);
+    const { vertices, lengths, name } = readDxfLine(dxf(half), undefined, "axis.dxf");
+    expect(name).toBe("axis");
+    expect(lengths.reduce((sum, length) => sum + length, 0)).toBeCloseTo(10 * Math.PI + 5, 9);
+    // A half circle counter-clockwise from (0, 0) to (10, 0) runs below the chord.
+    expect(Math.min(...vertices.map(([, y]) => y))).toBeCloseTo(-5, 3);
+    expect(Math.max(...vertices.filter(([x]) => x < 20).map(([, y]) => y))).toBeCloseTo(5, 3);
+    for (const [x, y] of vertices.filter(([x]) => x < 10)) expect(Math.hypot(x - 5, y)).toBeCloseTo(5, 9);
+  });
+
+  it("is found by its layer, in the old form too, and closed where it says so", () => {
+    const old =
+      "0\nPOLYLINE\n8\nold\n66\n1\n70\n1\n10\n0\n20\n0\n0\nVERTEX\n8\nold\n10\n1\n20\n2\n0\nVERTEX\n8\nold\n10\n3\n20\n2\n0\nVERTEX\n8\nold\n10\n3\n20\n7\n0\nSEQEND\n8\nold\n";
+    const text = dxf(light("a", [0, 0], [1, 1]), "0\nLINE\n8\nx\n10\n9\n20\n9\n", old);
+    expect(readDxfLine(text, "old", "axis.dxf").vertices).toEqual([
+      [1, 2],
+      [3, 2],
+      [3, 7],
+      [1, 2],
+    ]);
+    expect(readDxfLine(text.replaceAll("\n", "\r\n"), "a", "axis.dxf").lengths).toEqual([Math.SQRT2]);
+    expect(() => readDxfLine(text, undefined, "axis.dxf")).toThrow(
+      refused(/it has 2 lines.*name one of "a", "old"/is),
+    );
+    expect(() => readDxfLine(text, "b", "axis.dxf")).toThrow(refused(/no line of the name "b"/));
+    expect(() => readDxfLine("AutoCAD Binary DXF\r\n", undefined, "axis.dxf")).toThrow(refused(/binary/));
+    expect(() => readDxfLine(dxf(light("a", [0, 0], [Number.NaN, 1])), undefined, "axis.dxf")).toThrow(
+      refused(/no place/),
+    );
+  });
+});
+
+describe("station equations", () => {
+  it("count anew from their places on, and lead back to every chainage that has a station", () => {
+    const equations = new StationEquations([
+      { internal: 100, ahead: 500 },
+      { internal: 200, ahead: 90, increment: "decreasing" },
+    ]);
+    expect(equations.stationOf(99)).toEqual({ station: 99, stretch: 0 });
+    expect(equations.stationOf(100)).toEqual({ station: 500, stretch: 1 });
+    expect(equations.stationOf(210)).toEqual({ station: 80, stretch: 2 });
+    expect(equations.chainagesOf(80)).toEqual([80, 210]);
+    expect(equations.chainagesOf(300)).toEqual([]);
+    expect(
+      () =>
+        new StationEquations([
+          { internal: 1, ahead: 2 },
+          { internal: 1, ahead: 3 },
+        ]),
+    ).toThrow(RangeError);
+    const whole = fc.array(
+      fc.record({ internal: fc.nat(1000), ahead: fc.integer({ min: -500, max: 2000 }) }),
+      { maxLength: 5 },
+    );
+    fc.assert(
+      fc.property(whole, fc.integer({ min: -100, max: 1200 }), (all, chainage) => {
+        fc.pre(new Set(all.map(({ internal }) => internal)).size === all.length);
+        const some = new StationEquations(all);
+        expect(some.chainagesOf(some.stationOf(chainage).station)).toContain(chainage);
+      }),
+    );
+  });
+});

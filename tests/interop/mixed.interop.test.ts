@@ -1,0 +1,124 @@
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { convert, converted } from "../converted.js";
+import { data } from "../project.js";
+import { pythonMissing, runPython } from "../python.js";
+import { coreMissing } from "./core.js";
+import { groma } from "./groma.js";
+
+const road = data("vol_total.laz");
+const REFUSED = road.missing ?? coreMissing ?? pythonMissing;
+
+/** What the referee says of two cuts. */
+interface Compared {
+  readonly counts: readonly [number, number];
+  readonly names: boolean;
+  readonly chainage: number;
+  readonly offset: number;
+  readonly z: number;
+}
+
+describe.skipIf(REFUSED)(
+  `a profile through files of several systems${REFUSED ? ` (skipped: ${REFUSED})` : ""}`,
+  () => {
+    let folder = "";
+    const at = (name: string) => join(folder, name);
+    const copc = (name: string) => at(`${name}.copc.laz`);
+    beforeAll(() => {
+      folder = mkdtempSync(join(tmpdir(), "groma-mixed-"));
+      const { line } = runPython<{ line: number[][] }>("interop/mixed_scans.py", ["make", road.path, folder]);
+      for (const name of ["merged", "one", "two", "three", "degrees"]) convert(at(`${name}.las`), copc(name));
+      writeFileSync(at("line.geojson"), JSON.stringify({ type: "LineString", coordinates: line }));
+    }, 240_000);
+    afterAll(() => rmSync(folder, { recursive: true }));
+
+    const cut = (out: string, names: readonly string[], ...options: string[]) =>
+      groma([
+        ...["profile", ...names.map(copc), "--line", at("line.geojson"), "--width", "5.001"],
+        ...["--out", at(out), "--overwrite", ...options],
+      ]);
+    const compared = (a: string, b: string) =>
+      runPython<Compared>("interop/mixed_scans.py", ["compare", at(a), at(b)]);
+
+    it("has the points that one merged file has, and the same chainages and offsets", () => {
+      expect(cut("merged.csv", ["merged"], "--plane", "ellipsoid")).toMatchObject({ code: 0 });
+      expect(cut("parts.csv", ["one", "two", "three"])).toMatchObject({ code: 0 });
+      const found = compared("merged.csv", "parts.csv");
+      expect(found.counts[0]).toBeGreaterThan(200);
+      expect(found.names).toBe(true);
+      // Coordinates are kept to a tenth of a millimetre in each zone.
+      expect(found.chainage).toBeLessThan(2e-4);
+      expect(found.offset).toBeLessThan(2e-4);
+      expect(found.z).toBe(0);
+    });
+
+    it("is cut in metres from a scan in degrees, by the same code", () => {
+      expect(cut("degrees.csv", ["degrees"])).toMatchObject({ code: 0 });
+      const found = compared("merged.csv", "degrees.csv");
+      expect(found).toMatchObject({ names: true, z: 0 });
+      expect(Math.max(found.chainage, found.offset)).toBeLessThan(3e-4);
+      const sections = ["--sections", "--interval", "20", "--files", "csv"];
+      expect(cut("sections.zip", ["one", "two", "three"], ...sections)).toMatchObject({ code: 0 });
+    });
+
+    it("lies within the scale of UTM of the one in the plane of the zone", () => {
+      expect(cut("plane.csv", ["merged"])).toMatchObject({ code: 0 });
+      const chainages = (file: string) =>
+        readFileSync(at(file), "utf8")
+          .trim()
+          .split("\r\n")
+          .slice(1)
+          .map((row) => Number(row.split(",")[3]));
+      const ratio = Math.max(...chainages("plane.csv")) / Math.max(...chainages("merged.csv"));
+      // 100 km west of the meridian: 0.9996 · (1 + x² / 2R²).
+      expect(Math.abs(ratio - 0.9996 * (1 + 100 ** 2 / 2 / 6378 ** 2))).toBeLessThan(1e-4);
+    });
+
+    it("goes into no one LAS file, and along no line in source coordinates", () => {
+      expect(cut("parts.las", ["one", "two"]).stderr).toMatch(/EXPORT_MIXED/);
+      expect(cut("parts.csv", ["one", "two"], "--line-crs", "source").stderr).toMatch(/OPTION_CRS/);
+    });
+  },
+);
+
+describe.skipIf(REFUSED)("a profile along an alignment", () => {
+  let folder = "";
+  beforeAll(() => {
+    folder = mkdtempSync(join(tmpdir(), "groma-alignment-"));
+  });
+  afterAll(() => rmSync(folder, { recursive: true }));
+
+  it("counts along true arcs, with the stations of LandXML and its equations, to LandXML again", () => {
+    const axis = join(folder, "axis.xml");
+    writeFileSync(
+      axis,
+      `<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2"><Units><Metric linearUnit="meter"/></Units>
+<Alignments><Alignment name="road" staStart="1000" length="0"><CoordGeom>
+<Line><Start>231400 589600</Start><End>231400 589700</End></Line>
+<Curve rot="ccw"><Start>231400 589700</Start><Center>231500 589700</Center><End>231500 589800</End></Curve>
+</CoordGeom><StaEquation staInternal="1100" staAhead="5000"/></Alignment></Alignments></LandXML>`,
+    );
+    const run = (out: string, ...options: string[]) =>
+      groma([
+        ...["profile", converted(road.path), "--line", axis, "--width", "20", "--overwrite"],
+        ...["--out", join(folder, out), ...options],
+      ]);
+    expect(run("sections.xml", "--sections", "--interval", "50")).toMatchObject({ code: 0 });
+    const xml = readFileSync(join(folder, "sections.xml"), "utf8");
+    expect(xml).toContain('staStart="1000.00000"');
+    expect(xml).toContain(
+      '<StaEquation staInternal="1100.00000" staAhead="5000.00000" staIncrement="increasing"/>',
+    );
+    const length = Number(/ length="([\d.]+)" staStart/.exec(xml)![1]);
+    expect(length).toBeCloseTo(100 + 50 * Math.PI, 4);
+    expect(run("sections.zip", "--sections", "--at", "1050,1150", "--files", "csv")).toMatchObject({
+      code: 0,
+    });
+    const zip = readFileSync(join(folder, "sections.zip"), "latin1");
+    expect(zip).toContain("section-1_1+050.000.csv");
+    expect(zip).toContain("section-2_5+050.000.csv");
+    expect(run("profile.csv", "--line-name", "rail").stderr).toMatch(/FORMAT_ALIGNMENT.*"road"/s);
+  });
+});
