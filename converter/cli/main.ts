@@ -4,6 +4,7 @@ import {
   boxNumbers,
   classNumbers,
   finite,
+  heightRange,
   notNegative,
   numbers,
   originList,
@@ -268,10 +269,15 @@ const clip = program
       "x,y,x,y or x,y,z,x,y,z in the coordinates of the scan: least, then greatest",
     ).argParser(boxNumbers),
   )
+  .addOption(
+    new Option("--heights <low,high>", "a horizontal slice: what lies between these z of the scan").argParser(
+      heightRange,
+    ),
+  )
   .addOption(new Option("--classes <numbers>", "classes that are kept, e.g. 2,9").argParser(classNumbers))
   .action(async (files: string[], options, command: Command) => {
-    if (!options.polygon && !options.box && !options.classes) {
-      command.error("error: --polygon, --box or --classes is required");
+    if (!options.polygon && !options.box && !options.classes && !options.heights) {
+      command.error("error: --polygon, --box, --heights or --classes is required");
     }
     return (await import("./commands/clip.js")).runClip(files, options);
   });

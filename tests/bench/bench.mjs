@@ -7,7 +7,7 @@ import { parseArgs } from "node:util";
 import { root, setup } from "../../.ci/setup/main.mjs";
 import { forTest } from "../../.ci/setup/steps.mjs";
 
-const benches = ["placing", "converters", "page", "frames", "streaming", "soak"];
+const benches = ["placing", "profiles", "converters", "page", "frames", "streaming", "soak"];
 
 await setup(forTest);
 const { positionals: asked, values } = parseArgs({

@@ -177,7 +177,7 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
       dxf: true,
       geojson: true,
     });
-    expect(found).toMatchObject({ vertices: line, layers: ["LINE", "POINTS"] });
+    expect(found).toMatchObject({ vertices: line, layers: ["GRID", "LINE", "POINTS", "TEXT"] });
     expect(found.count).toBeGreaterThan(1000);
     // pyproj shifts the datum at height 0; where a place is to the millimetre, other tests hold.
     expect(found.metresOff).toBeLessThan(0.05);

@@ -1,7 +1,8 @@
+import type { QueryVolume } from "@groma/layer/tools";
 import type { CutRequest } from "../cut/cut.js";
 import { readPolygon } from "../cut/geojson.js";
 import { type GivenCrs, inSource } from "../cut/place.js";
-import { box, polygon } from "../cut/volumes.js";
+import { box, polygon, slice } from "../cut/volumes.js";
 import type { CutOptions } from "../cut/writers.js";
 import type { ProgressKind } from "../given/choices.js";
 import { tellCut } from "./cut.js";
@@ -12,6 +13,8 @@ export interface ClipCommandOptions extends CutOptions {
   readonly polygonCrs: GivenCrs;
   /** Least, then greatest coordinates, source units: four or six numbers. */
   readonly box?: readonly number[];
+  /** Lower and upper source z: what lies between, and on them, is kept. */
+  readonly heights?: readonly number[];
   /** Classes that are kept. */
   readonly classes?: readonly number[];
   readonly progress?: ProgressKind;
@@ -21,16 +24,18 @@ export interface ClipCommandOptions extends CutOptions {
 export async function runClip(files: readonly string[], options: ClipCommandOptions): Promise<void> {
   const { polygon: file, polygonCrs } = options;
   const rings = file === undefined ? undefined : await readPolygon(file);
+  const { heights } = options;
   const upright = options.box && box(options.box);
+  const sliced = (volume: QueryVolume | undefined) => (heights ? slice(heights, volume) : volume);
   const classes = options.classes && new Set(options.classes);
   const select: CutRequest["select"] = async (origin) => {
-    if (!rings || file === undefined) return { origin, volume: upright, classes };
+    if (!rings || file === undefined) return { origin, volume: sliced(upright), classes };
     const inPlane = await Promise.all(rings.map((ring) => inSource(ring, polygonCrs, origin, file)));
     const volume = polygon(
       inPlane.map(({ positions }) => positions),
       file,
     );
-    return { origin, volume, classes };
+    return { origin, volume: sliced(volume), classes };
   };
   await tellCut("clip", files, options, { select });
 }

@@ -3,7 +3,9 @@ import {
   Corridor,
   CrossSections,
   PolygonVolume,
+  type QueryVolume,
   type SectionWidths,
+  SliceVolume,
   type Stationing,
 } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
@@ -67,4 +69,10 @@ export function box(numbers: readonly number[]): BoxVolume {
   const [min, max] = [corner(0, Number.NEGATIVE_INFINITY), corner(half, Number.POSITIVE_INFINITY)];
   const fix = "give the least coordinates, then the greatest";
   return made(() => new BoxVolume(min, max), "OPTION_BOX", "--box", fix);
+}
+
+/** All between two heights, of another volume or of everything. @throws OptionError OPTION_HEIGHTS */
+export function slice([low, high]: readonly number[], of: QueryVolume | undefined): SliceVolume {
+  const fix = "give the lower height first";
+  return made(() => new SliceVolume(low!, high!, of), "OPTION_HEIGHTS", "--heights", fix);
 }

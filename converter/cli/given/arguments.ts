@@ -36,6 +36,12 @@ export function numbers(text: string): number[] {
   return text.split(",").map(finite);
 }
 
+export function heightRange(text: string): number[] {
+  const given = numbers(text);
+  if (given.length === 2) return given;
+  throw new InvalidArgumentError("Expected two numbers separated by a comma");
+}
+
 /** Files that are made of each cross-section. */
 const SECTION_FORMATS = ["las", "laz", "csv", "geojson", "dxf", "svg", "pdf"] as const;
 

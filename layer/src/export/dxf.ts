@@ -1,5 +1,6 @@
 import type { ByteSink } from "./byte-sink.js";
 import { CoordinateText, SLICE } from "./columns.js";
+import { chainagesOf, gridOf, groups } from "./dxf-annotations.js";
 import {
   type AlongLine,
   type ExportOptions,
@@ -22,6 +23,8 @@ export interface DxfOptions extends ExportOptions {
 const LAYERS = [
   ["POINTS", 7],
   ["LINE", 1],
+  ["GRID", 8],
+  ["TEXT", 3],
 ] as const;
 
 /** Digits of numbers that do not come from records. */
@@ -29,7 +32,8 @@ const DIGITS = 5;
 
 /**
  * Writes points as DXF, the ASCII form of AutoCAD R12 (AC1009), which every program reads: a POINT for each, in real
- * size and with every digit of the record, on a layer of their own; the line as a 3D POLYLINE.
+ * size and with every digit of the record, on a layer of their own; the line as a 3D POLYLINE; chainages, or the grid around
+ * straightened points, as LINEs and TEXT.
  *
  * @returns number of points
  * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what the sink throws
@@ -44,7 +48,9 @@ export async function exportDxf(
   const spacing = spacingOf(selections);
   if (spacing > 0) text.add(groups([999, `thinned: one point in about ${spacing}`]));
   text.add(front());
-  text.add(polyline(selections.find(({ along }) => along)?.along, layout));
+  const line = selections.find(({ along }) => along)?.along;
+  text.add(polyline(line, layout));
+  let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
   const place = new Float64Array(2);
   const count = await eachBatch(selections, options, async (batch, wanted, { origin, along }) => {
     const coordinates = new CoordinateText(origin);
@@ -55,6 +61,8 @@ export async function exportDxf(
       if (layout === "straightened" && along) {
         const [px, py, pz] = [0, 1, 2].map((axis) => coordinates.value(xyz[at + axis], axis));
         along.locate(px, py, place, pz);
+        low = Math.min(low, pz);
+        high = Math.max(high, pz);
         text.add(pointText(place[0].toFixed(DIGITS), z, place[1].toFixed(DIGITS)));
       } else {
         text.add(pointText(x, y, z));
@@ -62,14 +70,14 @@ export async function exportDxf(
       if (index % SLICE === 0) await text.rest();
     }
   });
+  if (line) {
+    const [from, to] = [line.chainages[0], line.chainages[line.chainages.length - 1]];
+    if (layout === "space") text.add(chainagesOf(line));
+    else if (high >= low) text.add(gridOf({ from, to, low, high }));
+  }
   text.add(groups([0, "ENDSEC"], [0, "EOF"]));
   await text.end();
   return count;
-}
-
-/** Group codes and their values, each on a line. */
-function groups(...pairs: readonly (readonly [code: number, value: string | number])[]): string {
-  return pairs.map(([code, value]) => `${code}\n${value}\n`).join("");
 }
 
 function front(): string {

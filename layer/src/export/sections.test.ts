@@ -148,6 +148,11 @@ describe("an archive of cross-sections", () => {
     expect(text("section-1_0+005.000.dxf")).toContain(
       "0\nPOINT\n8\nPOINTS\n10\n-3.00000\n20\n7.50\n30\n0.00000\n",
     );
+    // A grid in round numbers around the points, from -3 to 2 across and 7.5 to 12.5 up.
+    expect(text("section-1_0+005.000.dxf")).toContain(
+      "0\nLINE\n8\nGRID\n10\n-3\n20\n8\n30\n0\n11\n2\n21\n8\n31\n0\n",
+    );
+    expect(text("section-1_0+005.000.dxf").match(/8\nTEXT\n/g)!.length).toBeGreaterThan(10);
     expect(text("section-1_0+005.000.svg")).toContain(
       "a &lt;dike&gt; &amp; more, section 1, station 0+005.000",
     );

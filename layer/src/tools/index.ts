@@ -33,6 +33,7 @@ export { readLandXml } from "./alignment/read-landxml.js";
 export { type Station, type StationEquation, StationEquations } from "./alignment/station-equations.js";
 export { BoxVolume } from "./area/box-volume.js";
 export { PolygonVolume } from "./area/polygon-volume.js";
+export { SliceVolume } from "./area/slice-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
 export {

@@ -5,6 +5,7 @@ import { join } from "node:path";
 import { geodesicReport } from "./geodesic-report.mjs";
 import { measuringReport } from "./measuring-report.mjs";
 import { placingReport } from "./placing-report.mjs";
+import { profileReport } from "./profile-report.mjs";
 import { renderingReport } from "./rendering-report.mjs";
 import { samplingReport } from "./sampling-report.mjs";
 import { verticalReport } from "./vertical-report.mjs";
@@ -16,6 +17,7 @@ const reports = {
   vertical: verticalReport,
   rendering: renderingReport,
   sampling: samplingReport,
+  profile: profileReport,
 };
 
 const IN_TURN =
