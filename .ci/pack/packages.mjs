@@ -18,10 +18,13 @@ import { cargoNotices, noticesText, npmNotices, projNotices } from "./notices.mj
 /** Files of a built folder that no source of the same name is behind. */
 const MADE = {
   layer: [
-    ...["workers/node.worker.js", "workers/laz-perf.wasm", "measurements.schema.json"],
+    ...["workers/node.worker.js", "workers/laz-perf.wasm", "tools/measure/volume/volume.worker.js"],
+    "measurements.schema.json",
     ...["cloud/epsg.json", "cloud/vertical-systems.json", "cloud/egm96.bin"],
   ],
 };
+/** Folder of the bundles for pages without a bundler. */
+const STANDALONE = "standalone/";
 /** Scripts of the converter that its users run. */
 const SCRIPTS = ["install-pdal", "install-proj", "unpack-debian"];
 /** What the layer carries inside of it without needing it to run: the tables, and the projections in its worker. */
@@ -49,7 +52,7 @@ function copyBuilt(from, sources, to, made = []) {
     const source = name.replace(/(\.d\.ts|\.js)$/, ".ts");
     const isBuilt =
       source !== name && existsSync(join(sources, source)) && !/\.(test|fixture)\.ts$/.test(source);
-    if (!isBuilt && !made.includes(name)) continue;
+    if (!isBuilt && !made.includes(name) && !name.startsWith(STANDALONE)) continue;
     const target = join(to, name);
     mkdirSync(dirname(target), { recursive: true });
     if (!/\.js$|\.d\.ts$/.test(name)) cpSync(path, target);

@@ -1,6 +1,7 @@
 /**
  * Completes layer/dist after tsc: the workers as one file each without bare imports, so that any bundler and
- * any server can load them, the decoder's WebAssembly beside them, the schema of measurements, and the tables of EPSG.
+ * any server can load them, the decoder's WebAssembly beside them, the schema of measurements, the tables of EPSG, and the
+ * entries for pages without a bundler.
  */
 import { copyFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -25,3 +26,4 @@ for (const [folder, name] of [
 }
 
 await import("./crs-assets.mjs");
+await import("./standalone.mjs");

@@ -1,0 +1,121 @@
+import { createHash } from "node:crypto";
+import { cpSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { createServer, type Server } from "node:http";
+import { createRequire } from "node:module";
+import type { AddressInfo } from "node:net";
+import { dirname, join } from "node:path";
+import type { Browser } from "playwright-core";
+import send from "send";
+import { afterAll, beforeAll, expect, it } from "vitest";
+import webpack from "webpack";
+import { convert } from "../converted.js";
+import { lasOf } from "../faults/las-bytes.js";
+import { projectRoot } from "../project.js";
+import { launch, openPage, screenshot } from "./harness.js";
+
+const examples = join(projectRoot, "demo/examples");
+const built = join(projectRoot, "tests/artifacts/examples");
+const clouds = join(projectRoot, "tests/artifacts/examples-data");
+const cesium = join(dirname(createRequire(import.meta.url).resolve("cesium/package.json")), "Build/Cesium");
+
+async function buildWithVite(): Promise<void> {
+  const { build } = await import("vite");
+  await build({
+    ...{ configFile: join(examples, "vite.config.js"), logLevel: "error" },
+    build: { outDir: built, emptyOutDir: true },
+  });
+}
+
+async function buildWithWebpack(): Promise<void> {
+  const { default: config } = await import(join(examples, "webpack/webpack.config.mjs"));
+  const path = join(built, "webpack");
+  await new Promise<void>((resolve, reject) => {
+    // Making it small takes most of the time and says nothing of whether it works.
+    const options = { ...config, output: { ...config.output, path }, optimization: { minimize: false } };
+    webpack(options, (error, stats) => {
+      if (error) reject(error);
+      else if (stats!.hasErrors() || stats!.hasWarnings())
+        reject(new Error(stats!.toString("errors-warnings")));
+      else resolve();
+    });
+  });
+  cpSync(join(examples, "webpack/index.html"), join(path, "index.html"));
+}
+
+/** The policy of `demo/examples/README.md`. */
+const policy = /^Content-Security-Policy: (.*)$/m.exec(
+  readFileSync(join(examples, "README.md"), "utf8"),
+)![1]!;
+
+/** Serves what is built; a page has the policy, and for an import map in it its hash. `?eval` lets Cesium's own file run. */
+function serve(): Promise<Server> {
+  const folders = [
+    ["/cesium/", cesium],
+    ["/node_modules/", join(projectRoot, "node_modules")],
+    ["/groma/", join(projectRoot, "layer/dist")],
+    ["/clouds/", clouds],
+    ["/import-map/", join(examples, "import-map")],
+    ["/", built],
+  ] as const;
+  const server = createServer((request, response) => {
+    const { pathname, searchParams } = new URL(request.url ?? "/", "http://localhost");
+    const [prefix, root] = folders.find(([start]) => pathname.startsWith(start))!;
+    const path = pathname.slice(prefix.length - 1);
+    if (path.endsWith(".html")) {
+      const page = readFileSync(join(root, path), "utf8");
+      const map = /<script type="importmap">([\s\S]*?)<\/script>/.exec(page)?.[1];
+      const hash = map ? `'self' 'sha256-${createHash("sha256").update(map).digest("base64")}'` : "'self'";
+      const scripts = searchParams.has("eval") ? `${hash} 'unsafe-eval'` : hash;
+      response.setHeader("content-security-policy", policy.replace("'self'", scripts));
+    }
+    send(request, path, { root }).pipe(response);
+  });
+  return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
+}
+
+let server: Server;
+let browser: Browser;
+const address = () => `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
+
+beforeAll(async () => {
+  const cloud = join(clouds, "box.copc.laz");
+  if (!existsSync(cloud)) {
+    mkdirSync(clouds, { recursive: true });
+    writeFileSync(join(clouds, "box.las"), lasOf(20_000));
+    convert(join(clouds, "box.las"), cloud, ["--crs", "EPSG:32632", "--vertical", "ellipsoidal"]);
+  }
+  await buildWithVite();
+  await buildWithWebpack();
+  [server, browser] = await Promise.all([serve(), launch()]);
+}, 480_000);
+
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+it.each([
+  ["vite", "vite/index.html?"],
+  ["react", "react/index.html?"],
+  ["vue", "vue/index.html?"],
+  ["webpack", "webpack/index.html?"],
+  ["import-map", "import-map/index.html?"],
+  ["import-map-cesium", "import-map/globe.html?eval&"],
+])("the example with %s draws under its policy", { timeout: 240_000 }, async (name, path) => {
+  const { page, watch } = await openPage(browser, { width: 480, height: 360 });
+  await page.goto(`${address()}/${path}cloud=/clouds/box.copc.laz`);
+  const shown = page.locator("output", { hasText: /^[1-9]\d* points$/ });
+  await shown.waitFor({ timeout: 200_000 }).catch(() => undefined);
+  expect([watch.errors, watch.foreign]).toEqual([[], []]);
+  expect(Number.parseInt(await shown.innerText(), 10)).toBeGreaterThan(1_000);
+  await screenshot(page, `example-${name}`);
+  await page.context().close();
+});
+
+it("the policy forbids code from text (negative control)", { timeout: 60_000 }, async () => {
+  const { page } = await openPage(browser, { width: 480, height: 360 });
+  const refused = page.waitForEvent("pageerror");
+  await page.goto(`${address()}/import-map/globe.html?cloud=/clouds/box.copc.laz`);
+  expect((await refused).name).toBe("EvalError");
+  await page.context().close();
+});
