@@ -64,7 +64,10 @@ function complaints(codes: ReadonlyMap<string, string>): string[] {
 
 describe("the examples of README and docs", () => {
   it("compile as they stand", { timeout: 60_000 }, () => {
-    const pages = ["README.md", ...readdirSync(join(projectRoot, "docs")).map((name) => `docs/${name}`)];
+    const pages = ["README.md", "layer/README.md"];
+    for (const folder of ["docs", "docs/manual"]) {
+      pages.push(...readdirSync(join(projectRoot, folder)).map((name) => `${folder}/${name}`));
+    }
     const codes = new Map<string, string>();
     for (const page of pages.filter((name) => name.endsWith(".md"))) {
       const text = readFileSync(join(projectRoot, page), "utf8");

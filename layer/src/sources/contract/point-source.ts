@@ -32,7 +32,7 @@ export interface PointSource<Address = unknown, Encoding extends AnyEncoding = A
   /** Source units, per axis. */
   readonly offset: readonly [number, number, number];
   readonly crs: CrsDeclaration;
-  /** The attributes of each point but for x, y and z; names are unique and none of {@link DERIVED_COLUMNS}. */
+  /** The attributes of each point but for x, y and z; names are unique and none of `DERIVED_COLUMNS`. */
   readonly attributes: readonly PointAttribute[];
   /** What a converter counted of all points; undefined where none did. */
   readonly statistics: CloudStatistics | undefined;

@@ -23,7 +23,7 @@ export interface Polyline {
  * Lengths of a line through vertices; the uncertainty of a sum is that of the whole, in which what two parts share at
  * the vertex between them is counted once.
  *
- * @param closed whether it leads back to the first vertex
+ * @param options.closed whether it leads back to the first vertex
  * @throws MeasureError MEASURE_VERTICES with fewer than two vertices
  */
 export function measurePolyline(

@@ -24,7 +24,7 @@ export interface ReadOut {
   readonly local: readonly [Quantity<"m">, Quantity<"m">, Quantity<"m">] | undefined;
 }
 
-/** @param origin where the local axes begin; their directions are its own */
+/** @param options.origin where the local axes begin; their directions are its own */
 export function readOut(vertex: Vertex, options: WorthOptions & { origin?: Vertex } = {}): ReadOut {
   const { cloud, source, record, ecef, longitude, latitude } = vertex;
   const { east, north } = axesAt(vertex);
