@@ -113,7 +113,7 @@ export function cargoNotices(root) {
  */
 export function projNotices(folder) {
   const read = (name) => [readFileSync(join(folder, "licences", name), "utf8").trim()];
-  const { versions } = JSON.parse(readFileSync(join(folder, "licences/versions.json"), "utf8"));
+  const versions = JSON.parse(readFileSync(join(folder, "licences/versions.json"), "utf8"));
   const one = (name, license, texts) => {
     const version = versions[name];
     return { name, version, license, texts, purl: `pkg:generic/${name.toLowerCase()}@${version}` };
