@@ -105,6 +105,31 @@ describe("runNodeJob", () => {
     expect(distance).toBeLessThanOrEqual(bound);
   });
 
+  it("draws points on both sides of 180° in a frame amid them", async () => {
+    const given = { given: "+proj=longlat +datum=WGS84", givenVertical: "ellipsoidal" };
+    const degrees = resolveCrs({ file: FILE, ...given });
+    const [west, east] = [-1_799_990_000, 1_799_990_000];
+    const xyz = [west, -170_000_000, 0, east, -169_990_000, 10, west, -169_995_000, 5, east, -170_000_000, 0];
+    const sides: Decoders = {
+      laz: {
+        decode: async (...of) => ({ ...(await decoders.laz.decode(...of)), xyz: Int32Array.from(xyz) }),
+      },
+    };
+    const spec: DataSetSpec = {
+      ...plain,
+      crs: degrees,
+      scale: [1e-7, 1e-7, 0.001],
+      offset: [0, 0, 0],
+      heights: [0, 1],
+    };
+    const dataSet = prepareDataSet(spec);
+    const { frame, bound } = await runNodeJob(dataSet, { ...job, cube: [-180, -180, -180, 360] }, sides);
+    const place = new Float64Array(3);
+    placePoint(dataSet.truth, 179.999, -17, 0, place);
+    expect(bound).toBeLessThanOrEqual(1e-3);
+    expect(Math.hypot(...place.map((value, axis) => value - frame.origin[axis]))).toBeLessThan(1000);
+  });
+
   it("puts heights above the geoid where the geoid is", async () => {
     const frames = [];
     for (const spec of [plain, { ...plain, transformation }]) {
