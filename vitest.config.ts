@@ -43,7 +43,7 @@ export default defineConfig({
     projects: Object.entries(rooms).map(([name, include]) => ({
       extends: true,
       // A browser test fills both cores by itself.
-      test: { name, include, fileParallelism: !["browser", "install", "interop"].includes(name) },
+      test: { name, include, fileParallelism: !["browser", "install"].includes(name) },
     })),
   },
 });
