@@ -54,8 +54,9 @@ describe.skipIf(missing)("groma georef", () => {
   it("places a file of a server that nobody can rewrite, as a conversion would", {
     timeout: 60_000,
   }, async () => {
-    const { code, stderr } = await groma("georef", server.url, "--grids", grids.path);
+    const { code, stderr, stdout } = await groma("georef", server.url, "--grids", grids.path, "--json");
     expect([code, stderr]).toEqual([0, ""]);
+    expect(JSON.parse(stdout)).toMatchObject({ output: "scan.georef", engine: { name: "PROJ" } });
     const requests = server.log.length;
     // The opening, which has the records, and the root page of the hierarchy: no points.
     expect(requests).toBeLessThanOrEqual(3);
