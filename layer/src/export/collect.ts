@@ -106,6 +106,8 @@ class Collected {
   readonly #length: number;
   readonly #parts: PartRecords[];
   readonly #found: Uint32Array;
+  /** Read once for all parts. */
+  #envelope: ReturnType<PointOrigin["lasEnvelope"]> | undefined;
 
   constructor(origin: PointOrigin, { lasRecords, attributes, count }: RecordedNode, parts: number) {
     if (!lasRecords || attributes.some(({ bytes }) => bytes.buffer !== lasRecords.buffer)) {
@@ -174,7 +176,10 @@ class Collected {
     const bracket = async () => ({ least: records.count, most: records.count, nodes: 1 });
     return {
       ...{ name, scale, offset },
-      lasEnvelope: (options) => this.#origin.lasEnvelope(options),
+      lasEnvelope: (options) => {
+        this.#envelope ??= this.#origin.lasEnvelope(options);
+        return this.#envelope;
+      },
       query: () => ({ bracket, batches }),
     };
   }

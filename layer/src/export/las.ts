@@ -189,7 +189,8 @@ class PointTally {
 /** Writes small pieces as large ones. */
 class Gathering {
   readonly #sink: ByteSink;
-  readonly #block = new Uint8Array(BLOCK);
+  /** Grows to its size: small files of many sections have no use for all of it. */
+  #block = new Uint8Array(1 << 14);
   #filled = 0;
 
   constructor(sink: ByteSink) {
@@ -201,6 +202,11 @@ class Gathering {
     if (bytes.length > BLOCK) {
       await this.#sink.write(bytes);
       return;
+    }
+    if (this.#filled + bytes.length > this.#block.length) {
+      const larger = new Uint8Array(Math.min(BLOCK, 2 * (this.#filled + bytes.length)));
+      larger.set(this.#block.subarray(0, this.#filled));
+      this.#block = larger;
     }
     this.#block.set(bytes, this.#filled);
     this.#filled += bytes.length;
