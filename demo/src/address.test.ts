@@ -14,6 +14,16 @@ function codeOf(read: () => unknown): string {
   return "none";
 }
 
+describe("what is shown", () => {
+  it("is the globe, a map beside it or the map alone, in step unless that is not wanted", () => {
+    const shown = (query: string) => readPageOptions(`${page}${query}`);
+    expect([shown(""), shown("&map=0&link=1")]).toEqual([{ fly: true }, { fly: true }]);
+    expect(shown("&map=1&link=0")).toMatchObject({ shown: "both", linked: false });
+    expect(shown("&map=only")).toEqual({ shown: "map", fly: true });
+    expect(codeOf(() => shown("&map=2"))).toBe("PAGE_OPTION");
+  });
+});
+
 describe("the address of a cloud", () => {
   it.each([
     ["/data/site.copc.laz", "http://localhost:8080/data/site.copc.laz"],

@@ -23,15 +23,17 @@ export interface PageOptions {
   readonly georef?: string;
   /** Whether the camera flies to the cloud rather than being there at once. */
   readonly fly: boolean;
-  /** Whether the map beside the globe is shown from the beginning. */
-  readonly map?: boolean;
+  /** What is shown from the beginning, where it is not the globe alone. */
+  readonly shown?: "both" | "map";
+  /** Whether map and globe move together, where that is given. */
+  readonly linked?: boolean;
 }
 
 const MOST_POINTS = 100_000_000;
 
 /**
- * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `georef`, `fly`, `map`. Others
- * are left alone.
+ * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `georef`, `fly`, `map`,
+ * `link`. Others are left alone.
  * @param page the page's whole address
  * @throws PageError PAGE_ADDRESS, PAGE_OPTION
  */
@@ -44,6 +46,7 @@ export function readPageOptions(page: string): PageOptions {
   const crs = query.get("crs");
   const vertical = query.get("vertical");
   const georef = query.get("georef");
+  const map = word(query, "map", ["0", "1", "only"]) ?? "0";
   return {
     ...(cloud !== null && { cloud: cloudAddress(cloud, page) }),
     ...(budget !== undefined && { budget }),
@@ -52,7 +55,8 @@ export function readPageOptions(page: string): PageOptions {
     ...(crs && { crs }),
     ...(vertical && { vertical }),
     ...(georef && { georef: cloudAddress(georef, page) }),
-    ...(word(query, "map", ["0", "1"]) === "1" && { map: true }),
+    ...(map !== "0" && { shown: map === "1" ? "both" : "map" }),
+    ...(word(query, "link", ["0", "1"]) === "0" && { linked: false }),
     fly: word(query, "fly", ["0", "1"]) !== "0",
   };
 }

@@ -118,7 +118,7 @@ function start(viewer: Viewer): void {
     message.show(thrown);
     return;
   }
-  if (options.map) beside.show(true);
+  if (options.shown) beside.show(options.shown, options.linked);
   openNamed();
 
   /** Shows the record of a point that a tool leads to, as if it had been clicked. */

@@ -57,7 +57,7 @@ describe.skipIf(scan.missing)(
       const shown = await lit();
       expect(shown.count).toBeGreaterThan(20_000);
       expect(shown.red).toBeLessThan(100);
-      expect(ranges.length).toBeGreaterThan(10);
+      expect(ranges.length).toBeGreaterThan(5);
       expect(ranges.filter((range, at) => ranges.indexOf(range) !== at)).toEqual([]);
       // What is chosen for the globe holds for the map.
       await page.evaluate(() => {
@@ -75,7 +75,48 @@ describe.skipIf(scan.missing)(
       await complete();
       const recoloured = await lit();
       expect(recoloured.red).toBeGreaterThan(0.9 * recoloured.count);
-      await page.click("#beside");
+      // The map shows what the globe does, and follows it and leads it.
+      const middles = () =>
+        page.evaluate(async () => {
+          const { beside, layer, viewer } = window.groma;
+          const { map, measured } = (await beside.view)!;
+          // Let what rests be read, and the frames after it be drawn.
+          await new Promise((done) => setTimeout(done, 1500));
+          // The panel lies over the left part of the globe.
+          const { right } = document.getElementById("panel")!.getBoundingClientRect();
+          const at = { x: (right + viewer.canvas.clientWidth) / 2, y: viewer.canvas.clientHeight / 2 };
+          const hit = (await layer.pick(at as Parameters<typeof layer.pick>[0], { window: 9 }))!;
+          const place = viewer.scene.globe.ellipsoid.cartesianToCartographic(hit.position)!;
+          const pixel = measured.project(place as unknown as Parameters<typeof measured.project>[0])!;
+          const [width, height] = map.getSize()!;
+          const [x, y] = map.getView().getCenter()!;
+          const off = Math.hypot(pixel.x - width! / 2, pixel.y - height! / 2);
+          return { x: x!, y: y!, off, height: viewer.camera.positionCartographic.height };
+        });
+      const before = await middles();
+      // The window of the pick and the page's margins, in pixels that are foreshortened.
+      expect(before.off).toBeLessThan(25);
+      await page.evaluate(() => window.groma.viewer.camera.moveForward(300));
+      const nearer = await middles();
+      expect(nearer.height).toBeLessThan(before.height);
+      expect(nearer.off).toBeLessThan(25);
+      await page.evaluate(async () => {
+        const view = (await window.groma.beside.view)!.map.getView();
+        view.setCenter(view.getCenter()!.map((at) => at + 100));
+      });
+      const moved = await middles();
+      expect(moved.off).toBeLessThan(25);
+      expect([moved.x - nearer.x, moved.y - nearer.y]).toEqual([
+        expect.closeTo(100, 3),
+        expect.closeTo(100, 3),
+      ]);
+      await screenshot(page, "beside-linked");
+      await page.selectOption("#views", "map");
+      expect(await page.isVisible("#split")).toBe(false);
+      const box = await page.evaluate(() => document.getElementById("map")!.getBoundingClientRect().width);
+      expect(box).toBe(1200);
+      await screenshot(page, "map-alone");
+      await page.selectOption("#views", "globe");
       expect(await page.isVisible("#map")).toBe(false);
       expect(watch.errors).toEqual([]);
       expect(watch.foreign).toEqual([]);

@@ -46,11 +46,14 @@ describe.skipIf(pythonMissing)(
         const map = stage.addMap({ projection: "EPSG:32632", center: [0, 0], resolution: 1 });
         stage.globe.look({ at: [middle[0], middle[1], 500], heading: 40, pitch: -30, range: 60 });
         await stage.globe.settle();
+        // The link begins before the points are there.
+        stage.globe.layer.show = false;
         window.linked.link = synchronize({ viewer: stage.globe.widget, map: map.map });
         const moves: string[] = [];
         window.linked.link.onMove(({ origin, target }) => moves.push(`${origin} > ${target}`));
         const view = map.map.getView();
         const before = view.getCenter()!;
+        stage.globe.layer.show = true;
         // Nothing is known of the points yet; as soon as the view rests, one of them is read.
         for (let wait = 0; wait < 400 && moves.length === 0; wait++) {
           stage.globe.frame();
@@ -322,6 +325,197 @@ describe.skipIf(pythonMissing)(
       expect(codes.map((message) => message.split(":")[0])).toEqual(Array(5).fill("STYLE_OPTION"));
       expect(codes[3]).toContain('Did you mean "both"');
       expect(codes[4]).toContain("northUp");
+    });
+
+    /** Sets a globe and a map up that show the scan, and links them. */
+    const linked = (options: Record<string, unknown>) =>
+      stage.page.evaluate(async (given) => {
+        const { stage, synchronize } = window.linked;
+        const map = stage.addMap({
+          projection: "EPSG:32632",
+          center: [500_000, 5_200_000],
+          resolution: 0.05,
+        });
+        stage.globe.look({ at: [500_000, 5_200_000, 500], heading: 20, pitch: -70, range: 25 });
+        await stage.globe.settle();
+        await map.complete();
+        const link = synchronize({ viewer: stage.globe.widget, map: map.map, view: "none", ...given });
+        window.linked.link = link;
+        await map.complete();
+        map.map.getTargetElement()!.scrollIntoView();
+        const box = (element: Element) => {
+          const { left, top } = element.getBoundingClientRect();
+          return [left, top];
+        };
+        return { map: box(map.map.getViewport()), globe: box(stage.globe.scene.canvas) };
+      }, options);
+
+    it("has a handle on the map that moves and turns the camera, and nothing else", {
+      timeout: 120_000,
+    }, async () => {
+      const { map } = await linked({ view: "both", cursor: false });
+      const state = () =>
+        stage.page.evaluate(async () => {
+          const { stage, link, ol, Cesium } = window.linked;
+          const { map } = stage.maps[0]!;
+          const { camera } = stage.globe.scene;
+          stage.globe.frame();
+          await stage.frames(2);
+          const { longitude, latitude, height } = camera.positionCartographic;
+          const nadir = ol.fromLonLat([longitude, latitude].map(Cesium.Math.toDegrees), "EPSG:32632");
+          const stand = link.camera!.getGeometry()!.getCoordinates();
+          return {
+            ...{ nadir, height, stand, pixel: map.getPixelFromCoordinate(stand) },
+            ...{ heading: camera.heading, pitch: camera.pitch, rotation: map.getView().getRotation() },
+            center: map.getView().getCenter()!,
+          };
+        });
+      await stage.page.evaluate(() => {
+        const { stage } = window.linked;
+        const view = stage.maps[0]!.map.getView();
+        view.setResolution(0.2);
+        return stage.maps[0]!.complete();
+      });
+      const before = await state();
+      const moves = await stage.page.evaluateHandle(() => {
+        const moves: string[] = [];
+        window.linked.link.onMove(({ origin, target }) => moves.push(`${origin} > ${target}`));
+        return moves;
+      });
+      expect(
+        Math.hypot(before.stand[0]! - before.nadir[0]!, before.stand[1]! - before.nadir[1]!),
+      ).toBeLessThan(1e-3);
+      const { mouse } = stage.page;
+      const drag = async (from: number[], to: number[]) => {
+        await mouse.move(map[0]! + from[0]!, map[1]! + from[1]!);
+        await mouse.down();
+        await mouse.move(map[0]! + to[0]!, map[1]! + to[1]!, { steps: 4 });
+        await mouse.up();
+        return state();
+      };
+      await screenshot(stage.page, "link-handle");
+      const [x, y] = before.pixel as [number, number];
+      const moved = await drag([x, y], [x + 50, y - 30]);
+      // What lies under the pointer at the end is where the camera stands.
+      const [cosine, sine] = [Math.cos(before.rotation), Math.sin(before.rotation)];
+      const wanted = [
+        before.stand[0]! + 0.2 * (cosine * 50 - sine * 30),
+        before.stand[1]! + 0.2 * (sine * 50 + cosine * 30),
+      ];
+      expect(Math.hypot(moved.nadir[0]! - wanted[0]!, moved.nadir[1]! - wanted[1]!)).toBeLessThan(0.01);
+      expect(moved.height).toBeCloseTo(before.height, 6);
+      expect([moved.heading, moved.pitch]).toEqual([
+        expect.closeTo(before.heading, 5),
+        expect.closeTo(before.pitch, 5),
+      ]);
+      expect(moved.center).toEqual(before.center);
+      // The arm points upwards, as the camera looks; its end is taken to the right.
+      const [mx, my] = moved.pixel as [number, number];
+      const turned = await drag([mx, my - 44], [mx + 60, my]);
+      const quarter = turned.heading - moved.heading;
+      expect((quarter + 2 * Math.PI) % (2 * Math.PI)).toBeCloseTo(Math.PI / 2, 4);
+      expect(turned.pitch).toBeCloseTo(before.pitch, 5);
+      expect(Math.hypot(turned.nadir[0]! - moved.nadir[0]!, turned.nadir[1]! - moved.nadir[1]!)).toBeLessThan(
+        1e-3,
+      );
+      expect(turned.center).toEqual(before.center);
+      const told = await moves.jsonValue();
+      expect(told.length).toBeGreaterThan(4);
+      expect(new Set(told)).toEqual(new Set(["handle > globe"]));
+      await screenshot(stage.page, "link-handle-turned");
+    });
+
+    it("marks the record under the pointer of one side on the other", { timeout: 120_000 }, async () => {
+      const { map, globe } = await linked({ camera: false, footprint: false });
+      const { mouse } = stage.page;
+      const look = () =>
+        stage.page.evaluate(async () => {
+          const { stage, link, Cesium } = window.linked;
+          for (let frame = 0; frame < 10; frame++) {
+            stage.globe.frame();
+            await new Promise((done) => setTimeout(done, 40));
+          }
+          const { map, globe } = link.cursor!;
+          const { x, y, z } = globe.position;
+          const { height } = Cesium.Cartographic.fromCartesian(globe.position) ?? { height: Number.NaN };
+          return { map: map.getGeometry()?.getCoordinates(), globe: globe.show && [x, y, z], height };
+        });
+      await mouse.move(globe[0]! + 215, globe[1]! + 140);
+      const onGlobe = await look();
+      const [picked, ecef] = await stage.page.evaluate(async () => {
+        const { stage, Cesium } = window.linked;
+        const hit = stage.globe.layer.pick(new Cesium.Cartesian2(215, 140));
+        stage.globe.frame();
+        const { source, position } = (await hit)!;
+        return [source, [position.x, position.y, position.z]];
+      });
+      await screenshot(stage.page, "link-cursor");
+      // The map's plane is the scan's own: the record's coordinates are the place on it.
+      expect(Math.hypot(onGlobe.map![0]! - picked![0]!, onGlobe.map![1]! - picked![1]!)).toBeLessThan(1e-3);
+      expect(onGlobe.globe).toBe(false);
+      const pixel = await stage.page.evaluate(
+        (at) => window.linked.stage.maps[0]!.map.getPixelFromCoordinate(at!),
+        onGlobe.map,
+      );
+      await mouse.move(Math.round(map[0]! + pixel[0]!), Math.round(map[1]! + pixel[1]!));
+      const onMap = await look();
+      expect(onMap.map).toBeUndefined();
+      const recorded = await stage.page.evaluate(
+        async (at) => {
+          const { stage } = window.linked;
+          const hit = (await stage.maps[0]!.layer.pick(at))!;
+          return [...stage.cloud.place(...hit.source)];
+        },
+        [Math.round(pixel[0]!), Math.round(pixel[1]!)],
+      );
+      const away = (place: readonly number[]) =>
+        Math.hypot(...(onMap.globe as number[]).map((value, axis) => value - place[axis]!));
+      expect(away(recorded)).toBeLessThan(1e-6);
+      // The pointer stands on whole pixels, of which two lie between neighbouring points.
+      expect(away(ecef!)).toBeLessThan(0.15);
+      // Beside the scan it is the ground at the height that was looked at.
+      await mouse.move(map[0]! + 20, map[1]! + 20);
+      const beside = await look();
+      expect(beside.globe).not.toBe(false);
+      expect(beside.height).toBeCloseTo(500, 0);
+      await mouse.move(map[0]! + 750, map[1]! + 20);
+      expect((await look()).globe).toBe(false);
+    });
+
+    it("goes where it is clicked", { timeout: 120_000 }, async () => {
+      const { map, globe } = await linked({ view: "both", click: true, flight: 0, camera: false });
+      const seen = () =>
+        stage.page.evaluate(async () => {
+          const { stage, Cesium } = window.linked;
+          for (let frame = 0; frame < 15; frame++) {
+            stage.globe.frame();
+            await new Promise((done) => setTimeout(done, 40));
+          }
+          const { scene } = stage.globe;
+          const [width, height] = [scene.canvas.clientWidth, scene.canvas.clientHeight];
+          const hit = stage.globe.layer.pick(new Cesium.Cartesian2(width / 2, height / 2));
+          stage.globe.frame();
+          const view = stage.maps[0]!.map.getView();
+          return { source: (await hit)?.source, center: view.getCenter()!, pitch: scene.camera.pitch };
+        });
+      const start = await seen();
+      const coordinate = await stage.page.evaluate(() =>
+        window.linked.stage.maps[0]!.map.getCoordinateFromPixel([340, 180]),
+      );
+      await stage.page.mouse.click(map[0]! + 340, map[1]! + 180);
+      const gone = await seen();
+      expect(gone.pitch).toBeCloseTo(start.pitch, 4);
+      for (const found of [gone.center, gone.source!]) {
+        expect(Math.hypot(found[0]! - coordinate[0]!, found[1]! - coordinate[1]!)).toBeLessThan(0.5);
+      }
+      await stage.page.mouse.click(globe[0]! + 180, globe[1]! + 170);
+      const back = await seen();
+      expect(
+        Math.hypot(back.center[0]! - gone.center[0]!, back.center[1]! - gone.center[1]!),
+      ).toBeGreaterThan(1);
+      expect(Math.hypot(back.center[0]! - back.source![0]!, back.center[1]! - back.source![1]!)).toBeLessThan(
+        0.5,
+      );
     });
   },
 );

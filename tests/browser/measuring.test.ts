@@ -225,7 +225,7 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
 
   it("by touch, begun on the globe and ended on the map", { timeout: 280_000 }, async () => {
     const { page, watch } = await openPage(browser, { width: 1200, height: 600 });
-    await page.goto(`${server.address}&map=1&fly=0`);
+    await page.goto(`${server.address}&map=1&link=0&fly=0`);
     await settle(page);
     await page.evaluate(() => {
       document.querySelectorAll("details").forEach((one) => {

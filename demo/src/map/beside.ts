@@ -13,12 +13,20 @@ const STEPS: ReadonlyMap<string, number> = new Map([
   ["ArrowDown", 0.05],
 ]);
 
-/** The map beside the globe: loaded when it is first shown, with a bar between the two that can be dragged. */
+/** What the page shows. */
+export type Shown = "globe" | "both" | "map";
+
+/** Frames per second of a globe that the map covers: what of it the panel shows and the map takes over goes on. */
+const COVERED = 4;
+
+/** The map beside the globe or in its place: loaded when it is first shown, with a bar between the two. */
 export class Beside {
   readonly #viewer: Viewer;
   readonly #failed: (thrown: unknown) => void;
   readonly #begins: (view: MapView) => void;
-  readonly #box = byId("beside", HTMLInputElement);
+  readonly #choice = byId("views", HTMLSelectElement);
+  readonly #link = byId("link", HTMLInputElement);
+  readonly #north = byId("north", HTMLInputElement);
   readonly #bar = byId("split", HTMLHRElement);
   #view: Promise<MapView> | undefined;
   #layer: PointCloudLayer | undefined;
@@ -31,7 +39,8 @@ export class Beside {
     this.#viewer = viewer;
     this.#failed = failed;
     this.#begins = begins;
-    this.#box.addEventListener("change", () => this.show(this.#box.checked));
+    this.#choice.addEventListener("change", () => this.show(this.#choice.value as Shown));
+    for (const box of [this.#link, this.#north]) box.addEventListener("change", () => void this.#follow());
     this.#bar.addEventListener("pointerdown", (down) => this.#bar.setPointerCapture(down.pointerId));
     this.#bar.addEventListener("pointermove", (move) => {
       if (this.#bar.hasPointerCapture(move.pointerId)) this.#split(move);
@@ -44,17 +53,23 @@ export class Beside {
     return this.#view;
   }
 
-  /** Shows the map or takes it away. */
-  show(shown: boolean): void {
-    this.#box.checked = shown;
-    document.body.classList.toggle("beside", shown);
-    if (shown) void this.#attach();
+  /** Shows the globe, the map, or both. @param linked whether the two move together; default: as it is */
+  show(shown: Shown, linked = this.#link.checked): void {
+    this.#choice.value = shown;
+    this.#link.checked = linked;
+    document.body.classList.toggle("beside", shown === "both");
+    document.body.classList.toggle("map-alone", shown === "map");
+    byId("globe", HTMLElement).inert = shown === "map";
+    byId("link-fields", HTMLElement).hidden = shown !== "both";
+    this.#viewer.targetFrameRate = shown === "map" ? COVERED : (undefined as unknown as number);
+    if (shown !== "globe") void this.#attach();
+    else void this.#follow();
   }
 
   /** Shows a cloud on the map, now or when it is shown. */
   attach(layer: PointCloudLayer): void {
     this.#layer = layer;
-    if (this.#box.checked) void this.#attach();
+    if (this.#choice.value !== "globe") void this.#attach();
   }
 
   async #attach(): Promise<void> {
@@ -65,10 +80,19 @@ export class Beside {
         return view;
       });
       const view = await this.#view;
+      await this.#follow();
       if (this.#layer) view.attach(this.#layer);
     } catch (thrown) {
       this.#failed(thrown);
     }
+  }
+
+  /** Links the map to the globe as the panel says. */
+  async #follow(): Promise<void> {
+    const view = await this.#view;
+    view?.link(
+      this.#choice.value === "both" && this.#link.checked ? { northUp: this.#north.checked } : undefined,
+    );
   }
 
   /** Moves the bar to the pointer: along the longer side of the page. */

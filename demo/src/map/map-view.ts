@@ -1,6 +1,7 @@
 import "ol/ol.css";
 import { ecefToGeodetic } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
+import { type Link, synchronize } from "@groma/layer/link";
 import { PointCloudLayer as MapLayer, measureView, PointCloudSource } from "@groma/layer/openlayers";
 import type { ViewAdapter } from "@groma/layer/tools";
 import { buildModuleUrl, type Viewer } from "cesium";
@@ -13,6 +14,7 @@ import TileImage from "ol/source/TileImage.js";
 import TileGrid from "ol/tilegrid/TileGrid.js";
 import View from "ol/View.js";
 import { textElement } from "../panel/elements.js";
+import { freeArea } from "../panel/fold.js";
 
 /** Levels of the Natural Earth map that comes with Cesium, degrees per pixel. */
 const RESOLUTIONS = [180 / 256, 90 / 256, 45 / 256];
@@ -25,6 +27,7 @@ const FINEST = 0.05;
 /** A map beside the globe that shows the same cloud from above, drawn as the layer on the globe is. */
 export class MapView {
   readonly map: OlMap;
+  readonly #viewer: Viewer;
   readonly #failed: (thrown: unknown) => void;
   /** Where a tool points to. */
   readonly #mark = new Overlay({
@@ -32,6 +35,7 @@ export class MapView {
     positioning: "center-center",
     stopEvent: false,
   });
+  #link: Link | undefined;
   #layer: MapLayer | undefined;
   #source: PointCloudSource | undefined;
   #shown: PointCloudLayer | undefined;
@@ -40,6 +44,7 @@ export class MapView {
 
   /** @param failed told of what the map cannot draw */
   constructor(target: HTMLElement, viewer: Viewer, failed: (thrown: unknown) => void) {
+    this.#viewer = viewer;
     this.#failed = failed;
     this.map = new OlMap({
       target,
@@ -63,8 +68,21 @@ export class MapView {
     this.#followed = partsOf(layer);
     this.map.addLayer(shown);
     this.map.updateSize();
-    const extent = source.getExtent();
+    // A map in step shows what the globe does.
+    const extent = this.#link ? undefined : source.getExtent();
     if (extent && this.map.getSize()) this.map.getView().fit(extent, { padding: [24, 24, 24, 24] });
+  }
+
+  /** Keeps the map in step with the globe from now on; undefined: no longer. */
+  link(options: { readonly northUp: boolean } | undefined): void {
+    if (!options) {
+      this.#link?.dispose();
+      this.#link = undefined;
+      return;
+    }
+    this.#link ??= synchronize({ viewer: this.#viewer, map: this.map, middle, onError: this.#failed });
+    if (options.northUp) this.map.getView().setRotation(0);
+    this.#link.northUp = options.northUp;
   }
 
   /** Takes over what has changed of the layer on the globe. */
@@ -116,6 +134,12 @@ export class MapView {
     this.#layer = undefined;
     this.#source = undefined;
   }
+}
+
+/** The middle of what the panel leaves of the globe. */
+function middle(): { x: number; y: number } {
+  const { left, right, top, bottom } = freeArea();
+  return { x: (left + right) / 2, y: (top + bottom) / 2 };
 }
 
 function partsOf(layer: PointCloudLayer): unknown[] {

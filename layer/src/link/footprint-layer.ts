@@ -7,10 +7,9 @@ import Stroke from "ol/style/Stroke.js";
 import Style from "ol/style/Style.js";
 import { ringOnMap } from "./geometry/index.js";
 import type { GlobeSide } from "./globe-side.js";
+import { ACCENT } from "./looks.js";
 import type { MapSide } from "./map-side.js";
 
-/** Looks of what a link draws on a map; white under it makes it stand out from any ground. */
-export const ACCENT = "#f2b84b";
 const STYLE = [
   new Style({ stroke: new Stroke({ color: "rgba(0, 0, 0, 0.6)", width: 3 }) }),
   new Style({

@@ -1,9 +1,11 @@
-import { difference, type Vector } from "@groma/georef";
+import { cross, difference, dot, unit, type Vector } from "@groma/georef";
 import {
+  Cartesian2,
   Cartesian3,
   Cartographic,
   Ray as CesiumRay,
   EllipsoidTerrainProvider,
+  IntersectionTests,
   Matrix4,
   OrthographicFrustum,
   type PerspectiveFrustum,
@@ -19,6 +21,7 @@ import {
   geodeticOf,
   headingAt,
   heightOf,
+  meetSurface,
   moveCamera,
   type PictureHalves,
   placeLookedAt,
@@ -27,18 +30,32 @@ import {
 
 const scratch = { ray: new CesiumRay(), place: new Cartesian3(), cartographic: new Cartographic() };
 
+/** A place of a picture, CSS pixels from the upper left. */
+export interface ScreenPlace {
+  readonly x: number;
+  readonly y: number;
+}
+
 /** The globe as a link knows it: its camera, its ground, and the points on it. */
 export class GlobeSide {
   readonly scene: Scene;
   /** Height above WGS 84 of what the camera looks at, as it was found last, metres. */
   #height = 0;
+  /** Whether anything was found yet. */
+  #found = false;
   /** The camera, as it was told last. */
   #known: readonly number[] = [];
+  readonly #middle: (() => ScreenPlace) | undefined;
   readonly #unwatch: () => void;
 
-  /** @param moved called within a frame whose camera is another than the one known */
-  constructor(scene: Scene, moved: () => void) {
+  /**
+   * @param middle place of the picture that counts as its middle, asked for anew each time; default: half of its size
+   * @param moved called within a frame whose camera is another than the one known
+   */
+  constructor(scene: Scene, middle: (() => ScreenPlace) | undefined, moved: () => void) {
     this.scene = scene;
+    this.#middle = middle;
+    this.#height = this.guess() ?? 0;
     this.#known = this.#numbers();
     this.#unwatch = scene.preRender.addEventListener(() => {
       if (!this.#isKnown() && this.shown) moved();
@@ -56,16 +73,24 @@ export class GlobeSide {
     return { position: vector(positionWC), direction: vector(directionWC), up: vector(upWC) };
   }
 
+  /** Place of the picture whose ground is in the middle of the map, CSS pixels from the upper left. */
+  get middle(): ScreenPlace {
+    const { clientWidth, clientHeight } = this.scene.canvas;
+    return this.#middle?.() ?? { x: clientWidth / 2, y: clientHeight / 2 };
+  }
+
   /** What the camera looks at. */
   get view(): GroundView {
     const { pose } = this;
-    const place = this.#lookedAt(pose);
+    const ray = this.#rayAt(pose, this.middle);
+    const place = this.#lookedAt({ ...pose, direction: ray });
     const { camera, canvas } = this.scene;
     const { frustum } = camera;
+    const depth = distance(place, pose.position) * dot(ray, pose.direction);
     const metresPerPixel =
       frustum instanceof OrthographicFrustum
         ? (frustum.width ?? 1) / canvas.clientWidth
-        : (2 * distance(place, pose.position) * tangents(frustum).up) / canvas.clientHeight;
+        : (2 * depth * tangents(frustum).up) / canvas.clientHeight;
     return { place, heading: headingAt(pose, place), metresPerPixel };
   }
 
@@ -84,6 +109,21 @@ export class GlobeSide {
 
   set height(metres: number) {
     this.#height = metres;
+    this.#found = true;
+  }
+
+  /** Until anything is found, the height of the middle of the points ahead. */
+  guess(): number | undefined {
+    if (this.#found) return undefined;
+    const { positionWC, directionWC } = this.scene.camera;
+    const ray = new CesiumRay(positionWC, directionWC);
+    const ahead = this.layers.find(({ boundingSphere }) => IntersectionTests.raySphere(ray, boundingSphere));
+    return ahead && heightOf(vector(ahead.boundingSphere.center));
+  }
+
+  /** Whether points of the view are still on their way. */
+  get loads(): boolean {
+    return this.layers.some(({ settled }) => !settled);
   }
 
   /** Has the camera look at another place in the way in which it looks now. @param turns whether its heading changes */
@@ -91,7 +131,7 @@ export class GlobeSide {
     const now = this.view;
     const from = { place: now.place, heading: now.heading };
     const to = { place: ground.place, heading: turns ? ground.heading : now.heading };
-    this.#height = heightOf(ground.place);
+    this.height = heightOf(ground.place);
     const scale = ground.metresPerPixel / now.metresPerPixel;
     const { frustum } = this.scene.camera;
     if (frustum instanceof OrthographicFrustum) frustum.width = (frustum.width ?? 1) * scale;
@@ -133,16 +173,35 @@ export class GlobeSide {
    * @param at CSS pixels from the upper left
    * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
    */
-  async pick(
-    at: { readonly x: number; readonly y: number },
-    signal: AbortSignal,
-  ): Promise<Vector | undefined> {
+  async pick(at: ScreenPlace, signal: AbortSignal): Promise<Vector | undefined> {
     const hits = await Promise.all(this.layers.map((layer) => layer.pick(at, { signal })));
     const eye = this.scene.camera.positionWC;
     const away = (hit: (typeof hits)[number]) =>
       hit ? Cartesian3.distance(eye, hit.position) : Number.POSITIVE_INFINITY;
     const nearest = hits.sort((a, b) => away(a) - away(b))[0];
     return nearest && vector(nearest.position);
+  }
+
+  /** The place that the globe shows at a place of its picture: of a point, else of the ground. @throws as {@link pick} */
+  async placeAt(at: ScreenPlace, signal: AbortSignal): Promise<Vector | undefined> {
+    const point = await this.pick(at, signal);
+    if (point) return point;
+    const found = this.scene.camera.getPickRay(new Cartesian2(at.x, at.y));
+    const ray = found && { origin: vector(found.origin), direction: vector(found.direction) };
+    return ray && ((this.#terrain && this.#pickTerrain(ray)) ?? meetSurface(ray, this.#height));
+  }
+
+  /** Flies to where the camera looks at a place in the way in which it looks now. @param seconds 0: at once */
+  flyTo(place: Vector, seconds: number): void {
+    const { view } = this;
+    const from = { place: view.place, heading: view.heading };
+    const pose = moveCamera(this.pose, from, { place, heading: view.heading }, 1);
+    const [destination, direction, up] = [pose.position, pose.direction, pose.up].map(
+      ([x, y, z]) => new Cartesian3(x, y, z),
+    );
+    this.#height = heightOf(place);
+    this.scene.camera.flyTo({ destination, orientation: { direction, up }, duration: seconds });
+    this.scene.requestRender();
   }
 
   /** Layers of points that are shown. */
@@ -160,6 +219,21 @@ export class GlobeSide {
     return globe?.show && !(globe.terrainProvider instanceof EllipsoidTerrainProvider) ? globe : undefined;
   }
 
+  /** Direction from the camera through a place of its picture; without perspective it is that of the camera. */
+  #rayAt({ direction, up }: CameraPose, { x, y }: ScreenPlace): Vector {
+    const { camera, canvas } = this.scene;
+    if (camera.frustum instanceof OrthographicFrustum) return direction;
+    const halves = tangents(camera.frustum);
+    const [a, b] = [
+      ((2 * x) / canvas.clientWidth - 1) * halves.right,
+      (1 - (2 * y) / canvas.clientHeight) * halves.up,
+    ];
+    const right = cross(direction, up);
+    const along = (axis: number) => direction[axis] + a * right[axis] + b * up[axis];
+    return unit([along(0), along(1), along(2)]);
+  }
+
+  /** @param pose a camera whose direction is that of the ray */
   #lookedAt(pose: CameraPose): Vector {
     const { position: origin, direction } = pose;
     const onTerrain = this.#terrain && this.#pickTerrain({ origin, direction });

@@ -1,4 +1,5 @@
 export type { Fault, FaultWire, GromaError } from "@groma/georef";
 export { StyleError } from "../errors/index.js";
+export type { ScreenPlace } from "./globe-side.js";
 export { Link, type LinkOptions, synchronize } from "./synchronize.js";
 export type { Move, MoveOrigin, ViewMode } from "./view-link.js";

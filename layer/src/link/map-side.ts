@@ -4,7 +4,7 @@ import { unByKey } from "ol/Observable.js";
 import { getTransform, get as projectionOf } from "ol/proj.js";
 import type View from "ol/View.js";
 import { PointCloudLayer } from "../openlayers/index.js";
-import { heightOf, type MapView, type Plane } from "./geometry/index.js";
+import { geodeticOf, heightOf, type MapView, type Plane, placeOn, unwrapped } from "./geometry/index.js";
 
 const DEGREE = Math.PI / 180;
 const NOWHERE = [Number.NaN, Number.NaN] as const;
@@ -65,6 +65,12 @@ export class MapSide {
     this.know();
   }
 
+  /** Moves the middle to a place, which is a move of the map's own. @param seconds 0: at once */
+  flyTo(place: Vector, seconds: number): void {
+    const coordinate = this.coordinateOf(place);
+    if (coordinate) this.map.getView().animate({ center: [...coordinate], duration: 1000 * seconds });
+  }
+
   /** Takes the view as it is for known. */
   know(): void {
     this.#known = this.view;
@@ -104,6 +110,31 @@ export class MapSide {
       return [[x, y, z]];
     });
     return places.sort((a, b) => heightOf(b) - heightOf(a))[0];
+  }
+
+  /**
+   * The place that the map shows at a pixel: of a point, else of the ground.
+   * @param height of the ground there above WGS 84, metres
+   * @throws as {@link pick}
+   */
+  async placeAt(
+    pixel: readonly [number, number],
+    height: number,
+    signal: AbortSignal,
+  ): Promise<Vector | undefined> {
+    const coordinate = this.map.getCoordinateFromPixel([...pixel]);
+    const point = await this.pick(pixel, signal);
+    return point ?? (coordinate && placeOn(this.plane, coordinate, height));
+  }
+
+  /** Where a place of ECEF is on the map, in the world that it shows; undefined where it has none. */
+  coordinateOf(place: Vector): readonly [number, number] | undefined {
+    const [longitude, latitude] = geodeticOf(place);
+    const { plane } = this;
+    const [x, y] = plane.forward(longitude, latitude);
+    if (!Number.isFinite(x) || !Number.isFinite(y)) return undefined;
+    const near = this.view?.center[0] ?? x;
+    return [near + unwrapped(x - near, plane.worldWidth), y];
   }
 
   dispose(): void {

@@ -1,10 +1,23 @@
-import type { Scene } from "cesium";
+import type { PointPrimitive, Scene } from "cesium";
 import type Feature from "ol/Feature.js";
+import type Point from "ol/geom/Point.js";
 import type Polygon from "ol/geom/Polygon.js";
 import type OlMap from "ol/Map.js";
-import { flag, type Kinds, kindOf, oneOf, optionPlace, parts, withMethods } from "../options/index.js";
+import {
+  flag,
+  type Kinds,
+  kindOf,
+  number,
+  oneOf,
+  optionPlace,
+  parts,
+  withMethods,
+} from "../options/index.js";
+import { CameraHandle } from "./camera-handle.js";
+import { Clicks } from "./clicks.js";
+import { Cursors } from "./cursors.js";
 import { FootprintLayer } from "./footprint-layer.js";
-import { GlobeSide } from "./globe-side.js";
+import { GlobeSide, type ScreenPlace } from "./globe-side.js";
 import { MapSide } from "./map-side.js";
 import { type Move, ViewLink, type ViewMode } from "./view-link.js";
 
@@ -20,14 +33,29 @@ export interface LinkOptions {
   readonly view?: ViewMode | undefined;
   /** Whether the map and the globe keep their turn, whatever the other's is. Default: false. */
   readonly northUp?: boolean | undefined;
+  /**
+   * The place of the globe's picture whose ground is in the middle of the map, CSS pixels from its upper left, where
+   * something covers a part of the picture. Asked for at each move. Default: half of its size.
+   */
+  readonly middle?: (() => ScreenPlace) | undefined;
   /** Whether the map shows the ground that the globe's camera sees. Default: true. */
   readonly footprint?: boolean | undefined;
+  /** Whether the map shows the globe's camera, which can be dragged and turned there. Default: true. */
+  readonly camera?: boolean | undefined;
+  /** Whether the place under the pointer of one side is marked on the other. Default: true. */
+  readonly cursor?: boolean | undefined;
+  /** Whether a click on one side takes the other there. Default: false. */
+  readonly click?: boolean | undefined;
+  /** Seconds of a flight that a click sets off; 0 for readers who asked for less motion. Default: 1.5. */
+  readonly flight?: number | undefined;
   /** Hears what kept a record from being read. Default: `reportError`. */
   readonly onError?: ((thrown: unknown) => void) | undefined;
 }
 
-/** All options, those by default among them. */
-type Complete = { readonly [Name in keyof LinkOptions]-?: NonNullable<LinkOptions[Name]> };
+/** All options, those by default among them; without a middle of its own, the picture's is taken. */
+type Complete = Pick<LinkOptions, "middle"> & {
+  readonly [Name in Exclude<keyof LinkOptions, "middle">]-?: NonNullable<LinkOptions[Name]>;
+};
 
 const KINDS: Kinds<Complete> = {
   viewer: kindOf("a Viewer of Cesium", (given): given is LinkOptions["viewer"] => {
@@ -37,14 +65,26 @@ const KINDS: Kinds<Complete> = {
   map: withMethods<OlMap>("a Map of OpenLayers", "getView", "getAllLayers"),
   view: oneOf("both", "to-map", "to-globe", "none"),
   northUp: flag,
+  middle: kindOf(
+    "a function",
+    (given): given is Complete["middle"] => given === undefined || isFunction(given),
+  ),
   footprint: flag,
-  onError: kindOf("a function", (given): given is Complete["onError"] => typeof given === "function"),
+  camera: flag,
+  cursor: flag,
+  click: flag,
+  flight: number(0, 60),
+  onError: kindOf("a function", (given): given is Complete["onError"] => isFunction(given)),
 };
 const DEFAULTS: Partial<Complete> = {
-  ...{ view: "both", northUp: false, footprint: true },
+  ...{ view: "both", northUp: false, footprint: true, camera: true, cursor: true, click: false, flight: 1.5 },
   onError: (thrown) => reportError(thrown),
 };
 const PLACE = "synchronize";
+
+function isFunction(given: unknown): boolean {
+  return typeof given === "function";
+}
 
 /**
  * Keeps a globe of Cesium and a map of OpenLayers in step.
@@ -63,19 +103,31 @@ export class Link {
   readonly #map: MapSide;
   readonly #views: ViewLink;
   readonly #footprint: FootprintLayer | undefined;
+  readonly #handle: CameraHandle | undefined;
+  readonly #cursors: Cursors | undefined;
+  readonly #clicks: Clicks | undefined;
   readonly #listeners = new Set<(move: Move) => void>();
   #disposed = false;
 
   /** @throws StyleError STYLE_OPTION */
   constructor(options: LinkOptions) {
-    const place = optionPlace("options", PLACE);
-    const { viewer, map, view, northUp, footprint, onError } = parts(KINDS, DEFAULTS).read(options, place);
-    this.#globe = new GlobeSide(viewer.scene, () => this.#views.globeMoved());
-    this.#map = new MapSide(map, () => this.#views.mapMoved());
-    const told = (move: Move | undefined) => this.#told(move);
-    this.#views = new ViewLink(this.#globe, this.#map, { mode: view, northUp }, told, onError);
-    if (footprint) this.#footprint = new FootprintLayer(this.#globe, this.#map);
-    this.#views.carry();
+    const given = parts(KINDS, DEFAULTS).read(options, optionPlace("options", PLACE));
+    const { view: mode, northUp, onError } = given;
+    const globe = new GlobeSide(given.viewer.scene, given.middle, () => this.#views.globeMoved());
+    const map = new MapSide(given.map, () => this.#views.mapMoved());
+    const views = new ViewLink(globe, map, { mode, northUp }, (move) => this.#told(move), onError);
+    [this.#globe, this.#map, this.#views] = [globe, map, views];
+    if (given.footprint) this.#footprint = new FootprintLayer(globe, map);
+    if (given.camera) {
+      const dragged = () => this.#told({ origin: "handle", target: "globe" });
+      this.#handle = new CameraHandle(globe, map, dragged, (held) => {
+        views.held = held;
+      });
+    }
+    if (given.cursor) this.#cursors = new Cursors(globe, map, onError);
+    const seconds = () => (matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : given.flight);
+    if (given.click) this.#clicks = new Clicks(globe, map, seconds, onError);
+    views.carry();
   }
 
   /** Which view follows which. @throws StyleError STYLE_OPTION */
@@ -103,6 +155,16 @@ export class Link {
     return this.#footprint?.feature;
   }
 
+  /** The globe's camera on the map; undefined where it is not shown. */
+  get camera(): Feature<Point> | undefined {
+    return this.#handle?.feature;
+  }
+
+  /** The marks of the pointer on the map and on the globe; undefined where there are none. */
+  get cursor(): { readonly map: Feature<Point>; readonly globe: PointPrimitive } | undefined {
+    return this.#cursors && { map: this.#cursors.feature, globe: this.#cursors.point };
+  }
+
   /** Calls back after each move that was carried over. @returns what ends that */
   onMove(listener: (move: Move) => void): () => void {
     this.#listeners.add(listener);
@@ -114,7 +176,7 @@ export class Link {
     if (this.#disposed) return;
     this.#disposed = true;
     this.#views.dispose();
-    this.#footprint?.dispose();
+    for (const part of [this.#footprint, this.#handle, this.#cursors, this.#clicks]) part?.dispose();
     this.#globe.dispose();
     this.#map.dispose();
     this.#listeners.clear();
@@ -122,6 +184,7 @@ export class Link {
 
   #told(move: Move | undefined): void {
     this.#footprint?.update();
+    this.#handle?.update();
     if (!move) return;
     for (const listener of this.#listeners) listener(move);
   }

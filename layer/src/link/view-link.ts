@@ -18,6 +18,8 @@ export interface Move {
 
 /** Milliseconds without a move after which the height of what is looked at is read from the points. */
 const REST = 150;
+/** What is found no longer counts. */
+const MOVED = "moved";
 /** Pixels by which that height has to differ from the one held for the views to be moved again. */
 const WORTH = 0.1;
 
@@ -73,7 +75,8 @@ export class ViewLink {
       this.#frame = undefined;
       if (!this.#map.hasMoved) return;
       this.#map.know();
-      this.#showOnGlobe("map");
+      // Also where the globe stays: what is drawn on the map may have to follow to another projection.
+      if (!this.#showOnGlobe("map")) this.#told(undefined);
     });
   }
 
@@ -100,26 +103,28 @@ export class ViewLink {
     this.#told(view && { origin, target: "map" });
   }
 
-  #showOnGlobe(origin: MoveOrigin, height?: number): void {
+  #showOnGlobe(origin: MoveOrigin, height?: number): boolean {
     const [globe, map] = [this.#globe, this.#map];
     const { view } = map;
-    if (!view || !globe.shown || (this.mode !== "both" && this.mode !== "to-globe")) return;
+    if (!view || !globe.shown || (this.mode !== "both" && this.mode !== "to-globe")) return false;
     const [longitude, latitude] = map.plane.inverse(...view.center);
     const ground = toGroundView(map.plane, view, height ?? globe.heightAt(longitude, latitude));
-    if (!ground) return;
+    if (!ground) return false;
     globe.show(ground, !this.northUp);
     this.#told({ origin, target: "globe" });
     if (height === undefined) this.#atRest(() => this.#readBelow());
+    return true;
   }
 
   /** The point in the middle of the globe's picture says how high lies what the camera looks at. */
   async #readAhead(): Promise<void> {
     const globe = this.#globe;
-    const { clientWidth, clientHeight } = globe.scene.canvas;
-    const found = await this.#look((signal) =>
-      globe.pick({ x: clientWidth / 2, y: clientHeight / 2 }, signal),
-    );
-    if (found && this.#differs(found)) this.#showOnMap("globe");
+    const found = await this.#look((signal) => globe.pick(globe.middle, signal));
+    if (found === MOVED) return;
+    const height = found ? heightOf(found) : globe.guess();
+    if (height !== undefined && this.#differs(height)) this.#showOnMap("globe");
+    // What is there now may not be what is there soon.
+    if (globe.loads) this.#atRest(() => this.#readAhead());
   }
 
   /** The point in the middle of the map says how high lies what it shows there. */
@@ -127,29 +132,31 @@ export class ViewLink {
     const map = this.#map;
     const [width, height] = map.map.getSize() ?? [0, 0];
     const found = await this.#look((signal) => map.pick([width / 2, height / 2], signal));
-    if (found && this.#differs(found)) this.#showOnGlobe("map", this.#globe.height);
+    if (found === MOVED) return;
+    if (found && this.#differs(heightOf(found))) this.#showOnGlobe("map", this.#globe.height);
+    if (this.#globe.loads) this.#atRest(() => this.#readBelow());
   }
 
-  /** Takes over the height of a point. @returns whether the views would show it */
-  #differs(found: Vector): boolean {
+  /** Takes over a height of what is looked at. @returns whether the views would show it */
+  #differs(height: number): boolean {
     const globe = this.#globe;
-    const { metresPerPixel } = globe.view;
-    const height = heightOf(found);
-    const differs = Math.abs(height - globe.height) > WORTH * metresPerPixel;
+    const differs = Math.abs(height - globe.height) > WORTH * globe.view.metresPerPixel;
     globe.height = height;
     return differs;
   }
 
   /** What a pick finds, unless anything moved meanwhile. */
-  async #look(pick: (signal: AbortSignal) => Promise<Vector | undefined>): Promise<Vector | undefined> {
+  async #look(
+    pick: (signal: AbortSignal) => Promise<Vector | undefined>,
+  ): Promise<Vector | undefined | typeof MOVED> {
     const looking = new AbortController();
     this.#looking = looking;
     try {
       const found = await pick(looking.signal);
-      return looking.signal.aborted ? undefined : found;
+      return looking.signal.aborted ? MOVED : found;
     } catch (thrown) {
       if (!looking.signal.aborted) this.#failed(thrown);
-      return undefined;
+      return MOVED;
     }
   }
 

@@ -1,4 +1,4 @@
-import { cross, difference, dot, eastNorthUp, pointIn, turnIn, type Vector } from "@groma/georef";
+import { cross, difference, dot, eastNorthUp, turnIn, type Vector } from "@groma/georef";
 import { heightOf, horizonBelow, meetSurface, type Ray, upAt } from "./surface.js";
 
 /** Where a camera stands and how it is turned, ECEF. */
@@ -111,30 +111,4 @@ function axesOf({ place, heading }: Target): readonly [Vector, Vector, Vector] {
     a * east[2] + b * north[2],
   ];
   return [mix(cosine, -sine), mix(sine, cosine), up];
-}
-
-/**
- * A camera at the same place that looks at another one, upright.
- * @param place ECEF, metres
- */
-export function turnTowards({ position, up }: CameraPose, place: Vector): CameraPose {
-  const frame = eastNorthUp(position);
-  const [east, north, rise] = pointIn(frame, ...place);
-  const distance = Math.hypot(east, north, rise);
-  if (distance === 0) return { position, direction: [-up[0], -up[1], -up[2]], up };
-  const level = Math.hypot(east, north);
-  // Straight down, the picture's upper edge is the north.
-  const [sine, cosine] = level > 1e-9 * distance ? [east / level, north / level] : [0, 1];
-  const [dip, flat] = [-rise / distance, level / distance];
-  const { rotation: r } = frame;
-  const out = (x: number, y: number, z: number): Vector => [
-    r[0] * x + r[3] * y + r[6] * z,
-    r[1] * x + r[4] * y + r[7] * z,
-    r[2] * x + r[5] * y + r[8] * z,
-  ];
-  return {
-    position,
-    direction: out(east / distance, north / distance, rise / distance),
-    up: out(dip * sine, dip * cosine, flat),
-  };
 }

@@ -4,7 +4,6 @@ export {
   moveCamera,
   placeLookedAt,
   type Target,
-  turnTowards,
 } from "./camera.js";
 export { footprintOf, type PictureHalves, ringOnMap } from "./footprint.js";
 export {
@@ -15,5 +14,6 @@ export {
   placeOn,
   toGroundView,
   toMapView,
+  unwrapped,
 } from "./plane-view.js";
 export { alongRay, heightOf, meetSurface, type Ray, upAt } from "./surface.js";
