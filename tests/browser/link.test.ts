@@ -1,3 +1,4 @@
+import type { DrawEvent } from "ol/interaction/Draw.js";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
 import { pythonMissing } from "../python.js";
 import { screenshot } from "./harness.js";
@@ -516,6 +517,188 @@ describe.skipIf(pythonMissing)(
       expect(Math.hypot(back.center[0]! - back.source![0]!, back.center[1]! - back.source![1]!)).toBeLessThan(
         0.5,
       );
+    });
+
+    describe("shared features", () => {
+      /** Links with a source of features, which the map draws and lets the reader draw and move. */
+      const sharing = async () => {
+        const boxes = await linked({ camera: false, footprint: false, cursor: false });
+        await stage.page.evaluate(async () => {
+          const { linked } = window;
+          const { ol, stage, synchronize } = linked;
+          const { map } = stage.maps[0]!;
+          linked.link.dispose();
+          const features = new ol.VectorSource();
+          map.addLayer(new ol.VectorLayer({ source: features }));
+          linked.link = synchronize({
+            viewer: stage.globe.widget,
+            map,
+            view: "none",
+            cursor: false,
+            camera: false,
+            features,
+          });
+          linked.features = features;
+        });
+        return boxes;
+      };
+      /** Vertices of the only feature on the map, and where the globe shows them, as coordinates of the map and heights. */
+      const both = (feature = 0) =>
+        stage.page.evaluate(async (at) => {
+          const { stage, features, link, ol, Cesium, sketch } = window.linked;
+          await new Promise((done) => setTimeout(done, 300));
+          stage.globe.frame();
+          const one = features.getFeatures()[at] ?? sketch!;
+          const { vertices, ways } = link.placesOf(one);
+          const onMap = (one.getGeometry() as InstanceType<typeof ol.LineString>).getCoordinates();
+          const onGlobe = vertices.map(([x, y, z]) => {
+            const { longitude, latitude, height } = Cesium.Cartographic.fromCartesian(
+              new Cesium.Cartesian3(x, y, z),
+            );
+            const degrees = [longitude, latitude].map(Cesium.Math.toDegrees);
+            return [...ol.fromLonLat(degrees, "EPSG:32632"), height];
+          });
+          return { onMap, onGlobe, parts: ways.map((way) => way.length) };
+        }, feature);
+      /** Greatest distance of vertices on the map from those on the globe, metres. */
+      const apart = ({ onMap, onGlobe }: { onMap: number[][]; onGlobe: number[][] }) =>
+        Math.max(...onMap.map(([x, y], at) => Math.hypot(x! - onGlobe[at]![0]!, y! - onGlobe[at]![1]!)));
+
+      it("show on the globe while they are drawn on the map, and when they are moved", {
+        timeout: 120_000,
+      }, async () => {
+        const { map } = await sharing();
+        await stage.page.evaluate(() => {
+          const { linked } = window;
+          const { ol, stage, link, features } = linked;
+          const { map } = stage.maps[0]!;
+          const draw = new ol.Draw({ source: features, type: "LineString" });
+          link.follow(draw);
+          draw.on("drawstart", (event: DrawEvent) => {
+            linked.sketch = event.feature;
+          });
+          map.addInteraction(draw);
+          linked.draw = draw;
+        });
+        const { mouse } = stage.page;
+        await mouse.click(map[0]! + 280, map[1]! + 190);
+        await mouse.move(map[0]! + 330, map[1]! + 210, { steps: 3 });
+        const drawn = await both();
+        expect(drawn.onMap.length).toBe(2);
+        expect(drawn.onGlobe.length).toBe(2);
+        expect(apart(drawn)).toBeLessThan(1e-3);
+        // At the height of the points there, not on the ellipsoid.
+        for (const [, , height] of drawn.onGlobe) expect(Math.abs(height! - 500)).toBeLessThan(0.5);
+        await mouse.dblclick(map[0]! + 330, map[1]! + 210);
+        const ended = await both();
+        expect(ended.onMap.length).toBe(2);
+        expect(apart(ended)).toBeLessThan(1e-3);
+        await stage.page.evaluate(() => {
+          const { ol, stage, features, draw } = window.linked;
+          const { map } = stage.maps[0]!;
+          map.removeInteraction(draw!);
+          map.addInteraction(new ol.Modify({ source: features }));
+        });
+        await mouse.move(map[0]! + 330, map[1]! + 210);
+        await mouse.down();
+        await mouse.move(map[0]! + 350, map[1]! + 180, { steps: 3 });
+        const dragged = await both();
+        expect(
+          Math.hypot(...[0, 1].map((axis) => dragged.onMap[1]![axis]! - ended.onMap[1]![axis]!)),
+        ).toBeGreaterThan(1);
+        expect(apart(dragged)).toBeLessThan(1e-3);
+        await mouse.up();
+        await screenshot(stage.page, "link-features");
+        const left = await stage.page.evaluate(async () => {
+          const { features, link, stage } = window.linked;
+          const [feature] = features.getFeatures();
+          features.clear();
+          await stage.frames(2);
+          return link.placesOf(feature!);
+        });
+        expect(left).toEqual({ vertices: [], ways: [] });
+      });
+
+      it("are drawn and moved on the globe, at the records there", { timeout: 120_000 }, async () => {
+        const { globe } = await sharing();
+        const { mouse } = stage.page;
+        await stage.page.evaluate(() => {
+          void window.linked.link.draw("LineString");
+        });
+        const settle = () => stage.page.waitForTimeout(400);
+        const frames = setInterval(() => {
+          stage.page.evaluate(() => window.linked.stage.globe.frame()).catch(() => undefined);
+        }, 50);
+        try {
+          await mouse.click(globe[0]! + 180, globe[1]! + 140);
+          await settle();
+          // It is on the map from its first vertex on.
+          expect(await stage.page.evaluate(() => window.linked.features.getFeatures().length)).toBe(1);
+          await mouse.dblclick(globe[0]! + 220, globe[1]! + 160);
+          await settle();
+          const drawn = await both();
+          expect(drawn.onMap.length).toBe(2);
+          expect(apart(drawn)).toBeLessThan(1e-3);
+          const from = await stage.page.evaluate(() => {
+            const { link, features, stage, Cesium } = window.linked;
+            const [x, y, z] = link.placesOf(features.getFeatures()[0]!).vertices[1]!;
+            const { camera } = stage.globe.scene;
+            const at = stage.globe.scene.cartesianToCanvasCoordinates(new Cesium.Cartesian3(x, y, z))!;
+            return { x: at.x, y: at.y, camera: [camera.position.x, camera.heading] };
+          });
+          await mouse.move(globe[0]! + from.x, globe[1]! + from.y);
+          await mouse.down();
+          await mouse.move(globe[0]! + 240, globe[1]! + 130, { steps: 4 });
+          await settle();
+          const picked = await stage.page.evaluate(async () => {
+            const { stage, Cesium } = window.linked;
+            const hit = await stage.globe.layer.pick(new Cesium.Cartesian2(240, 130));
+            return [...hit!.source];
+          });
+          // Still held: the map has it already.
+          const held = await both();
+          await mouse.up();
+          await settle();
+          expect(Math.hypot(held.onMap[1]![0]! - picked[0]!, held.onMap[1]![1]! - picked[1]!)).toBeLessThan(
+            1e-3,
+          );
+          expect(held.onMap[1]![2]).toBeCloseTo(picked[2]!, 3);
+          expect(apart(held)).toBeLessThan(1e-3);
+          const after = await stage.page.evaluate(() => {
+            const { camera, screenSpaceCameraController } = window.linked.stage.globe.scene;
+            return {
+              camera: [camera.position.x, camera.heading],
+              enabled: screenSpaceCameraController.enableInputs,
+            };
+          });
+          expect(after).toEqual({ camera: from.camera, enabled: true });
+        } finally {
+          clearInterval(frames);
+        }
+        await screenshot(stage.page, "link-features-globe");
+      });
+
+      it("follow the map's line where the ground bends away from a chord", { timeout: 120_000 }, async () => {
+        await sharing();
+        const off = await stage.page.evaluate(async () => {
+          const { ol, features, link, stage, Cesium } = window.linked;
+          const line = [
+            [500_000, 5_200_000, 0],
+            [500_000, 5_210_000, 0],
+          ];
+          const feature = new ol.Feature(new ol.LineString(line));
+          features.addFeature(feature);
+          await stage.frames(2);
+          const [way] = link.placesOf(feature).ways;
+          // Middles of chords lie below the ellipsoid by what the ground bends.
+          return way!.slice(1).map((place, at) => {
+            const middle = place.map((value, axis) => (value + way![at]![axis]!) / 2);
+            return Cesium.Cartographic.fromCartesian(new Cesium.Cartesian3(...middle)).height;
+          });
+        });
+        expect(off.length).toBeGreaterThan(40);
+        expect(Math.min(...off)).toBeGreaterThan(-1.01e-3);
+      });
     });
   },
 );

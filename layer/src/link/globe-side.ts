@@ -191,6 +191,11 @@ export class GlobeSide {
     return ray && ((this.#terrain && this.#pickTerrain(ray)) ?? meetSurface(ray, this.#height));
   }
 
+  /** Where a place of ECEF is in the picture; undefined where it is behind the camera. */
+  pixelOf(place: Vector): ScreenPlace | undefined {
+    return this.scene.cartesianToCanvasCoordinates(new Cartesian3(...place));
+  }
+
   /** Flies to where the camera looks at a place in the way in which it looks now. @param seconds 0: at once */
   flyTo(place: Vector, seconds: number): void {
     const { view } = this;

@@ -1,5 +1,6 @@
-export type { Fault, FaultWire, GromaError } from "@groma/georef";
+export type { Fault, FaultWire, GromaError, Vector } from "@groma/georef";
 export { StyleError } from "../errors/index.js";
+export type { DrawnKind } from "./globe-editing.js";
 export type { ScreenPlace } from "./globe-side.js";
 export { Link, type LinkOptions, synchronize } from "./synchronize.js";
 export type { Move, MoveOrigin, ViewMode } from "./view-link.js";

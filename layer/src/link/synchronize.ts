@@ -1,8 +1,11 @@
+import type { Vector } from "@groma/georef";
 import type { PointPrimitive, Scene } from "cesium";
 import type Feature from "ol/Feature.js";
 import type Point from "ol/geom/Point.js";
 import type Polygon from "ol/geom/Polygon.js";
+import type Draw from "ol/interaction/Draw.js";
 import type OlMap from "ol/Map.js";
+import VectorSource from "ol/source/Vector.js";
 import {
   flag,
   type Kinds,
@@ -17,8 +20,10 @@ import { CameraHandle } from "./camera-handle.js";
 import { Clicks } from "./clicks.js";
 import { Cursors } from "./cursors.js";
 import { FootprintLayer } from "./footprint-layer.js";
+import { type DrawnKind, GlobeEditing } from "./globe-editing.js";
 import { GlobeSide, type ScreenPlace } from "./globe-side.js";
 import { MapSide } from "./map-side.js";
+import { SharedFeatures } from "./shared-features.js";
 import { type Move, ViewLink, type ViewMode } from "./view-link.js";
 
 /** How a globe and a map are linked. */
@@ -48,13 +53,20 @@ export interface LinkOptions {
   readonly click?: boolean | undefined;
   /** Seconds of a flight that a click sets off; 0 for readers who asked for less motion. Default: 1.5. */
   readonly flight?: number | undefined;
+  /**
+   * Features of the map that the globe shows as well. Their vertices can be dragged on the globe, and others drawn there
+   * (`draw`); what is drawn on the map shows on the globe meanwhile (`follow`).
+   */
+  readonly features?: VectorSource | undefined;
   /** Hears what kept a record from being read. Default: `reportError`. */
   readonly onError?: ((thrown: unknown) => void) | undefined;
 }
 
-/** All options, those by default among them; without a middle of its own, the picture's is taken. */
-type Complete = Pick<LinkOptions, "middle"> & {
-  readonly [Name in Exclude<keyof LinkOptions, "middle">]-?: NonNullable<LinkOptions[Name]>;
+/** Options without a default. */
+type Without = "middle" | "features";
+/** All options, those by default among them. */
+type Complete = Pick<LinkOptions, Without> & {
+  readonly [Name in Exclude<keyof LinkOptions, Without>]-?: NonNullable<LinkOptions[Name]>;
 };
 
 const KINDS: Kinds<Complete> = {
@@ -74,6 +86,10 @@ const KINDS: Kinds<Complete> = {
   cursor: flag,
   click: flag,
   flight: number(0, 60),
+  features: kindOf(
+    "a VectorSource of OpenLayers",
+    (given): given is Complete["features"] => given === undefined || given instanceof VectorSource,
+  ),
   onError: kindOf("a function", (given): given is Complete["onError"] => isFunction(given)),
 };
 const DEFAULTS: Partial<Complete> = {
@@ -106,6 +122,8 @@ export class Link {
   readonly #handle: CameraHandle | undefined;
   readonly #cursors: Cursors | undefined;
   readonly #clicks: Clicks | undefined;
+  readonly #shared: SharedFeatures | undefined;
+  readonly #editing: GlobeEditing | undefined;
   readonly #listeners = new Set<(move: Move) => void>();
   #disposed = false;
 
@@ -127,6 +145,10 @@ export class Link {
     if (given.cursor) this.#cursors = new Cursors(globe, map, onError);
     const seconds = () => (matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : given.flight);
     if (given.click) this.#clicks = new Clicks(globe, map, seconds, onError);
+    if (given.features) {
+      this.#shared = new SharedFeatures(globe, map, given.features, onError);
+      this.#editing = new GlobeEditing(globe, this.#shared, onError);
+    }
     views.carry();
   }
 
@@ -165,6 +187,34 @@ export class Link {
     return this.#cursors && { map: this.#cursors.feature, globe: this.#cursors.point };
   }
 
+  /**
+   * Shows on the globe what an interaction of the map draws, while it is drawn.
+   * @returns what ends that
+   * @throws StyleError STYLE_OPTION where the link has no features
+   */
+  follow(draw: Draw): () => void {
+    return this.#mustShare(this.#shared).follow(draw);
+  }
+
+  /**
+   * Has the reader draw a feature by clicks on the globe; it is among the features from its first vertex on. A double click
+   * or Enter ends it, Escape gives it up.
+   * @returns undefined where the reader gives it up
+   * @throws StyleError STYLE_OPTION where the link has no features; the signal's reason when aborted
+   */
+  async draw(kind: DrawnKind, options: { readonly signal?: AbortSignal } = {}): Promise<Feature | undefined> {
+    const checked = oneOf("Point", "LineString", "Polygon").read(kind, optionPlace("kind", PLACE));
+    return this.#mustShare(this.#editing).draw(checked, options.signal);
+  }
+
+  /**
+   * Where the globe shows a feature, ECEF, metres: its vertices, and the ways of its lines with what is between them.
+   * @throws StyleError STYLE_OPTION where the link has no features
+   */
+  placesOf(feature: Feature): { readonly vertices: readonly Vector[]; readonly ways: readonly Vector[][] } {
+    return this.#mustShare(this.#shared).placesOf(feature);
+  }
+
   /** Calls back after each move that was carried over. @returns what ends that */
   onMove(listener: (move: Move) => void): () => void {
     this.#listeners.add(listener);
@@ -177,14 +227,21 @@ export class Link {
     this.#disposed = true;
     this.#views.dispose();
     for (const part of [this.#footprint, this.#handle, this.#cursors, this.#clicks]) part?.dispose();
+    this.#editing?.dispose();
+    this.#shared?.dispose();
     this.#globe.dispose();
     this.#map.dispose();
     this.#listeners.clear();
   }
 
+  #mustShare<Part>(part: Part | undefined): Part {
+    return part ?? optionPlace("features", PLACE).refuse("the link has no features", "give a VectorSource");
+  }
+
   #told(move: Move | undefined): void {
     this.#footprint?.update();
     this.#handle?.update();
+    this.#shared?.update();
     if (!move) return;
     for (const listener of this.#listeners) listener(move);
   }

@@ -2,6 +2,7 @@ import { Clip, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
 import { type Link, synchronize } from "@groma/layer/link";
 import { PointCloudLayer as MapLayer, PointCloudSource } from "@groma/layer/openlayers";
 import * as Cesium from "cesium";
+import type VectorSource from "ol/source/Vector.js";
 import { MapStage, type StageView } from "../map-stage/map-stage.js";
 import * as ol from "../map-stage/ol.js";
 import type { StageOptions } from "../stage/setting.js";
@@ -53,6 +54,10 @@ declare global {
       /** What stands, if anything. */
       stage: LinkStage;
       link: Link;
+      /** Features that both sides share, one that is being drawn, and what draws it. */
+      features: VectorSource;
+      sketch: InstanceType<typeof ol.Feature> | undefined;
+      draw: InstanceType<typeof ol.Draw> | undefined;
     };
   }
 }

@@ -1,5 +1,8 @@
 /** The parts of OpenLayers that tests use. */
 export { default as Feature } from "ol/Feature.js";
+export { default as LineString } from "ol/geom/LineString.js";
+export { default as Draw } from "ol/interaction/Draw.js";
+export { default as Modify } from "ol/interaction/Modify.js";
 export { default as VectorLayer } from "ol/layer/Vector.js";
 export { default as OlMap } from "ol/Map.js";
 export { default as Projection } from "ol/proj/Projection.js";
