@@ -254,6 +254,125 @@ describe.skipIf(pythonMissing)(
       stage.watch.errors.length = 0;
     });
 
+    it("shows a scan on 180° in one piece, whichever world the map shows", { timeout: 120_000 }, async () => {
+      const errors: string[] = [];
+      for (const [world, projection] of [
+        [0, "EPSG:3857"],
+        [-1, "EPSG:3857"],
+        [1, "EPSG:4326"],
+      ] as const) {
+        await stage.page.evaluate(() => window.map.stage?.destroy());
+        const seen = await stage.page.evaluate(
+          async ([turn, code]) => {
+            const { MapStage } = window.map;
+            const metres = code === "EPSG:3857";
+            // The middle of the scan lies 20 m west of 180°; at 47° Mercator's metre is 0.68 m of ground.
+            const [edge, y] = metres ? [20037508.342789244, 5_935_000] : [180, 46.95];
+            const view = {
+              projection: code as string,
+              center: [edge * (1 + 2 * (turn as number)), y as number],
+            };
+            const resolution = metres ? 0.1 : 0.1 / 111_000;
+            const crs =
+              "+proj=tmerc +lat_0=0 +lon_0=180 +k=0.9996 +x_0=500000 +y_0=0 +datum=WGS84 +units=m +no_defs";
+            const source = { url: "/clouds/stripes.copc.laz", crs };
+            const options = { view: { ...view, resolution }, layer: { style: { pointSize: 3 } }, source };
+            window.map.stage = new MapStage(options) as typeof window.map.stage;
+            const { stage } = window.map;
+            await stage.source.opened();
+            const [minX, minY, maxX, maxY] = stage.source.getExtent(code as string)!;
+            const middle = [edge * (1 + 2 * (turn as number)), (minY + maxY) / 2];
+            await stage.show({ ...view, center: middle, resolution });
+            const columns = stage.lit().map(([x]) => x);
+            return {
+              ...{ lit: columns.length, left: Math.min(...columns), right: Math.max(...columns) },
+              ...{ errors: stage.errors, width: maxX - minX },
+            };
+          },
+          [world, projection] as const,
+        );
+        errors.push(...seen.errors);
+        // Both halves, and the middle of the scan in the middle of the map.
+        expect(seen.lit).toBeGreaterThan(20_000);
+        expect(Math.abs(seen.left + seen.right - 600)).toBeLessThan(8);
+        expect(seen.right - seen.left).toBeGreaterThan(180);
+      }
+      await screenshot(stage.page, "map-antimeridian");
+      expect(errors).toEqual([]);
+    });
+
+    it("draws as many pixels as the screen has, and only within the layer's extent", {
+      timeout: 120_000,
+    }, async () => {
+      await open("stripes");
+      const once = await stage.page.evaluate(() => window.map.stage.lit().length);
+      await stage.page.evaluate(() => window.map.stage.destroy());
+      await stage.page.evaluate(
+        async ({ view, projections }) => {
+          const { MapStage } = window.map;
+          const source = { url: "/clouds/stripes.copc.laz" };
+          const options = { view, projections, source, pixelRatio: 2.5, layer: { style: { pointSize: 3 } } };
+          window.map.stage = new MapStage(options) as typeof window.map.stage;
+          await window.map.stage.complete();
+        },
+        { view: ABOVE, projections: UTM },
+      );
+      const seen = await stage.page.evaluate(async () => {
+        const { stage } = window.map;
+        const { width, height } = stage.pixels();
+        const full = stage.lit().length;
+        // What is complete shows all that the view wants.
+        const { nodesVisible, nodesLoaded } = stage.layer.statistics;
+        stage.layer.setExtent([499_995, 5_199_996, 500_005, 5_200_004]);
+        await stage.complete();
+        const canvas = stage.map.getViewport().querySelector<HTMLCanvasElement>("canvas")!;
+        return { width, height, full, nodesVisible, nodesLoaded, clip: getComputedStyle(canvas).clipPath };
+      });
+      await screenshot(stage.page, "map-extent");
+      expect([seen.width, seen.height]).toEqual([1500, 1000]);
+      expect(seen.nodesLoaded).toBe(seen.nodesVisible);
+      expect(seen.full / once).toBeGreaterThan(0.97 * 2.5 ** 2);
+      expect(seen.full / once).toBeLessThan(1.03 * 2.5 ** 2);
+      // 10 by 8 metres around the middle, at 20 pixels per metre.
+      const corners = [...seen.clip.matchAll(/([\d.]+)px ([\d.]+)px/g)].map(([, x, y]) => [
+        Number(x),
+        Number(y),
+      ]);
+      expect(corners).toEqual([
+        [200, 280],
+        [400, 280],
+        [400, 120],
+        [200, 120],
+      ]);
+    });
+
+    it("comes back as it was when the browser takes its context away", { timeout: 120_000 }, async () => {
+      await open("stripes", { layer: { style: { pointSize: 3, eyeDomeLighting: true } } });
+      const seen = await stage.page.evaluate(async () => {
+        const { stage } = window.map;
+        const before = stage.pixels().data;
+        const canvas = stage.map.getViewport().querySelector<HTMLCanvasElement>("canvas")!;
+        const lose = canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!;
+        lose.loseContext();
+        await new Promise((done) => setTimeout(done, 200));
+        stage.map.render();
+        // A map without its context neither throws nor finds a point.
+        const found = await stage.layer.pick([300, 200]);
+        lose.restoreContext();
+        await new Promise((done) => setTimeout(done, 200));
+        await stage.complete();
+        const after = stage.pixels().data;
+        const equal = before.every((value, at) => value === after[at]);
+        return {
+          equal,
+          found,
+          errors: stage.errors,
+          picked: (await stage.layer.pick([300, 200])) !== undefined,
+        };
+      });
+      expect(seen).toEqual({ equal: true, found: undefined, errors: [], picked: true });
+    });
+
     it("frees all that it made when it is disposed of, or leaves the map", { timeout: 120_000 }, async () => {
       await open("steps", { layer: { style: { eyeDomeLighting: true, splats: true } } });
       const seen = await stage.page.evaluate(async () => {
