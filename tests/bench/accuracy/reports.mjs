@@ -3,6 +3,7 @@ import { createRequire } from "node:module";
 import { cpus, loadavg } from "node:os";
 import { join } from "node:path";
 import { geodesicReport } from "./geodesic-report.mjs";
+import { mapReport } from "./map-report.mjs";
 import { measuringReport } from "./measuring-report.mjs";
 import { placingReport } from "./placing-report.mjs";
 import { profileReport } from "./profile-report.mjs";
@@ -12,6 +13,7 @@ import { verticalReport } from "./vertical-report.mjs";
 
 const reports = {
   placing: placingReport,
+  map: mapReport,
   geodesic: geodesicReport,
   measuring: measuringReport,
   vertical: verticalReport,
