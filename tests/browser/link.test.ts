@@ -248,7 +248,11 @@ describe.skipIf(pythonMissing)(
         };
         const onGlobe = () => [camera.positionWC.x, camera.heading];
         look(0, 100);
-        const link = synchronize({ viewer: stage.globe.widget, map: map.map, northUp: true });
+        const { primitives } = stage.globe.scene;
+        const parts = () => [primitives.length, map.map.getInteractions().getLength()];
+        const alone = parts();
+        const link = synchronize({ viewer: stage.globe.widget, map: map.map, northUp: true, click: true });
+        const together = parts();
         window.linked.link = link;
         const moves: string[] = [];
         link.onMove(({ origin, target }) => moves.push(`${origin} > ${target}`));
@@ -290,7 +294,10 @@ describe.skipIf(pythonMissing)(
         view.setResolution(6);
         await stage.frames(3);
         const listeners = [stage.globe.scene.preRender.numberOfListeners, view.hasListener("change:center")];
-        return { found: [...found, events()], listeners, resolution: view.getResolution() };
+        return {
+          ...{ found: [...found, events()], listeners, resolution: view.getResolution() },
+          ...{ alone, together, apart: parts(), pointers: map.map.hasListener("pointermove") },
+        };
       }, MIDDLE);
       expect(seen.found).toEqual([
         [["globe > map"], 0],
@@ -301,6 +308,8 @@ describe.skipIf(pythonMissing)(
       ]);
       expect(seen.resolution).toBe(6);
       expect(seen.listeners[0]).toBe(0);
+      expect(seen.together.map((count, at) => count - seen.alone[at]!)).toEqual([1, 1]);
+      expect([seen.apart, seen.pointers]).toEqual([seen.alone, false]);
     });
 
     it("refuses what is no globe, no map and no mode by name", async () => {

@@ -254,6 +254,49 @@ describe.skipIf(pythonMissing)(
       stage.watch.errors.length = 0;
     });
 
+    it("tells of a pole in Mercator's projection and of a browser without WebGL 2, and the map goes on", {
+      timeout: 120_000,
+    }, async () => {
+      const seen = await stage.page.evaluate(
+        async ({ above, projections }) => {
+          const { MapStage } = window.map;
+          const crs =
+            "+proj=stere +lat_0=90 +lon_0=0 +k=1 +x_0=500000 +y_0=5200000 +datum=WGS84 +units=m +no_defs";
+          const pole = { projection: "EPSG:3857", center: [0, 2e7], resolution: 1000 };
+          const source = { url: "/clouds/stripes.copc.laz", crs };
+          window.map.stage = new MapStage({ view: pole, source }) as typeof window.map.stage;
+          await window.map.stage.source.opened();
+          await window.map.stage.complete();
+          const mercator = window.map.stage.errors;
+          // Where the map is polar, the same scan shows.
+          window.map.ol.proj4.defs("X:3", "+proj=stere +lat_0=90 +lon_0=0 +k=1 +datum=WGS84 +units=m");
+          window.map.ol.register(window.map.ol.proj4);
+          await window.map.stage.show({ projection: "X:3", center: [0, 0], resolution: 0.05 });
+          const lit = window.map.stage.lit().length;
+          window.map.stage.destroy();
+          const { getContext } = HTMLCanvasElement.prototype;
+          // biome-ignore lint/suspicious/noExplicitAny: a browser without WebGL 2
+          (HTMLCanvasElement.prototype as any).getContext = function (kind: string, options: unknown) {
+            return kind === "webgl2" ? null : Reflect.apply(getContext, this, [kind, options]);
+          };
+          try {
+            const plain = { view: above, projections, source: { url: "/clouds/stripes.copc.laz" } };
+            window.map.stage = new MapStage(plain) as typeof window.map.stage;
+            await window.map.stage.source.opened();
+            await window.map.stage.complete();
+            await window.map.stage.complete();
+          } finally {
+            HTMLCanvasElement.prototype.getContext = getContext;
+          }
+          return { mercator, lit, without: window.map.stage.errors };
+        },
+        { above: ABOVE, projections: UTM },
+      );
+      expect(new Set(seen.mercator)).toEqual(new Set(["PLACE_MAP"]));
+      expect(seen.lit).toBeGreaterThan(100_000);
+      expect(seen.without).toEqual(["DRAW_WEBGL2"]);
+    });
+
     it("shows a scan on 180° in one piece, whichever world the map shows", { timeout: 120_000 }, async () => {
       const errors: string[] = [];
       for (const [world, projection] of [
