@@ -117,6 +117,7 @@ module.exports = {
     layer("effects", ["clips", "octree", "options", "errors"]),
     layer("effects/declaration", ["clips", "octree", "options", "errors"]),
     layer("effects/catalogue", ["effects/declaration", "clips", "octree", "options", "errors"]),
+    layer("permalink", ["effects", "clips", "errors"]),
     layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "options", "errors"]),
     layer("tools/measure", ["query", "options", "errors"]),
     layer("tools/draw", ["tools/measure", "errors"]),
@@ -142,6 +143,7 @@ module.exports = {
     layer("cesium", [
       "tools",
       "drawing",
+      "permalink",
       "effects",
       "clips",
       "cloud",
@@ -155,6 +157,7 @@ module.exports = {
     layer("openlayers", [
       "tools",
       "drawing",
+      "permalink",
       "effects",
       "clips",
       "cloud",

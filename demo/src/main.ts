@@ -1,7 +1,7 @@
 import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
 import { CrsError } from "@groma/georef";
-import type { PointCloud, PointCloudLayer, ServerWait } from "@groma/layer/cesium";
+import type { PointCloud, PointCloudLayer, ServerWait, SharedView } from "@groma/layer/cesium";
 import { Cartesian3, type Viewer } from "cesium";
 import { cloudAddress, PageError, type PageOptions, readPageOptions } from "./address.js";
 import { Beside } from "./map/beside.js";
@@ -21,6 +21,7 @@ import { Measuring } from "./panel/measuring.js";
 import { Message } from "./panel/message.js";
 import { Picked } from "./panel/picked.js";
 import { Progress } from "./panel/progress.js";
+import { Share } from "./panel/share.js";
 import { STYLE_GROUPS } from "./panel/style-fields.js";
 import { VIEW_GROUPS } from "./panel/view-fields.js";
 import { ProfilePanel } from "./profile/profile-panel.js";
@@ -97,6 +98,10 @@ function start(viewer: Viewer): void {
     (thrown) => message.show(thrown),
   );
   byId("unpick", HTMLButtonElement).addEventListener("click", () => picking.clear());
+  const share = new Share(viewer, {
+    ...{ layer: () => slot.layer, box, picking },
+    hasAddress: () => typeof opened?.from === "string",
+  });
   const heights = new Heights(reopen);
   const chooser = new Chooser({
     file: (file) => void choose(file, file.name),
@@ -136,7 +141,31 @@ function start(viewer: Viewer): void {
     if (!cloud) return;
     chooser.fill(new URL(location.href).searchParams.get("cloud") ?? "");
     const style = { ...lasting().style, ...(color && { color }) };
-    void open(cloud, cloud, { ...lasting(), style, crs, vertical, transformation: georef });
+    void bringBack(cloud, { ...lasting(), style, crs, vertical, transformation: georef });
+  }
+
+  /** Opens a cloud and shows it as the link to the page asks for. */
+  async function bringBack(cloud: string, how: OpenOptions): Promise<void> {
+    let view: SharedView | undefined;
+    let failure: unknown;
+    try {
+      view = Share.wanted();
+    } catch (thrown) {
+      failure = thrown;
+    }
+    const layer = await open(cloud, cloud, how, view?.camera ? "stay" : undefined);
+    if (!layer) return;
+    try {
+      if (view) await share.show(view);
+    } catch (thrown) {
+      failure = thrown;
+    }
+    chooser.fold();
+    foldIfNarrow();
+    drawing.refresh();
+    classes.attach(layer);
+    // What cannot be brought back is told; the cloud is there all the same.
+    if (failure !== undefined) message.show(failure);
   }
 
   /** Opens the cloud that the reader chose. */
@@ -252,6 +281,8 @@ function rememberCloud({ from, how: { vertical, transformation }, crs }: Opened)
   const page = new URL(location.href);
   if (transformation === undefined) page.searchParams.delete("georef");
   for (const name of ["cloud", "crs", "vertical"]) page.searchParams.delete(name);
+  // A link to a view is one of the cloud that it was made for.
+  page.hash = "";
   if (typeof from === "string") {
     const { origin, pathname, search } = new URL(from);
     page.searchParams.set("cloud", origin === location.origin ? pathname + search : from);

@@ -26,6 +26,14 @@ export {
   type StyleParts,
 } from "./effects/index.js";
 export * from "./index.js";
+export {
+  type CameraView,
+  layerView,
+  readPermalink,
+  type SharedView,
+  type ViewedLayer,
+  writePermalink,
+} from "./permalink/index.js";
 export type {
   MeasuredCloud,
   ScreenPoint,

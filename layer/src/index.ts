@@ -50,7 +50,15 @@ export {
   type StreamLimits,
   type StreamProgress,
 } from "./cloud/index.js";
-export { DecodeError, DrawError, FormatError, type Outage, SourceError, StyleError } from "./errors/index.js";
+export {
+  DecodeError,
+  DrawError,
+  FormatError,
+  LinkError,
+  type Outage,
+  SourceError,
+  StyleError,
+} from "./errors/index.js";
 export { type NodeBounds, SharedBudget, type SharedBudgetOptions, type VoxelKey } from "./octree/index.js";
 export type {
   BoxRelation,

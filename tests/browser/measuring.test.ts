@@ -63,7 +63,7 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
     await server?.stop();
   });
 
-  it("by mouse: draw, drag, undo, save, load again", { timeout: 280_000 }, async () => {
+  it("by mouse: draw, drag, undo, save, load again", { timeout: 400_000 }, async () => {
     const { page, watch } = await openPage(browser, { width: 960, height: 600 });
     await page.goto(server.address);
     await settle(page);
@@ -133,8 +133,56 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
     ]);
     const before = await records(page);
 
+    // A link brings back how the cloud is seen, and what is selected.
+    const bare = await page.evaluate(async () => {
+      const { layer, measure, viewer } = window.groma;
+      measure.edit(undefined);
+      for (let x = 420; x < 800; x += 7) {
+        for (const y of [300, 330, 360]) {
+          const hit =
+            document.elementFromPoint(x, y) === viewer.canvas && (await layer.pick({ x, y }, { window: 3 }));
+          if (hit) return { x, y };
+        }
+      }
+      return undefined;
+    });
+    await page.mouse.click(bare!.x, bare!.y);
+    await page.locator("#picked").waitFor();
+    const view = () =>
+      page.evaluate(() => {
+        const { layer, viewer } = window.groma;
+        const { positionWC: at, heading, pitch } = viewer.camera;
+        return {
+          camera: [at.x, at.y, at.z, 1000 * heading, 1000 * pitch],
+          shown: [layer.style.color, layer.style.eyeDomeLighting, layer.filter, [...layer.clips]],
+          picked: document.querySelector("#picked-facts")!.textContent,
+        };
+      });
+    await page.evaluate(() => {
+      const { layer, viewer } = window.groma;
+      layer.style = { color: "intensity", eyeDomeLighting: true };
+      layer.filter = { ranges: { intensity: [1, Number.POSITIVE_INFINITY] } };
+      const { longitude, latitude } = viewer.camera.positionCartographic;
+      const center = { longitude, latitude, height: 400 };
+      layer.clips.add({
+        ...{ kind: "box", mode: "highlight", center, size: [9, 8, 7] as const },
+        ...{ heading: 0.5, pitch: 0, roll: 0 },
+      });
+      viewer.camera.moveForward(20);
+    });
+    await page.click("#copy-link");
+    await page.locator("#link-note:has-text('link')").waitFor();
+    expect(page.url()).toMatch(/#view=1~c[-\d._]+~s\w+~f\w+~k[\w-]+~p[\d-]+_\d+$/);
+    const seen = await view();
+
     await page.reload();
     await settle(page);
+    await page.locator("#picked").waitFor();
+    const again = await view();
+    expect([again.shown, again.picked]).toEqual([seen.shown, seen.picked]);
+    for (const [i, value] of seen.camera.entries()) {
+      expect(Math.abs(again.camera[i]! - value)).toBeLessThan(i < 3 ? 0.05 : 0.2);
+    }
     await page.setInputFiles("#measure-file", path);
     await page.waitForFunction(() => window.groma.measure.measurements.length === 2);
     expect(await records(page)).toEqual(before);
@@ -225,8 +273,13 @@ describe.skipIf(scan.missing)(`measuring on the globe${scan.missing ? ` (${scan.
 
   it("by touch, begun on the globe and ended on the map", { timeout: 280_000 }, async () => {
     const { page, watch } = await openPage(browser, { width: 1200, height: 600 });
-    await page.goto(`${server.address}&map=1&link=0&fly=0`);
+    // A link of a later version: told by name, and the cloud is there all the same.
+    await page.goto(`${server.address}&map=1&link=0&fly=0#view=1~x9`);
     await settle(page);
+    const message = page.locator("#message");
+    await message.waitFor();
+    expect(await message.textContent()).toContain('"x9"');
+    await message.locator("button").last().click();
     await page.evaluate(() => {
       document.querySelectorAll("details").forEach((one) => {
         one.open = one.id === "measuring";

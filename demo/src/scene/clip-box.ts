@@ -1,5 +1,5 @@
 import { ecefToGeodetic } from "@groma/georef";
-import { Clip, type ClipPlace, ClipSet, type PointCloudLayer } from "@groma/layer/cesium";
+import { type BoxClip, Clip, type ClipPlace, ClipSet, type PointCloudLayer } from "@groma/layer/cesium";
 
 /** What the box does to the points in it; `off`: there is none. */
 export type ClipWish = "off" | Clip["mode"];
@@ -53,10 +53,28 @@ export class ClipBox {
     this.#write();
   }
 
+  /** Takes volumes over: one upright cube as the box of the page, others as they are. */
+  take(clips: readonly Clip[]): void {
+    const [first] = clips;
+    if (clips.length === 1 && first?.kind === "box" && isCube(first) && "longitude" in first.center) {
+      this.#middle = first.center;
+      this.#edge = first.size[0];
+      this.wish = first.mode;
+      return;
+    }
+    this.#wish = "off";
+    this.#clips.clear();
+    for (const clip of clips) this.#clips.add(clip);
+  }
+
   #write(): void {
     this.#clips.clear();
     if (this.#wish === "off" || !this.#middle) return;
     const edge = this.#edge;
     this.#clips.add(Clip.box({ center: this.#middle, size: [edge, edge, edge], mode: this.#wish }));
   }
+}
+
+function isCube({ size: [width, depth, height], heading, pitch, roll }: BoxClip): boolean {
+  return width === depth && depth === height && heading === 0 && pitch === 0 && roll === 0;
 }

@@ -1,5 +1,12 @@
 import type { PickResult, PointCloudLayer } from "@groma/layer/cesium";
-import { Color, type Entity, ScreenSpaceEventHandler, ScreenSpaceEventType, type Viewer } from "cesium";
+import {
+  Cartesian3,
+  Color,
+  type Entity,
+  ScreenSpaceEventHandler,
+  ScreenSpaceEventType,
+  type Viewer,
+} from "cesium";
 
 /** The record of a point that was clicked. */
 export type Hit = PickResult<PointCloudLayer>;
@@ -14,6 +21,7 @@ export class Picking {
   readonly #found: (hit: Hit | undefined) => void;
   #picking: AbortController | undefined;
   #mark: Entity | undefined;
+  #selected: { readonly node: string; readonly index: number } | undefined;
 
   /**
    * @param found hears of each point that was clicked, and of clicks beside all points
@@ -34,9 +42,25 @@ export class Picking {
     }, ScreenSpaceEventType.LEFT_CLICK);
   }
 
+  /** The record that was found last. */
+  get selected(): { readonly node: string; readonly index: number } | undefined {
+    return this.#selected;
+  }
+
+  /** Shows a record as if it had been clicked. @throws FormatError FORMAT_NODE where there is no such record */
+  async select({ node, index }: { readonly node: string; readonly index: number }): Promise<void> {
+    const layer = this.#layer();
+    if (!layer) return;
+    const signal = this.#begin();
+    const record = await layer.cloud.readPoint(node, { record: index }, { signal });
+    const [x, y, z] = layer.cloud.place(...record.source);
+    this.show({ ...record, layer, cloud: layer.cloud, position: new Cartesian3(x, y, z) });
+  }
+
   /** Forgets the point that was found. */
   clear(): void {
     this.#picking?.abort();
+    this.#selected = undefined;
     if (this.#mark) this.#viewer.entities.remove(this.#mark);
     this.#mark = undefined;
     this.#found(undefined);
@@ -45,9 +69,7 @@ export class Picking {
   async #pick(position: ScreenSpaceEventHandler.PositionedEvent["position"]): Promise<void> {
     const layer = this.#layer();
     if (!layer) return;
-    this.#picking?.abort();
-    this.#picking = new AbortController();
-    const { signal } = this.#picking;
+    const signal = this.#begin();
     let hit: Hit | undefined;
     try {
       hit = await layer.pick(position, { window: REACH, signal });
@@ -59,10 +81,18 @@ export class Picking {
     this.show(hit);
   }
 
+  /** One point is looked for at a time. */
+  #begin(): AbortSignal {
+    this.#picking?.abort();
+    this.#picking = new AbortController();
+    return this.#picking.signal;
+  }
+
   /** Marks a point and tells of it; undefined: of none. */
   show(hit: Hit | undefined): void {
     this.clear();
     if (!hit) return;
+    this.#selected = { node: hit.node, index: hit.index };
     this.#mark = this.#viewer.entities.add({
       position: hit.position,
       point: {

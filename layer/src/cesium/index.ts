@@ -1,5 +1,6 @@
 export type { GpuMilliseconds } from "../drawing/frame.js";
 export * from "../every-view.js";
+export { cameraView, showCameraView } from "./camera-view.js";
 export type {
   LayerSource,
   PickOptions,

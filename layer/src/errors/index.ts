@@ -47,8 +47,13 @@ export class MeasureError extends GromaError {
   static override readonly kind = "MeasureError";
 }
 
+/** A link to a view cannot be read. Codes start with `LINK_`. */
+export class LinkError extends GromaError {
+  static override readonly kind = "LinkError";
+}
+
 const kinds = [
-  ...[SourceError, FormatError, DecodeError, StyleError, MeasureError],
+  ...[SourceError, FormatError, DecodeError, StyleError, MeasureError, LinkError],
   ...[CrsError, PlacementError, RecordError],
 ];
 

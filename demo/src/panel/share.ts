@@ -1,0 +1,91 @@
+import {
+  cameraView,
+  layerView,
+  type PointCloudLayer,
+  readPermalink,
+  type SharedView,
+  showCameraView,
+  writePermalink,
+} from "@groma/layer/cesium";
+import type { Viewer } from "cesium";
+import type { ClipBox } from "../scene/clip-box.js";
+import type { Picking } from "../scene/picking.js";
+import { byId, setText } from "./elements.js";
+
+/** Of the fragment of the page's address. */
+const NAME = "#view=";
+
+/** What of the page a link brings back. */
+export interface Shared {
+  readonly layer: () => PointCloudLayer | undefined;
+  /** Whether the cloud has an address that a link can name. */
+  readonly hasAddress: () => boolean;
+  readonly box: ClipBox;
+  readonly picking: Picking;
+}
+
+/** Links to the page as it is seen: camera, style, filter, clips, the record that is selected. */
+export class Share {
+  readonly #viewer: Viewer;
+  readonly #shared: Shared;
+
+  constructor(viewer: Viewer, shared: Shared) {
+    this.#viewer = viewer;
+    this.#shared = shared;
+    byId("copy-link", HTMLButtonElement).addEventListener("click", () => void this.#copy());
+  }
+
+  /**
+   * The view that the page's address asks for; undefined where it asks for none.
+   * @throws LinkError, StyleError
+   */
+  static wanted(): SharedView | undefined {
+    const { hash } = location;
+    return hash.startsWith(NAME) ? readPermalink(decodeURIComponent(hash.slice(NAME.length))) : undefined;
+  }
+
+  /** Brings a view back, all of it that can be. @throws what could not be, the first of several */
+  async show({ camera, style, filter, clips, selected }: SharedView): Promise<void> {
+    const { box, picking, layer: shown } = this.#shared;
+    const layer = shown();
+    if (!layer) return;
+    const failures: unknown[] = [];
+    const attempt = (work: () => void) => {
+      try {
+        work();
+      } catch (thrown) {
+        failures.push(thrown);
+      }
+    };
+    if (camera) attempt(() => showCameraView(this.#viewer.camera, camera));
+    if (style) attempt(() => Object.assign(layer, { style }));
+    if (filter) attempt(() => Object.assign(layer, { filter }));
+    if (selected) await picking.select(selected).catch((thrown: unknown) => failures.push(thrown));
+    // The box moves to what is selected: where it was comes after.
+    if (clips) attempt(() => box.take(clips));
+    if (failures.length > 0) throw failures[0];
+  }
+
+  async #copy(): Promise<void> {
+    const { layer: shown, hasAddress, picking } = this.#shared;
+    const layer = shown();
+    if (!layer) return;
+    const note = byId("link-note", HTMLParagraphElement);
+    if (!hasAddress()) {
+      setText(note, "A file of this computer has no address that a link could name.");
+      return;
+    }
+    const page = new URL(location.href);
+    const camera = cameraView(this.#viewer.camera);
+    page.hash = `view=${writePermalink({ camera, ...layerView(layer), selected: picking.selected })}`;
+    history.replaceState(null, "", page);
+    const copied = await navigator.clipboard?.writeText(page.href).then(
+      () => true,
+      () => false,
+    );
+    setText(
+      note,
+      copied ? "The link is copied; the address bar has it too." : "The address bar has the link.",
+    );
+  }
+}

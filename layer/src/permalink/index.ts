@@ -1,0 +1,8 @@
+export {
+  type CameraView,
+  layerView,
+  readPermalink,
+  type SharedView,
+  type ViewedLayer,
+  writePermalink,
+} from "./permalink.js";

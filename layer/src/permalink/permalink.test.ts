@@ -1,0 +1,122 @@
+import fc from "fast-check";
+import { describe, expect, it } from "vitest";
+import { Clip } from "../clips/index.js";
+import { completeStyle, defaultStyle } from "../effects/index.js";
+import { layerView, readPermalink, type SharedView, writePermalink } from "./index.js";
+
+const DEGREE = Math.PI / 180;
+const cloud = {
+  name: "a.copc.laz",
+  attributes: [{ name: "intensity", kind: "number", range: [0, 1] }],
+} as unknown as Parameters<typeof completeStyle>[2];
+const byDefault = defaultStyle(cloud);
+const degrees = (most: number) => fc.double({ min: -most, max: most, noNaN: true });
+
+describe("a permalink", () => {
+  it("brings back what was written, cameras to a centimetre and a hundredth of a degree", () => {
+    const camera = fc.tuple(
+      degrees(180),
+      degrees(90),
+      fc.double({ min: -1e4, max: 1e9, noNaN: true }),
+      degrees(360),
+    );
+    const filter = fc.record({
+      classes: fc.array(fc.integer({ min: 0, max: 255 })),
+      ranges: fc.dictionary(
+        fc.string().filter((name) => name !== "__proto__"),
+        fc.constantFrom([0, 1], [Number.NEGATIVE_INFINITY, 3.25], [2, Number.POSITIVE_INFINITY]),
+      ),
+    });
+    fc.assert(
+      fc.property(camera, filter, ([longitude, latitude, height, heading], shown) => {
+        const at = { longitude, latitude, heading, pitch: -latitude, roll: 0 };
+        const radians = Object.fromEntries(Object.entries(at).map(([name, one]) => [name, one * DEGREE]));
+        const view = { camera: { ...radians, height }, filter: shown } as unknown as SharedView;
+        const text = writePermalink(view);
+        // Nothing of it is escaped in an address.
+        expect(new URL(`http://a/#view=${text}`).hash).toBe(`#view=${text}`);
+        expect(encodeURIComponent(text)).toBe(text);
+        const back = readPermalink(text);
+        expect(JSON.stringify(back.filter)).toBe(JSON.stringify(shown));
+        expect(back.filter).toEqual(shown);
+        expect(Math.abs(back.camera!.longitude / DEGREE - longitude)).toBeLessThan(1e-7);
+        expect(Math.abs(back.camera!.latitude / DEGREE - latitude)).toBeLessThan(1e-7);
+        expect(Math.abs(back.camera!.height - height)).toBeLessThan(0.0051);
+        expect(Math.abs(back.camera!.heading / DEGREE - heading)).toBeLessThan(0.0051);
+      }),
+    );
+  });
+
+  it("is short, and keeps of a style what was changed", () => {
+    const style = completeStyle(
+      { color: "intensity", highlight: { share: 1 }, classes: { 6: { show: false } } },
+      byDefault,
+      cloud,
+    );
+    const shown = (of: typeof style) => layerView({ style: of, filter: undefined, clips: [], cloud });
+    const { style: changed } = shown(style);
+    expect(changed).toEqual({ color: "intensity", highlight: { share: 1 }, classes: { 6: { show: false } } });
+    const camera = { longitude: 0.149, latitude: 0.826, height: 1200, heading: 0.5, pitch: -0.78, roll: 0 };
+    const text = writePermalink({ camera, ...shown(style), selected: { node: "3-1-2-0", index: 17 } });
+    expect(text.length).toBeLessThan(200);
+    const back = readPermalink(text);
+    expect(completeStyle(back.style!, byDefault, cloud)).toEqual(style);
+    expect(back.selected).toEqual({ node: "3-1-2-0", index: 17 });
+    expect(writePermalink(shown(byDefault))).toBe("1");
+    expect(readPermalink("1")).toEqual({});
+  });
+
+  it("keeps volumes", () => {
+    const clips = [
+      Clip.box({
+        center: { longitude: 0.1, latitude: 0.8, height: 500 },
+        size: [10, 20, 30],
+        mode: "highlight",
+      }),
+      Clip.plane({ through: { source: [1, 2, 3] }, pitch: 1 }),
+    ];
+    expect(readPermalink(writePermalink({ clips })).clips).toEqual(clips);
+    const odd = [{ ...clips[0]!, colour: "red" }] as unknown as typeof clips;
+    expect(() => readPermalink(writePermalink({ clips: odd }))).toThrow(
+      expect.objectContaining({ code: "STYLE_CLIP", message: expect.stringContaining("colour") }),
+    );
+  });
+
+  it.each([
+    ["2~c1_2_3_4_5_6", "LINK_VERSION", '"2"'],
+    ["", "LINK_VERSION", '""'],
+    ["1~x17", "LINK_PART", '"x17"'],
+    ["1~c1_2_3_4_5", "LINK_BROKEN", "camera"],
+    ["1~c1_92_3_4_5_6", "LINK_BROKEN", "camera"],
+    ["1~c1_2_3_4_5_", "LINK_BROKEN", "camera"],
+    ["1~s!!!", "LINK_BROKEN", "style"],
+    ["1~fMTc", "LINK_BROKEN", "filter"],
+    ["1~ke30", "LINK_BROKEN", "clips"],
+    ["1~p3-1-2_17", "LINK_BROKEN", "selected"],
+    ["1~p3-1-2-0_1~p3-1-2-0_1", "LINK_BROKEN", "twice"],
+  ])("%s is refused by name: %s", (text, code, named) => {
+    expect(() => readPermalink(text)).toThrow(
+      expect.objectContaining({ code, message: expect.stringContaining(named) }),
+    );
+  });
+
+  it("longer than any link is not looked into", () => {
+    expect(() => readPermalink(`1~s${"A".repeat(200_000)}`)).toThrow("longer");
+  });
+
+  it("whatever it is, gives a view or one clear error", () => {
+    fc.assert(
+      fc.property(
+        fc.string({ maxLength: 40 }),
+        fc.constantFrom("1~c", "1~s", "1~f", "1~k", "1~p", "1~", ""),
+        (text, start) => {
+          try {
+            readPermalink(start + text);
+          } catch (thrown) {
+            expect((thrown as { code: string }).code).toMatch(/^(LINK|STYLE)_/);
+          }
+        },
+      ),
+    );
+  });
+});
