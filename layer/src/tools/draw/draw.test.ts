@@ -1,11 +1,14 @@
+import { geodesicBetween } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { cloudOf, UTM } from "../measure/cloud.fixture.js";
-import { type Measurement, MeasureUnits, type Vertex } from "../measure/index.js";
+import { type Measurement, MeasureUnits, placeVertex, sourceVertex, type Vertex } from "../measure/index.js";
+import { courseOf, wayOf } from "./course.js";
 import { figuresOf } from "./figures.js";
 import { freshName, History, withChange } from "./history.js";
 import { placeLabels } from "./labels.js";
 import { isSame, Placing } from "./placing.js";
+import { snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 
 const cloud = cloudOf(UTM);
@@ -95,6 +98,9 @@ describe("labels", () => {
   });
 });
 
+const inCloud = (of: readonly number[]) => sourceVertex(cloud, [of[0]!, of[1]!, of[2]!]);
+const NOTHING = { vertices: [], edges: [] };
+
 /** A view that shows vertices where it is told, and finds points one pick after the other. */
 function viewOf(
   picks: readonly (Promise<Vertex | undefined> | undefined)[],
@@ -113,7 +119,7 @@ describe("placing", () => {
     let first: (vertex: Vertex) => void = () => undefined;
     const placing = viewOf([new Promise((resolve) => (first = resolve)), Promise.resolve(b)]);
     const placed: (Vertex | undefined)[] = [];
-    const both = [1, 2].map((x) => placing.place({ x, y: 0 }, [], (vertex) => placed.push(vertex)));
+    const both = [1, 2].map((x) => placing.place({ x, y: 0 }, NOTHING, (vertex) => placed.push(vertex)));
     await Promise.resolve();
     first(a);
     await Promise.all(both);
@@ -125,8 +131,8 @@ describe("placing", () => {
     const placed: (Vertex | undefined)[] = [];
     const work = (vertex: Vertex | undefined) => placed.push(vertex);
     const [first, second] = [
-      placing.place({ x: 0, y: 0 }, [], work),
-      placing.place({ x: 1, y: 0 }, [], work),
+      placing.place({ x: 0, y: 0 }, NOTHING, work),
+      placing.place({ x: 1, y: 0 }, NOTHING, work),
     ];
     await expect(first).rejects.toThrow("offline");
     await second;
@@ -139,8 +145,9 @@ describe("placing", () => {
       [b, { x: 104, y: 100 }],
     ]);
     const placing = viewOf([Promise.resolve(d)], shown);
-    expect(await placing.look({ x: 103, y: 100 }, [a, b, c])).toBe(b);
-    expect(await placing.look({ x: 150, y: 100 }, [a, b, c])).toBe(d);
+    const near = { vertices: [a, b, c], edges: [] };
+    expect(await placing.look({ x: 103, y: 100 }, near)).toBe(b);
+    expect(await placing.look({ x: 150, y: 100 }, near)).toBe(d);
   });
 
   it("knows a record again", () => {
@@ -184,5 +191,85 @@ describe("figures", () => {
       label: "no point here",
       wrong: true,
     });
+  });
+});
+
+describe("edges", () => {
+  /** A view from above, in perspective: what lies to the north is farther away. */
+  const from: ViewAdapter["project"] = ({ ecef }) => {
+    const [x, y] = [0, 1].map(
+      (axis) =>
+        (ecef[0] - a.ecef[0]) * EAST[axis]! +
+        (ecef[1] - a.ecef[1]) * NORTH[axis]! +
+        (ecef[2] - a.ecef[2]) * UP[axis]!,
+    ) as [number, number];
+    const away = 1 + 0.05 * y;
+    return { x: 100 + (10 * x) / away, y: 200 - (10 * y) / away };
+  };
+  // Axes of the first vertex's horizon: east and north, per axis of ECEF.
+  const { longitude: l, latitude: p } = a;
+  const EAST = [-Math.sin(l), -Math.sin(p) * Math.cos(l)];
+  const NORTH = [Math.cos(l), -Math.sin(p) * Math.sin(l)];
+  const UP = [0, Math.cos(p)];
+  const view = { pick: async () => undefined, project: from } as unknown as ViewAdapter;
+  const edge: Measurement = { id: "3", kind: "distance", name: "Distance 1", vertices: [a, c] };
+
+  it("are taken where there is no point, at the place that is seen there", async () => {
+    const snaps = snapsOf([edge], undefined);
+    const placing = new Placing(view, { last: Promise.resolve() }, new AbortController().signal);
+    for (const share of [0.2, 0.5, 0.85]) {
+      const truth = [0, 1, 2].map((axis) => a.source![axis]! + share * (c.source![axis]! - a.source![axis]!));
+      const at = from(inCloud(truth))!;
+      const found = await placing.look({ x: at.x, y: at.y }, snaps);
+      for (const axis of [0, 1, 2]) expect(found!.source![axis]!).toBeCloseTo(truth[axis]!, 1);
+      // It is a place of the data set, and no record of it.
+      expect([found!.cloud, found!.record]).toEqual([cloud, undefined]);
+    }
+    const far = from(b)!;
+    expect(await placing.look({ x: far.x + 40, y: far.y }, snaps)).toBeUndefined();
+  });
+
+  it("of what is being moved are not taken, and points go before them", async () => {
+    expect(snapsOf([edge], undefined, a)).toEqual({ vertices: [c], edges: [] });
+    const ring: Measurement = { ...edge, kind: "area", vertices: [a, b, c] };
+    expect(snapsOf([ring], undefined).edges).toEqual([
+      [a, b],
+      [b, c],
+      [c, a],
+    ]);
+    expect(snapsOf([{ ...edge, kind: "point", vertices: [a] }], undefined).edges).toEqual([]);
+    const seen = { ...view, pick: async () => d } as unknown as ViewAdapter;
+    const placing = new Placing(seen, { last: Promise.resolve() }, new AbortController().signal);
+    const middle = from(inCloud([0, 1, 2].map((axis) => (a.source![axis]! + c.source![axis]!) / 2)))!;
+    expect(await placing.look(middle, snapsOf([edge], undefined))).toBe(d);
+  });
+});
+
+describe("long lines", () => {
+  const place = (longitude: number, latitude: number, height = 0) =>
+    placeVertex((longitude * Math.PI) / 180, (latitude * Math.PI) / 180, height);
+
+  it("run along the geodesic, heights evenly between", () => {
+    const [from, to] = [place(-70, 40, 100), place(140, 35, 300)];
+    const course = courseOf(from, to);
+    expect(course.length).toBe(127);
+    const whole = geodesicBetween(from.longitude, from.latitude, to.longitude, to.latitude).distance;
+    for (const [i, { longitude, latitude, height }] of course.entries()) {
+      const share = (i + 1) / 128;
+      const { distance } = geodesicBetween(from.longitude, from.latitude, longitude, latitude);
+      expect(distance / whole).toBeCloseTo(share, 9);
+      expect(height).toBeCloseTo(100 + 200 * share, 6);
+    }
+    // The shortest way between these leads by the north.
+    expect(Math.max(...course.map(({ latitude }) => latitude))).toBeGreaterThan(1.1);
+    expect(wayOf([from, to, from]).length).toBe(3 + 2 * 127);
+    expect(courseOf(from, to)).toBe(course);
+  });
+
+  it("that are short are straight", () => {
+    expect(wayOf([a, b, c])).toEqual([a, b, c]);
+    expect(courseOf(place(0, 0), place(0.04, 0))).toEqual([]);
+    expect(courseOf(place(0, 0), place(0.05, 0)).length).toBe(1);
+    expect(courseOf(place(0, 0), place(0, 0))).toEqual([]);
   });
 });

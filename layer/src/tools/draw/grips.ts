@@ -1,8 +1,9 @@
 import { MEASUREMENT_KINDS, type Measurement, type Vertex } from "../measure/index.js";
 import { type Drag, dragged, type Grip } from "./grip.js";
 import type { Overlay } from "./overlay.js";
-import { type Placing, verticesOf } from "./placing.js";
+import type { Placing } from "./placing.js";
 import { placeIn, stepOf } from "./pointer.js";
+import { type Snaps, snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 
 /** What moving of vertices needs. */
@@ -18,6 +19,9 @@ export interface GripsHost {
   /** Has failures told. */
   told(work: Promise<unknown>): void;
 }
+
+/** By keyboard vertices are moved by pixels: what is near is no aim. */
+const NOTHING: Snaps = { vertices: [], edges: [] };
 
 /** Moves, adds and takes out vertices of the measurement being edited, by pointer or keyboard. */
 export class Grips {
@@ -44,7 +48,7 @@ export class Grips {
     this.#drag = drag;
     const over = new AbortController();
     const held = this.#vertexOf(grip);
-    const others = () => verticesOf(this.#host.measurements(), undefined).filter((one) => one !== held);
+    const others = () => snapsOf(this.#host.measurements(), undefined, held);
     const look = async (at: ScreenPoint) => {
       const vertex = await placing.look(at, others());
       if (!vertex || this.#drag !== drag) return;
@@ -75,7 +79,7 @@ export class Grips {
     const { least, most } = MEASUREMENT_KINDS[of.kind];
     const count = of.vertices.length;
     const put = (place: ScreenPoint, into: Grip) =>
-      told(placing.place(place, [], (vertex) => this.#put({ grip: into, vertex })));
+      told(placing.place(place, NOTHING, (vertex) => this.#put({ grip: into, vertex })));
     if (step && at) put({ x: at.x + step.x, y: at.y + step.y }, grip);
     else if (event.key === "Insert" && count < most && at) {
       const next = view.project(of.vertices[(grip.vertex + 1) % count]) ?? at;

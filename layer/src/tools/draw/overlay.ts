@@ -1,4 +1,5 @@
 import type { Vertex } from "../measure/index.js";
+import { courseOf, wayOf } from "./course.js";
 import type { Grip } from "./grip.js";
 import { placeLabels } from "./labels.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
@@ -187,13 +188,14 @@ export class Overlay {
     const places = this.#figures.map(({ vertices }) => vertices.map((vertex) => this.#view.project(vertex)));
     const { clientWidth: width, clientHeight: height } = this.root;
     const ahead = this.#figures.map((figure) => this.#aheadOf(figure));
-    const state = JSON.stringify([places, ahead, this.crosshair, width, height]);
+    const ways = this.#figures.map((figure, i) => this.#way(figure, ahead[i]));
+    const state = JSON.stringify([ways, places, ahead, this.crosshair, width, height]);
     if (state === this.#last) return;
     this.#last = state;
     const labels: { element: HTMLElement; anchor: ScreenPoint }[] = [];
     for (const [i, figure] of this.#figures.entries()) {
       const elements = this.#elements.get(keyOf(figure))!;
-      const anchor = this.#place(figure, elements, places[i], ahead[i]);
+      const anchor = this.#place(figure, elements, places[i], ways[i], ahead[i]);
       elements.label.hidden = anchor === undefined || figure.label === "";
       if (anchor && figure.label !== "") labels.push({ element: elements.label, anchor });
     }
@@ -214,16 +216,25 @@ export class Overlay {
     return this.pointer ?? (ahead && this.#view.project(ahead));
   }
 
+  /** The line of a figure, long edges along the earth; a ring is closed. */
+  #way({ vertices, shape }: ShownFigure, ahead: ScreenPoint | undefined): (ScreenPoint | undefined)[] {
+    const [first] = vertices;
+    if (shape === "points" || !first) return [];
+    const way = wayOf(vertices).map((vertex) => this.#view.project(vertex));
+    if (ahead) way.push(ahead);
+    if (shape !== "ring" || vertices.length + Number(ahead !== undefined) < 3) return way;
+    const back = ahead ? [] : courseOf(vertices[vertices.length - 1], first);
+    return [...way, ...[...back, first].map((vertex) => this.#view.project(vertex))];
+  }
+
   /** @returns where its label belongs; undefined where nothing of it is in the view */
   #place(
     { id, shape }: ShownFigure,
     { line, dots, grips }: Elements,
     places: readonly (ScreenPoint | undefined)[],
+    way: readonly (ScreenPoint | undefined)[],
     ahead: ScreenPoint | undefined,
   ): ScreenPoint | undefined {
-    const way: (ScreenPoint | undefined)[] = shape === "points" ? [] : [...places];
-    if (ahead && way.length > 0) way.push(ahead);
-    if (shape === "ring" && way.length > 2) way.push(places[0]);
     line.setAttribute("d", pathOf(way));
     for (const [i, place] of places.entries()) move(dots[i], place);
     for (const { element, grip } of grips) {

@@ -1,10 +1,9 @@
-import type { Measurement, Vertex } from "../measure/index.js";
-import type { Draft } from "./history.js";
+import type { Vertex } from "../measure/index.js";
+import { nearestOnEdge, nearestVertex, type Snaps } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 
-/** Pixels around a place in which a point counts, and in which a vertex that is there is taken instead. */
+/** Pixels around a place in which a point counts. */
 const REACH = 7;
-const SNAP = 9;
 
 /** The order in which vertices were asked for, on whatever view. */
 export interface Turns {
@@ -27,15 +26,11 @@ export class Placing {
   /**
    * Does work with the vertex at a place, once all that was asked for before is done: clicks keep their order, however
    * long a record takes to be read.
-   * @param others vertices that may be taken as they are
+   * @param snaps vertices that are taken before points, edges where there is no point
    */
-  async place(
-    at: ScreenPoint,
-    others: readonly Vertex[],
-    work: (vertex: Vertex | undefined) => void,
-  ): Promise<void> {
+  async place(at: ScreenPoint, snaps: Snaps, work: (vertex: Vertex | undefined) => void): Promise<void> {
     const before = this.#turns.last;
-    const found = this.#find(at, others);
+    const found = this.#find(at, snaps);
     const done = Promise.all([found, before.catch(() => undefined)]).then(([vertex]) => {
       if (!this.#signal.aborted) work(vertex);
     });
@@ -44,35 +39,23 @@ export class Placing {
   }
 
   /** The vertex at a place, for show; nothing while one is looked for already. */
-  async look(at: ScreenPoint, others: readonly Vertex[]): Promise<Vertex | undefined> {
+  async look(at: ScreenPoint, snaps: Snaps): Promise<Vertex | undefined> {
     if (this.#looking) return undefined;
     this.#looking = true;
     try {
-      return await this.#find(at, others);
+      return await this.#find(at, snaps);
     } finally {
       this.#looking = false;
     }
   }
 
-  async #find(at: ScreenPoint, others: readonly Vertex[]): Promise<Vertex | undefined> {
-    return this.#nearest(at, others) ?? (await this.#view.pick(at, REACH, this.#signal));
+  async #find(at: ScreenPoint, snaps: Snaps): Promise<Vertex | undefined> {
+    return (
+      nearestVertex(this.#view, at, snaps) ??
+      (await this.#view.pick(at, REACH, this.#signal)) ??
+      nearestOnEdge(this.#view, at, snaps)
+    );
   }
-
-  #nearest(at: ScreenPoint, others: readonly Vertex[]): Vertex | undefined {
-    let nearest: Vertex | undefined;
-    let least = SNAP;
-    for (const vertex of others) {
-      const place = this.#view.project(vertex);
-      const apart = place ? Math.hypot(place.x - at.x, place.y - at.y) : Number.POSITIVE_INFINITY;
-      if (apart <= least) [nearest, least] = [vertex, apart];
-    }
-    return nearest;
-  }
-}
-
-/** All vertices that a new one may snap to. */
-export function verticesOf(measurements: readonly Measurement[], draft: Draft | undefined): Vertex[] {
-  return [...(draft?.vertices ?? []), ...measurements.flatMap(({ vertices }) => vertices)];
 }
 
 /** Whether two vertices are one: the same record, or the same place where they are none. */

@@ -2,8 +2,9 @@ import type { Measurement, Vertex } from "../measure/index.js";
 import { Grips } from "./grips.js";
 import type { Draft } from "./history.js";
 import { Overlay, type ShownFigure } from "./overlay.js";
-import { Placing, type Turns, verticesOf } from "./placing.js";
+import { Placing, type Turns } from "./placing.js";
 import { stepOf, watchPointer } from "./pointer.js";
+import { type Snaps, snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 
 /** What is drawn, as a view needs it. */
@@ -95,12 +96,12 @@ export class Surface {
     this.#overlay.destroy();
   }
 
-  #vertices(): Vertex[] {
-    return verticesOf(this.#host.measurements(), this.#host.draft());
+  #snaps(): Snaps {
+    return snapsOf(this.#host.measurements(), this.#host.draft());
   }
 
   #place(at: ScreenPoint): void {
-    this.#host.told(this.#placing.place(at, this.#vertices(), (vertex) => this.#host.placed(vertex)));
+    this.#host.told(this.#placing.place(at, this.#snaps(), (vertex) => this.#host.placed(vertex)));
   }
 
   #moved(at: ScreenPoint): void {
@@ -110,7 +111,7 @@ export class Surface {
     this.#overlay.crosshair = undefined;
     this.#overlay.pointer = at;
     this.#overlay.layout();
-    const looking = this.#placing.look(at, this.#vertices()).then((vertex) => {
+    const looking = this.#placing.look(at, this.#snaps()).then((vertex) => {
       if (vertex && this.#host.draft() === draft) this.#host.ahead(vertex, this);
     });
     this.#host.told(looking);
