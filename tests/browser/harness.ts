@@ -48,15 +48,21 @@ function stop(child: ChildProcess): Promise<void> {
   });
 }
 
-/** System Chromium with WebGL 2 in software, kept from calling anyone. */
-export function launch(): Promise<Browser> {
+/** What WebGL 2 is drawn by: the processor, or a graphics card through Vulkan. */
+export type Graphics = "software" | "card";
+
+const GRAPHICS: Readonly<Record<Graphics, readonly string[]>> = {
+  software: ["--use-angle=swiftshader", "--use-gl=angle", "--enable-unsafe-swiftshader"],
+  card: ["--use-angle=vulkan", "--use-gl=angle", "--enable-features=Vulkan", "--enable-gpu"],
+};
+
+/** System Chromium with WebGL 2, kept from calling anyone. */
+export function launch(graphics: Graphics = "software"): Promise<Browser> {
   return chromium.launch({
     executablePath: process.env.GROMA_CHROMIUM ?? "/usr/bin/chromium",
     args: [
       "--no-sandbox",
-      "--use-angle=swiftshader",
-      "--use-gl=angle",
-      "--enable-unsafe-swiftshader",
+      ...GRAPHICS[graphics],
       "--ignore-gpu-blocklist",
       "--disable-background-networking",
       "--disable-component-update",

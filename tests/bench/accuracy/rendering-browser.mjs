@@ -39,12 +39,13 @@ export async function openScene(root, file, folder, pose, cacheBytes) {
  * @param {string} source folder of the page
  * @param {string} file COPC
  * @param {string} folder for what is built
+ * @param {"software" | "card"} [graphics] what draws
  */
-export async function openScanPage(root, source, file, folder) {
+export async function openScanPage(root, source, file, folder, graphics = "software") {
   await buildPage(source, join(folder, "page"));
   const server = await serve(root, folder, file);
   const { launch, openPage } = await harness(root);
-  const browser = await launch();
+  const browser = await launch(graphics);
   const close = async () => {
     await browser.close();
     server.close();
