@@ -21,12 +21,12 @@ beforeAll(async () => {
   packed = pack(tarballs);
   place = await install(packed, ["@groma/converter", "@groma/layer", "@groma/georef", "cesium", "ol"]);
   writeFileSync(join(place.folder, "scan.las"), lasOf(20_000));
-}, 240_000);
+}, 480_000);
 afterAll(() => {
   for (const child of children) child.kill();
   place?.remove();
   rmSync(tarballs, { recursive: true, force: true });
-});
+}, 480_000);
 
 /** Runs the installed `groma` in the folder. */
 function groma(args: readonly string[], environment: NodeJS.ProcessEnv = {}) {
