@@ -51,7 +51,8 @@ function start(viewer: Viewer): void {
     () => slot.layer,
     ({ vertices }) => {
       goToPlaces(viewer, vertices, way("fly"));
-      void beside.view?.then((view) => view.goTo(vertices));
+      // A linked map comes along; moved for itself it would stop the globe's flight.
+      if (!beside.linked) void beside.view?.then((view) => view.goTo(vertices));
     },
     (thrown) => message.show(thrown),
   );

@@ -53,6 +53,11 @@ export class Beside {
     return this.#view;
   }
 
+  /** Whether the map goes where the globe goes. */
+  get linked(): boolean {
+    return this.#choice.value === "both" && this.#link.checked;
+  }
+
   /** Shows the globe, the map, or both. @param linked whether the two move together; default: as it is */
   show(shown: Shown, linked = this.#link.checked): void {
     this.#choice.value = shown;
@@ -90,9 +95,7 @@ export class Beside {
   /** Links the map to the globe as the panel says. */
   async #follow(): Promise<void> {
     const view = await this.#view;
-    view?.link(
-      this.#choice.value === "both" && this.#link.checked ? { northUp: this.#north.checked } : undefined,
-    );
+    view?.link(this.linked ? { northUp: this.#north.checked } : undefined);
   }
 
   /** Moves the bar to the pointer: along the longer side of the page. */
