@@ -100,17 +100,21 @@ export function readAreas(text: string): Map<string, AreaOfUse> {
   const areas = new Map<string, AreaOfUse>();
   for (const line of text.split("\n")) {
     const { name, bbox } = line.startsWith("{") ? parsed(line) : {};
-    const sides = ["west_longitude", "south_latitude", "east_longitude", "north_latitude"];
-    const [west, south, east, north] = sides.map((side) => bbox?.[side] ?? Number.NaN);
-    if (name !== undefined && Number.isFinite(west + south + east + north)) {
-      areas.set(name, [west, south, east, north]);
-    }
+    if (name === undefined || !bbox) continue;
+    const { west_longitude: west, south_latitude: south, east_longitude: east, north_latitude: north } = bbox;
+    const area: AreaOfUse = [west, south, east, north];
+    if (area.every(Number.isFinite)) areas.set(name, area);
   }
   return areas;
 }
 
+/** The area of use of PROJJSON, degrees. */
+type Box = Readonly<
+  Record<"west_longitude" | "south_latitude" | "east_longitude" | "north_latitude", number>
+>;
+
 /** What is read here of an operation in PROJJSON; nothing of a line that is none. */
-function parsed(line: string): { readonly name?: string; readonly bbox?: Readonly<Record<string, number>> } {
+function parsed(line: string): { readonly name?: string; readonly bbox?: Box } {
   try {
     return JSON.parse(line);
   } catch {

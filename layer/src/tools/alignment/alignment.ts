@@ -4,7 +4,7 @@ import type { StationEquation } from "./station-equations.js";
 /** A line for profiles and sections, in the plane of its file's coordinates. */
 export interface Alignment {
   readonly name: string;
-  /** x and y; arcs and clothoids as chords that are nowhere farther from them than {@link TOLERANCE}. */
+  /** x and y; arcs and clothoids as chords that are nowhere farther from them than 0.1 mm. */
   readonly vertices: readonly (readonly [number, number])[];
   /** True lengths of the stretches between the vertices, along arcs and clothoids. */
   readonly lengths: readonly number[];
