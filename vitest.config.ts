@@ -1,4 +1,5 @@
 import { readFileSync } from "node:fs";
+import { availableParallelism } from "node:os";
 import { join } from "node:path";
 import { defineConfig } from "vitest/config";
 
@@ -39,6 +40,8 @@ export default defineConfig({
   test: {
     testTimeout: 30_000,
     hookTimeout: 120_000,
+    // One fewer without this: half of a machine with two cores.
+    maxWorkers: availableParallelism(),
     setupFiles: ["tests/properties.ts"],
     projects: Object.entries(rooms).map(([name, include]) => ({
       extends: true,
