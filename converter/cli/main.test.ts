@@ -323,6 +323,7 @@ describe("the command line", () => {
     };
     follow("main.js");
     expect([...loaded].sort()).toEqual([
+      "./given/arguments.js",
       "./given/choices.js",
       "./terminal/output.js",
       "@groma/georef/printable",
