@@ -93,7 +93,7 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
       "SOURCE_NOT_FOUND",
       "a file that vanishes while it loads",
       ({ count, answer, response }) => {
-        if (count <= 2) answer();
+        if (count <= 1) answer();
         else response.writeHead(404).end();
       },
     ],
