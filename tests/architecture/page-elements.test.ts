@@ -9,7 +9,7 @@ const { document } = parseHTML(readFileSync(join(demo, "index.html"), "utf8"));
 
 describe("the elements of the page", () => {
   it("have names of their own", () => {
-    const names = [...document.querySelectorAll("[id]")].map(({ id }) => id);
+    const names = Array.from(document.querySelectorAll("[id]"), ({ id }) => id);
     expect(names.length).toBeGreaterThan(50);
     expect(names.filter((name, index) => names.indexOf(name) !== index)).toEqual([]);
   });
