@@ -82,8 +82,12 @@ describe.skipIf(scan.missing)(
         page.evaluate(async () => {
           const { beside, layer, viewer } = window.groma;
           const { map, measured } = (await beside.view)!;
-          // Let what rests be read, and the frames after it be drawn.
-          await new Promise((done) => setTimeout(done, 1500));
+          // Let what rests be read, and the frames after it be drawn, until neither moves the other any more.
+          const pose = () => `${map.getView().getCenter()} ${viewer.camera.positionWC}`;
+          for (let last = "", resting = 0; resting < 4; last = pose()) {
+            await new Promise((done) => setTimeout(done, 500));
+            resting = pose() === last && layer.settled ? resting + 1 : 0;
+          }
           // The panel lies over the left part of the globe.
           const { right } = document.getElementById("panel")!.getBoundingClientRect();
           const at = { x: (right + viewer.canvas.clientWidth) / 2, y: viewer.canvas.clientHeight / 2 };
