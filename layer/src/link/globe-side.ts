@@ -30,6 +30,9 @@ import {
 
 const scratch = { ray: new CesiumRay(), place: new Cartesian3(), cartographic: new Cartographic() };
 
+/** Share of a number by which a scene may move its camera by its own rounding, as Cesium does: not a move of anybody's. */
+const ROUNDING = 1e-12;
+
 /** A place of a picture, CSS pixels from the upper left. */
 export interface ScreenPlace {
   readonly x: number;
@@ -255,8 +258,10 @@ export class GlobeSide {
   }
 
   #isKnown(): boolean {
-    const now = this.#numbers();
-    return now.every((value, at) => value === this.#known[at]);
+    return this.#numbers().every((value, at) => {
+      const off = Math.abs(value - this.#known[at]!);
+      return off <= ROUNDING * Math.max(1, Math.abs(value));
+    });
   }
 
   /** All of the camera that says what it looks at. */
