@@ -71,7 +71,7 @@ it("the README's example draws points and asks nobody but the server of the file
     });
   });
   await page.goto(new URL(path, page.url()).href);
-  const drawn = await page.waitForFunction(
+  await page.waitForFunction(
     () => {
       const { layer } =
         (
@@ -79,12 +79,12 @@ it("the README's example draws points and asks nobody but the server of the file
             example?: { layer: { settled: boolean; statistics: { pointsDrawn: number } } };
           }
         ).example ?? {};
-      return layer?.settled && layer.statistics.pointsDrawn;
+      // Before it flies there, the camera sees the scan as a point, and is shown that.
+      return layer?.settled && layer.statistics.pointsDrawn > 1_000;
     },
     undefined,
     { timeout: 100_000 },
   );
-  expect(await drawn.jsonValue()).toBeGreaterThan(1_000);
   expect([...new Set(watch.foreign)]).toEqual([ADDRESS]);
   expect(watch.errors).toEqual([]);
   await page.screenshot({ path: join(projectRoot, "tests/artifacts/readme.png") });
