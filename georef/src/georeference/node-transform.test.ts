@@ -76,13 +76,13 @@ describe("a transformation over a node, taken apart", () => {
         expect(corrections.map(({ remainders }) => remainders.length)).toEqual([...steps.slice(1).keys()]);
         // A node that hardly reaches into a cell knows its folds all the same.
         const little = 1e-3 * roughness + 1e-7;
-        const found = measured(parts, domain, 400, seed);
+        const found = measured(parts, domain, 1000, seed);
         for (const [k, { reach, bound }] of corrections.entries()) {
           const { off, added } = found[k];
           expect(off).toBeLessThanOrEqual(bound - truthBound + 1e-8);
           expect(added).toBeLessThanOrEqual(reach + 1e-12);
-          // 400 places find a fifth of the greatest correction at least, among grids that are added up: most often, a third.
-          expect(reach).toBeLessThanOrEqual(5 * added + little);
+          // 1,000 places find a third of the greatest correction at least, among grids that are added up.
+          expect(reach).toBeLessThanOrEqual(3.5 * added + little);
         }
         const [none, all] = [corrections[0], corrections[corrections.length - 1]];
         expect(corrections[0].reach).toBe(0);
