@@ -77,7 +77,12 @@ export class Share {
     }
     const page = new URL(location.href);
     const camera = cameraView(this.#viewer.camera);
-    page.hash = `view=${writePermalink({ camera, ...layerView(layer), selected: picking.selected })}`;
+    try {
+      page.hash = `view=${writePermalink({ camera, ...layerView(layer), selected: picking.selected })}`;
+    } catch (thrown) {
+      setText(note, thrown instanceof Error ? thrown.message : String(thrown));
+      return;
+    }
     history.replaceState(null, "", page);
     const copied = await navigator.clipboard?.writeText(page.href).then(
       () => true,

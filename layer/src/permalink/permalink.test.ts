@@ -104,6 +104,18 @@ describe("a permalink", () => {
     expect(() => readPermalink(`1~s${"A".repeat(200_000)}`)).toThrow("longer");
   });
 
+  it("is not written where it could not be read again", () => {
+    const ringOf = (corners: number) =>
+      Array.from({ length: corners }, (_, at) => {
+        const angle = (2 * Math.PI * at) / corners;
+        return [1e-3 * Math.cos(angle), 1e-3 * Math.sin(angle)] as const;
+      });
+    const linkOf = (corners: number) => writePermalink({ clips: [Clip.polygon(ringOf(corners))] });
+    expect(readPermalink(linkOf(1_000)).clips).toEqual([Clip.polygon(ringOf(1_000))]);
+    for (const corners of [5_000, 200_000])
+      expect(() => linkOf(corners)).toThrow(expect.objectContaining({ code: "LINK_LONG" }));
+  });
+
   it("whatever it is, gives a view or one clear error", () => {
     fc.assert(
       fc.property(

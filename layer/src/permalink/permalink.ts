@@ -32,7 +32,7 @@ export interface SharedView {
 const VERSION = "1";
 /** Stands between the parts: needs no escape in the query or the fragment of an address, and no part holds it. */
 const BETWEEN = "~";
-/** Longest text that is read. */
+/** Longest text that is written or read. */
 const LONGEST = 100_000;
 
 const DEGREE = Math.PI / 180;
@@ -52,10 +52,12 @@ const PARTS: ReadonlyMap<string, keyof SharedView> = new Map([
 /**
  * A view as short text for the address of a page: `1~c8.5412345_47.3712345_1200_30_-45_0~p2-0-1-0_153`. What is left out
  * is left out of the text too.
+ *
+ * @throws LinkError LINK_LONG for a view that no address can hold: volumes of many thousand corners
  */
 export function writePermalink({ camera, style, filter, clips, selected }: SharedView): string {
   const given = (of: object | undefined) => of !== undefined && Object.keys(of).length > 0;
-  return [
+  const text = [
     VERSION,
     ...(camera ? [`c${cameraText(camera)}`] : []),
     ...(given(style) ? [`s${asText(style)}`] : []),
@@ -63,6 +65,13 @@ export function writePermalink({ camera, style, filter, clips, selected }: Share
     ...(given(clips) ? [`k${asText(clips)}`] : []),
     ...(selected ? [`p${selected.node}_${selected.index}`] : []),
   ].join(BETWEEN);
+  if (text.length <= LONGEST) return text;
+  throw new LinkError({
+    code: "LINK_LONG",
+    file: "link",
+    cause: `it would have ${text.length} characters, of which ${LONGEST} are read`,
+    fix: "leave the volumes out, or give them fewer corners",
+  });
 }
 
 /**
