@@ -2,7 +2,7 @@ import { cross, difference, dot, type Vector } from "@groma/georef";
 import type { Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity } from "../worth/quantity.js";
-import { isOneFoot, lineOf, scaled } from "./line.js";
+import { azimuthSensitivity, isOneFoot, joined, type Line, lineOf, scaled } from "./line.js";
 import { coincident } from "./refusals.js";
 
 /** The angle between two lines that meet. */
@@ -10,7 +10,7 @@ export interface Angle {
   /** In the plane of both lines, 0 … π. */
   readonly space: Quantity<"rad">;
   /** Between their azimuths, clockwise from the first to the second, 0 … 2π; undefined where one is vertical. */
-  readonly horizontal?: number | undefined;
+  readonly horizontal?: Quantity<"rad"> | undefined;
 }
 
 /**
@@ -32,11 +32,19 @@ export function measureAngle(a: Vertex, apex: Vertex, b: Vertex, options: WorthO
     { vertex: apex, gradient: ofApex },
     { vertex: b, gradient: ofB },
   ];
-  const turned = toB.geodesic.azimuthFrom - toA.geodesic.azimuthFrom;
   return {
     space: quantity(value, "rad", [gradients], options),
-    ...(!isOneFoot(toA) && !isOneFoot(toB) && { horizontal: turned < 0 ? turned + 2 * Math.PI : turned }),
+    ...(!isOneFoot(toA) && !isOneFoot(toB) && { horizontal: betweenAzimuths(toA, toB, options) }),
   };
+}
+
+function betweenAzimuths(toA: Line, toB: Line, options: WorthOptions): Quantity<"rad"> {
+  const turned = toB.geodesic.azimuthFrom - toA.geodesic.azimuthFrom;
+  const ofA = azimuthSensitivity(toA, "a").map((list) =>
+    list.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, -1) })),
+  );
+  const sensitivities = joined([ofA, azimuthSensitivity(toB, "a")]);
+  return quantity(turned < 0 ? turned + 2 * Math.PI : turned, "rad", sensitivities, options);
 }
 
 /** How the angle from v grows with the end of u: across u, away from v, over its length; any way where they are in line. */

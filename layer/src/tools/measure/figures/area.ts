@@ -5,6 +5,7 @@ import type { Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity, type Sensitivity } from "../worth/quantity.js";
 import { scaled } from "./line.js";
+import { type BestPlane, bestPlane } from "./plane.js";
 import { measurePolyline, type Polyline } from "./polyline.js";
 import { checkedRing, frameOf, inFrame } from "./ring.js";
 
@@ -14,8 +15,8 @@ export interface Area {
   readonly geodesic: Quantity<"m²">;
   /** In the plane that fits the vertices best, through space. */
   readonly planar: Quantity<"m²">;
-  /** Slope of that plane against the level, radians, and the root mean square distance of the vertices from it, metres. */
-  readonly plane: { readonly slope: number; readonly deviation: number };
+  /** That plane; undefined where the vertices lie on a line. */
+  readonly plane?: Pick<BestPlane, "slope" | "aspect" | "deviation"> | undefined;
   /** In the plane of the projection, edges straight there; undefined without a common grid. */
   readonly grid?:
     | { readonly name: string; readonly area: Quantity<"m²">; readonly scaleFactor: number }
@@ -63,9 +64,10 @@ function gridArea(
 
 /** Area in the plane of best fit: half the sum of the cross products, along its normal. */
 function planar(ring: readonly Vertex[], options: WorthOptions): Pick<Area, "planar" | "plane"> {
+  const plane = bestPlane(ring, options);
   const frame = frameOf(ring);
   const points = inFrame(ring, frame);
-  const { normal, deviation } = fitPlane(points);
+  const { normal } = fitPlane(points);
   const sum = [0, 0, 0];
   const at = (i: number): Vector => {
     const from = 3 * (i % ring.length);
@@ -83,7 +85,7 @@ function planar(ring: readonly Vertex[], options: WorthOptions): Pick<Area, "pla
   });
   return {
     planar: quantity(Math.abs(signed), "m²", [gradients], options),
-    plane: { slope: Math.acos(Math.min(1, Math.abs(normal[2]))), deviation },
+    ...(plane && { plane }),
   };
 }
 

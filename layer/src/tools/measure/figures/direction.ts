@@ -3,9 +3,9 @@ import { axesAt, combined } from "../vertex/axes.js";
 import { commonGrid, convergenceAt, type Grid, geodesicOfGrid, turn } from "../vertex/grid.js";
 import type { Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
-import { type Quantity, quantity, type Sensitivity } from "../worth/quantity.js";
+import { type Quantity, quantity } from "../worth/quantity.js";
 import { heightDifference } from "./distance.js";
-import { ends, isOneFoot, type Line, lineOf, raised } from "./line.js";
+import { azimuthSensitivity, ends, isOneFoot, type Line, lineOf, raised } from "./line.js";
 
 /** A direction in the plane of a projection. */
 export interface GridBearing {
@@ -36,8 +36,6 @@ export interface Direction {
   readonly slope?: Quantity<"rad"> | undefined;
 }
 
-const EARTH_RADIUS = 6371008.8;
-
 /** The directions between two points. */
 export function measureDirection(a: Vertex, b: Vertex, options: WorthOptions = {}): Direction {
   const line = lineOf(a, b);
@@ -51,23 +49,6 @@ export function measureDirection(a: Vertex, b: Vertex, options: WorthOptions = {
     ...(grid && { grid: gridBearing(grid, line, options) }),
     ...(slope && { slope }),
   };
-}
-
-/**
- * Derivatives of the azimuth at one end: a motion across the line over the reduced length, which is that of a sphere
- * here; a metre at the least, where the line leads to the antipodes and any direction will do.
- */
-function azimuthSensitivity(line: Line, at: "a" | "b"): Sensitivity[][] {
-  const { a, b, geodesic } = line;
-  const angle = geodesic.distance / EARTH_RADIUS;
-  const reduced = Math.max(Math.abs(Math.sin(angle)) * EARTH_RADIUS, Number.MIN_VALUE);
-  const across = (vertex: Vertex, azimuth: number, factor: number): Vector =>
-    combined(axesAt(vertex), Math.cos(azimuth) * factor, -Math.sin(azimuth) * factor, 0);
-  // The other end moves the azimuth by 1 / m12, its own end by M / m12, with M the geodesic scale, cos on a sphere.
-  const [ofA, ofB] = at === "a" ? [-Math.cos(angle), 1] : [-1, Math.cos(angle)];
-  return [
-    ends(line, across(a, geodesic.azimuthFrom, ofA / reduced), across(b, geodesic.azimuthTo, ofB / reduced)),
-  ];
 }
 
 function gridBearing(grid: Grid, line: Line, options: WorthOptions): GridBearing | undefined {

@@ -77,7 +77,7 @@ export function heightDifference(
 }
 
 /** Name of the height system that two vertices were recorded in; undefined where they share none. */
-function commonHeights(a: Vertex, b: Vertex): string | undefined {
+export function commonHeights(a: Vertex, b: Vertex): string | undefined {
   const [one, other] = [a.cloud, b.cloud];
   if (!one || !other || !a.source || !b.source) return undefined;
   const { crs } = one;

@@ -78,6 +78,25 @@ export function verticalSensitivity(line: Line): Sensitivity[][] {
   return [ends(line, scaled(axesAt(line.a).up, -1), axesAt(line.b).up)];
 }
 
+const EARTH_RADIUS = 6371008.8;
+
+/**
+ * Derivatives of the azimuth at one end: a motion across the line over the reduced length, which is that of a sphere
+ * here; a metre at the least, where the line leads to the antipodes and any direction will do.
+ */
+export function azimuthSensitivity(line: Line, at: "a" | "b"): Sensitivity[][] {
+  const { a, b, geodesic } = line;
+  const angle = geodesic.distance / EARTH_RADIUS;
+  const reduced = Math.max(Math.abs(Math.sin(angle)) * EARTH_RADIUS, Number.MIN_VALUE);
+  const across = (vertex: Vertex, azimuth: number, factor: number): Vector =>
+    combined(axesAt(vertex), Math.cos(azimuth) * factor, -Math.sin(azimuth) * factor, 0);
+  // The other end moves the azimuth by 1 / m12, its own end by M / m12, with M the geodesic scale, cos on a sphere.
+  const [ofA, ofB] = at === "a" ? [-Math.cos(angle), 1] : [-1, Math.cos(angle)];
+  return [
+    ends(line, across(a, geodesic.azimuthFrom, ofA / reduced), across(b, geodesic.azimuthTo, ofB / reduced)),
+  ];
+}
+
 /** Whether two places have no direction from one to the other on the ellipsoid. */
 export function isOneFoot({ geodesic }: Line): boolean {
   return geodesic.distance < NO_LENGTH;
@@ -85,4 +104,21 @@ export function isOneFoot({ geodesic }: Line): boolean {
 
 export function scaled([x, y, z]: Vector, factor: number): Vector {
   return [x * factor, y * factor, z * factor];
+}
+
+/** Derivatives of a sum: those of its terms by vertex, and lists of their own where a term has no direction. */
+export function joined(terms: readonly Sensitivity[][][]): Sensitivity[][] {
+  const whole = new Map<Vertex, [number, number, number]>();
+  const apart: Sensitivity[][] = [];
+  for (const lists of terms) {
+    if (lists.length > 1) {
+      apart.push(...lists);
+      continue;
+    }
+    for (const { vertex, gradient } of lists[0]) {
+      const [x, y, z] = whole.get(vertex) ?? [0, 0, 0];
+      whole.set(vertex, [x + gradient[0], y + gradient[1], z + gradient[2]]);
+    }
+  }
+  return [[...whole].map(([vertex, gradient]) => ({ vertex, gradient })), ...apart];
 }

@@ -1,8 +1,16 @@
 import type { Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity, type Sensitivity } from "../worth/quantity.js";
-import { type Distance, type GridDistance, measureDistance } from "./distance.js";
-import { levelSensitivity, lineOf, spaceSensitivity } from "./line.js";
+import { commonHeights, type Distance, type GridDistance, measureDistance } from "./distance.js";
+import {
+  joined,
+  type Line,
+  levelSensitivity,
+  lineOf,
+  scaled,
+  spaceSensitivity,
+  verticalSensitivity,
+} from "./line.js";
 import { tooFew } from "./refusals.js";
 
 /** The lengths of a line of several parts. */
@@ -14,9 +22,12 @@ export interface Polyline {
   readonly horizontal: Quantity<"m">;
   /** In the plane of the projection; undefined where one of the parts has no grid, or another one. */
   readonly grid?: Omit<GridDistance, "elevationFactor" | "combinedFactor"> | undefined;
-  /** Sum of all rises and of all falls, metres, both from 0 on. */
-  readonly ascent: number;
-  readonly descent: number;
+  /**
+   * Sum of all rises and of all falls, both from 0 on. A part that may rise as well as fall, for all that is known, counts
+   * with the whole of its uncertainty: many of them add up to a rise that is none.
+   */
+  readonly ascent: Quantity<"m">;
+  readonly descent: Quantity<"m">;
 }
 
 /**
@@ -70,24 +81,40 @@ export function measurePolyline(
         scaleFactor: onEllipsoid > 0 ? gridLength / onEllipsoid : grids[0].scaleFactor,
       },
     }),
-    ascent: sum(({ vertical }) => Math.max(0, vertical.value)),
-    descent: sum(({ vertical }) => Math.max(0, -vertical.value)),
+    ascent: climb(parts, lines, 1, options),
+    descent: climb(parts, lines, -1, options),
   };
 }
 
-/** Derivatives of a sum: those of its terms by vertex, and lists of their own where a term has no direction. */
-function joined(terms: readonly Sensitivity[][][]): Sensitivity[][] {
-  const whole = new Map<Vertex, [number, number, number]>();
-  const apart: Sensitivity[][] = [];
-  for (const lists of terms) {
-    if (lists.length > 1) {
-      apart.push(...lists);
-      continue;
-    }
-    for (const { vertex, gradient } of lists[0]) {
-      const [x, y, z] = whole.get(vertex) ?? [0, 0, 0];
-      whole.set(vertex, [x + gradient[0], y + gradient[1], z + gradient[2]]);
+/** The sum of all rises, or of all falls. @param sign 1: rises */
+function climb(
+  parts: readonly Distance[],
+  lines: readonly Line[],
+  sign: 1 | -1,
+  options: WorthOptions,
+): Quantity<"m"> {
+  let total = 0;
+  let level: number | null = 0;
+  let undecided = false;
+  const terms: Sensitivity[][][] = [];
+  for (const [i, { vertical }] of parts.entries()) {
+    const rise = sign * vertical.value;
+    total += Math.max(0, rise);
+    if (Math.abs(rise) <= vertical.atLeast) {
+      undecided = true;
+      level = vertical.uncertainty === null || level === null ? null : level + vertical.uncertainty / 2;
+    } else if (rise > 0) {
+      terms.push(
+        verticalSensitivity(lines[i]).map((list) =>
+          list.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, sign) })),
+        ),
+      );
     }
   }
-  return [[...whole].map(([vertex, gradient]) => ({ vertex, gradient })), ...apart];
+  const note = "parts that may rise or fall";
+  return quantity(total, "m", joined(terms), {
+    ...options,
+    ofRecords: lines.every(({ a, b }) => commonHeights(a, b) !== undefined),
+    own: undecided ? [{ name: "level parts", standard: level, note }] : [],
+  });
 }

@@ -7,6 +7,7 @@ import { measurePlane } from "../figures/plane.js";
 import { measurePolyline } from "../figures/polyline.js";
 import { readOut } from "../figures/read-out.js";
 import type { MeasureUnits, Words } from "../units/measure-units.js";
+import { axesAt } from "../vertex/axes.js";
 import type { Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity } from "../worth/quantity.js";
@@ -70,9 +71,26 @@ const maybe = (name: string, title: string, of: Quantity | undefined) => of && v
 const slopeOf = (of: Quantity<"rad"> | undefined): NamedValue | undefined =>
   of && { name: "slope", title: "slope", quantity: of, writtenAs: "slope" };
 
-/** A number whose uncertainty is not worked out. */
-const derived = <Unit extends Quantity["unit"]>(of: number, unit: Unit) =>
-  quantity(of, unit, [], { own: [{ name: "not worked out", standard: null }] });
+/**
+ * A number that a projection has at a place. How it changes with the place is bounded: by 1 / (R cos² φ) a metre, more than
+ * that of any projection in its area of use; and lengths on the ellipsoid are right to 15 nm.
+ */
+function ofGrid<Unit extends "1" | "rad">(
+  of: number,
+  unit: Unit,
+  vertex: Vertex,
+  options: WorthOptions,
+): Quantity<Unit> {
+  const rate = 1 / (EARTH_RADIUS * Math.max(Math.cos(vertex.latitude), 1e-3) ** 2);
+  const { east, north } = axesAt(vertex);
+  const lists = [east, north].map(([x, y, z]) => [
+    { vertex, gradient: [x * rate, y * rate, z * rate] as const },
+  ]);
+  const own = [{ name: "geodesic", standard: 1.5e-9, note: "15 nm of a length on the ellipsoid" }];
+  return quantity(of, unit, lists, { ...options, ofRecords: true, own });
+}
+
+const EARTH_RADIUS = 6371008.8;
 
 /** Every kind, in the order in which people look for them. */
 export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasurement>> = {
@@ -91,15 +109,18 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
     ...{ title: "Distance", least: 2, most: 2, shape: "line" },
     values: ([a, b], options) => {
       const { space, horizontal, vertical, geodesic, grid } = measureDistance(a, b, options);
-      const { forward, slope } = measureDirection(a, b, options);
+      const { forward, back, grid: inGrid, slope } = measureDirection(a, b, options);
       return [
         value("space", "straight", space),
         value("horizontal", "horizontal", horizontal),
         value("vertical", "vertical", vertical),
         value("geodesic", "geodesic", geodesic),
         maybe("grid", "grid", grid?.distance),
-        grid && value("scaleFactor", "scale factor", derived(grid.scaleFactor, "1")),
+        grid && value("scaleFactor", "scale factor", ofGrid(grid.scaleFactor, "1", a, options)),
         maybe("azimuth", "azimuth", forward),
+        maybe("backAzimuth", "azimuth back", back),
+        maybe("gridBearing", "grid bearing", inGrid?.bearing),
+        inGrid && value("convergence", "convergence", ofGrid(inGrid.convergence, "rad", a, options)),
         slopeOf(slope),
       ];
     },
@@ -114,14 +135,18 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
   polyline: {
     ...{ title: "Line", least: 2, most: Number.POSITIVE_INFINITY, shape: "line" },
     values: (vertices, options) => {
-      const { space, horizontal, geodesic, grid, ascent, descent } = measurePolyline(vertices, options);
+      const { parts, ...whole } = measurePolyline(vertices, options);
+      const { space, horizontal, geodesic, grid, ascent, descent } = whole;
       return [
         value("space", "straight", space),
         value("horizontal", "horizontal", horizontal),
         value("geodesic", "geodesic", geodesic),
         maybe("grid", "grid", grid?.distance),
-        value("ascent", "ascent", derived(ascent, "m")),
-        value("descent", "descent", derived(descent, "m")),
+        value("ascent", "ascent", ascent),
+        value("descent", "descent", descent),
+        ...(parts.length > 1 ? parts : []).map((part, i) =>
+          value(`part${i + 1}`, `part ${i + 1}`, part.space),
+        ),
       ];
     },
   },
@@ -134,7 +159,7 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
         value("planar", "in its plane", planar),
         maybe("grid", "grid", grid?.area),
         value("perimeter", "perimeter", perimeter.space),
-        slopeOf(derived(plane.slope, "rad")),
+        slopeOf(plane?.slope),
       ];
     },
   },
@@ -142,12 +167,7 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
     ...{ title: "Angle", least: 3, most: 3, shape: "line" },
     values: ([a, apex, b], options) => {
       const { space, horizontal } = measureAngle(a, apex, b, options);
-      return [
-        value("space", "in space", space),
-        horizontal === undefined
-          ? undefined
-          : value("horizontal", "between azimuths", derived(horizontal, "rad")),
-      ];
+      return [value("space", "in space", space), maybe("horizontal", "between azimuths", horizontal)];
     },
   },
   circle: {
@@ -169,8 +189,8 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
       const { slope, aspect, deviation } = measurePlane(vertices, options);
       return [
         slopeOf(slope),
-        aspect === undefined ? undefined : value("aspect", "falls towards", derived(aspect, "rad")),
-        value("deviation", "deviation", derived(deviation, "m")),
+        maybe("aspect", "falls towards", aspect),
+        value("deviation", "deviation", deviation),
       ];
     },
   },

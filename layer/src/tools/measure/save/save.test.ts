@@ -162,14 +162,33 @@ describe("geometries", () => {
   });
 });
 
-describe("values without an uncertainty of their own", () => {
-  it("are not said to be exact", () => {
-    const [a, b] = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 9)];
-    const named = valuesOf(one("polyline", [a, b]), { precision: 0.01 });
-    expect(named.find(({ name }) => name === "ascent")?.quantity).toMatchObject({
-      value: 8,
-      uncertainty: null,
-    });
+describe("every value of every kind", () => {
+  const heights = cloudOf(UTM, {
+    ...{ name: "heights", vertical: "ellipsoidal" },
+    parts: [
+      { name: "datum operation", metres: 0.5 },
+      { name: "height", metres: 0 },
+    ],
+  });
+  const four = [
+    [0, 0, 1],
+    [10, 1, 9],
+    [12, 8, 4],
+    [1, 9, 6],
+  ].map(([x, y, z]) => heights.vertex(500000 + x, 5300000 + y, z));
+  const kinds = Object.entries(MEASUREMENT_KINDS).filter(([kind]) => kind !== "aboveGround");
+
+  it.each(kinds)("%s: has an uncertainty, known as soon as the precision is", (kind, { most }) => {
+    const measurement = one(kind as MeasurementKind, four.slice(0, Math.min(4, most)));
+    for (const { name, quantity } of valuesOf(measurement, { precision: 0.01 })) {
+      expect(quantity.uncertainty, name).toBeGreaterThan(0);
+      expect(quantity, name).toMatchObject({ atLeast: quantity.uncertainty, coverage: 0.95 });
+      expect(quantity.parts.length, name).toBeGreaterThan(0);
+    }
+    for (const { name, quantity } of valuesOf(measurement)) {
+      expect(quantity.uncertainty, name).toBeNull();
+      expect(quantity.atLeast, name).toBeGreaterThan(0);
+    }
   });
 });
 

@@ -10,6 +10,7 @@ import {
   measureDistance,
   measureHeight,
   measurePlane,
+  measurePolyline,
   type Quantity,
   type Vertex,
 } from "../index.js";
@@ -65,6 +66,8 @@ function values([a, b, c, d]: readonly Vertex[], options: { precision: number })
   const direction = measureDirection(a, b, options);
   const area = measureArea([a, b, c, d], options);
   const circle = measureCircle(a, b, c, options);
+  const plane = measurePlane([a, b, c, d], options);
+  const line = measurePolyline([a, b, c, d], options);
   return {
     ...{ space: near.space, geodesic: near.geodesic, horizontal: near.horizontal, vertical: near.vertical },
     grid: near.grid?.distance,
@@ -73,10 +76,12 @@ function values([a, b, c, d]: readonly Vertex[], options: { precision: number })
     ...{ azimuth: direction.forward, "grid bearing": direction.grid?.bearing, slope: direction.slope },
     "azimuth across": measureDirection(a, c, options).back,
     angle: measureAngle(a, b, c, options).space,
+    "angle between azimuths": measureAngle(a, b, c, options).horizontal,
     ...{ "planar area": area.planar, "geodesic area": area.geodesic, "grid area": area.grid?.area },
     perimeter: area.perimeter.geodesic,
     ...{ radius: circle.radius, arc: circle.arc.length, sagitta: circle.arc.sagitta },
-    "plane's slope": measurePlane([a, b, c, d], options).slope,
+    ...{ "plane's slope": plane.slope, "plane's aspect": plane.aspect },
+    ...{ ascent: line.ascent, descent: line.descent },
   } satisfies Record<string, Quantity | undefined>;
 }
 
@@ -126,6 +131,28 @@ describe("the stated band holds 93 to 97 % of the cases", () => {
       expect(share, name).toBeGreaterThanOrEqual(0.93);
       expect(share, name).toBeLessThanOrEqual(0.97);
     }
+  });
+
+  it("and more of them where noise alone makes a rise, or a deviation from a plane", () => {
+    const level = cloudOf(UTM, { parts: parts(0.3), vertical: "ellipsoidal" });
+    const options = { precision: 0.02 };
+    let [climbed, apart] = [0, 0];
+    for (let run = 0; run < 300; run++) {
+      // Forty steps on level ground, and a roof of ten points: what is measured of them is noise.
+      const way = Array.from({ length: 41 }, (_, i) =>
+        level.vertex(500000 + 5 * i, 5300000, 0.02 * normal()),
+      );
+      const { ascent } = measurePolyline(way, options);
+      expect(ascent.value).toBeGreaterThan(0.1);
+      if (ascent.value <= ascent.uncertainty!) climbed++;
+      const roof = Array.from({ length: 10 }, (_, i) =>
+        level.vertex(500000 + 3 * (i % 5), 5300000 + 4 * Math.floor(i / 5), 0.02 * normal()),
+      );
+      const { deviation } = measurePlane(roof, options);
+      if (deviation.value <= deviation.uncertainty!) apart++;
+    }
+    expect(climbed / 300).toBeGreaterThanOrEqual(0.95);
+    expect(apart / 300).toBeGreaterThanOrEqual(0.95);
   });
 
   it("by a factor that knows errors with bounds", () => {
