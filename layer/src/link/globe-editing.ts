@@ -17,13 +17,23 @@ const COUNTS: Readonly<Record<DrawnKind, { readonly least: number; readonly most
   Polygon: { least: 3, most: Number.POSITIVE_INFINITY },
 };
 
-/** Draws shared features on the globe, and moves their vertices there. */
+/** CSS pixels that a pointer goes before a side that it holds has a new vertex. */
+const JITTER = 3;
+
+/**
+ * Draws shared features on the globe and changes them there, as `Modify` does on the map: vertices are dragged, a side that
+ * is dragged has a new one, and Alt with a click takes one away.
+ */
 export class GlobeEditing {
   readonly #globe: GlobeSide;
   readonly #features: SharedFeatures;
   readonly #failed: (thrown: unknown) => void;
   readonly #end = new AbortController();
   #held: SharedVertex | undefined;
+  /** A side that is held, and where it was taken hold of. */
+  #side: { readonly side: SharedVertex; readonly x: number; readonly y: number } | undefined;
+  /** Features that are being drawn. */
+  #drawing = 0;
   /** Where the pointer was last, until it is worked through. */
   #next: { readonly x: number; readonly y: number } | undefined;
   #busy = false;
@@ -37,10 +47,12 @@ export class GlobeEditing {
     const { signal } = this.#end;
     canvas.addEventListener(
       "pointerdown",
-      ({ offsetX: x, offsetY: y, button, pointerId }) => {
-        if (button !== 0) return;
+      ({ offsetX: x, offsetY: y, button, altKey, pointerId }) => {
+        if (button !== 0 || altKey) return;
         this.#held = features.vertexAt({ x, y });
-        if (!this.#held) return;
+        const side = this.#held || this.#drawing > 0 ? undefined : features.sideAt({ x, y });
+        this.#side = side && { side, x, y };
+        if (!this.#held && !side) return;
         // The drag is the vertex's, not the camera's.
         camera.enableInputs = false;
         canvas.setPointerCapture(pointerId);
@@ -50,9 +62,18 @@ export class GlobeEditing {
     canvas.addEventListener(
       "pointermove",
       ({ offsetX: x, offsetY: y }) => {
-        if (!this.#held) return;
+        if (!this.#held && !this.#side) return;
+        if (this.#side && Math.hypot(x - this.#side.x, y - this.#side.y) <= JITTER) return;
         this.#next = { x, y };
         if (!this.#busy) void this.#move();
+      },
+      { signal },
+    );
+    canvas.addEventListener(
+      "click",
+      ({ offsetX: x, offsetY: y, altKey }) => {
+        const vertex = altKey ? features.vertexAt({ x, y }) : undefined;
+        if (vertex) features.remove(vertex);
       },
       { signal },
     );
@@ -60,9 +81,9 @@ export class GlobeEditing {
       canvas.addEventListener(
         event,
         () => {
-          if (!this.#held) return;
+          if (!this.#held && !this.#side) return;
           camera.enableInputs = true;
-          if (!this.#busy) this.#held = undefined;
+          if (!this.#busy) this.#release();
         },
         { signal },
       );
@@ -85,8 +106,11 @@ export class GlobeEditing {
     const keys = new AbortController();
     // Clicks keep their order, however long their records take.
     let last: Promise<void> = Promise.resolve();
+    this.#drawing++;
     return new Promise((resolve, reject) => {
       const end = (drawn: Feature | undefined) => {
+        if (keys.signal.aborted) return;
+        this.#drawing--;
         handler.destroy();
         keys.abort();
         if (!drawn && source.hasFeature(feature)) source.removeFeature(feature);
@@ -136,24 +160,36 @@ export class GlobeEditing {
   }
 
   dispose(): void {
-    if (this.#held) this.#globe.scene.screenSpaceCameraController.enableInputs = true;
+    if (this.#held || this.#side) this.#globe.scene.screenSpaceCameraController.enableInputs = true;
     this.#end.abort();
   }
 
   async #move(): Promise<void> {
     const { signal } = this.#end;
     this.#busy = true;
-    for (let at = this.#next; at && this.#held; at = this.#next) {
+    for (let at = this.#next; at && (this.#held || this.#side); at = this.#next) {
       this.#next = undefined;
       try {
         const place = await this.#globe.placeAt(at, signal);
-        if (place && !signal.aborted) this.#features.move(this.#held, place);
+        if (place && !signal.aborted) this.#put(place);
       } catch (thrown) {
         if (!signal.aborted) this.#failed(thrown);
       }
     }
     this.#busy = false;
-    if (this.#globe.scene.screenSpaceCameraController.enableInputs) this.#held = undefined;
+    if (this.#globe.scene.screenSpaceCameraController.enableInputs) this.#release();
+  }
+
+  /** Puts what is held at a place; a side has a vertex there from then on. */
+  #put(place: Vector): void {
+    if (this.#held) this.#features.move(this.#held, place);
+    else if (this.#side) this.#held = this.#features.insert(this.#side.side, place);
+    if (this.#held) this.#side = undefined;
+  }
+
+  #release(): void {
+    this.#held = undefined;
+    this.#side = undefined;
   }
 }
 

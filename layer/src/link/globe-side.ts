@@ -85,15 +85,11 @@ export class GlobeSide {
   /** What the camera looks at. */
   get view(): GroundView {
     const { pose } = this;
-    const ray = this.#rayAt(pose, this.middle);
-    const place = this.#lookedAt({ ...pose, direction: ray });
-    const { camera, canvas } = this.scene;
-    const { frustum } = camera;
-    const depth = distance(place, pose.position) * dot(ray, pose.direction);
-    const metresPerPixel =
-      frustum instanceof OrthographicFrustum
-        ? (frustum.width ?? 1) / canvas.clientWidth
-        : (2 * depth * tangents(frustum).up) / canvas.clientHeight;
+    const { origin, direction } = this.#rayAt(pose, this.middle);
+    const place = this.#lookedAt({ ...pose, position: origin, direction });
+    const halves = halvesOf(this.scene.camera.frustum);
+    const depth = halves.parallel ? 1 : distance(place, origin) * dot(direction, pose.direction);
+    const metresPerPixel = (2 * depth * halves.up) / this.scene.canvas.clientHeight;
     return { place, heading: headingAt(pose, place), metresPerPixel };
   }
 
@@ -162,10 +158,7 @@ export class GlobeSide {
 
   /** The outline of the ground in the picture: places of ECEF. */
   get footprint(): Vector[] {
-    const { frustum } = this.scene.camera;
-    // Parallel rays are not drawn from one place.
-    if (frustum instanceof OrthographicFrustum) return [];
-    const halves = tangents(frustum);
+    const halves = halvesOf(this.scene.camera.frustum);
     const terrain = this.#terrain;
     if (!terrain) return footprintOf(this.pose, halves, this.#height);
     return footprintOf(this.pose, halves, 0, (ray) => this.#pickTerrain(ray));
@@ -227,18 +220,21 @@ export class GlobeSide {
     return globe?.show && !(globe.terrainProvider instanceof EllipsoidTerrainProvider) ? globe : undefined;
   }
 
-  /** Direction from the camera through a place of its picture; without perspective it is that of the camera. */
-  #rayAt({ direction, up }: CameraPose, { x, y }: ScreenPlace): Vector {
+  /** The ray through a place of the picture; without perspective it begins beside the camera. */
+  #rayAt({ position, direction, up }: CameraPose, { x, y }: ScreenPlace): Ray {
     const { camera, canvas } = this.scene;
-    if (camera.frustum instanceof OrthographicFrustum) return direction;
-    const halves = tangents(camera.frustum);
+    const halves = halvesOf(camera.frustum);
     const [a, b] = [
       ((2 * x) / canvas.clientWidth - 1) * halves.right,
       (1 - (2 * y) / canvas.clientHeight) * halves.up,
     ];
     const right = cross(direction, up);
-    const along = (axis: number) => direction[axis] + a * right[axis] + b * up[axis];
-    return unit([along(0), along(1), along(2)]);
+    const beside = (from: Vector): Vector => {
+      const along = (axis: number) => from[axis] + a * right[axis] + b * up[axis];
+      return [along(0), along(1), along(2)];
+    };
+    if (halves.parallel) return { origin: beside(position), direction };
+    return { origin: position, direction: unit(beside(direction)) };
   }
 
   /** @param pose a camera whose direction is that of the ray */
@@ -287,8 +283,11 @@ function isCollection(primitive: unknown): primitive is PrimitiveCollection {
   return typeof get === "function" && typeof length === "number";
 }
 
-/** Of half of the fields of view. */
-function tangents(frustum: Scene["camera"]["frustum"]): PictureHalves {
+function halvesOf(frustum: Scene["camera"]["frustum"]): PictureHalves {
+  if (frustum instanceof OrthographicFrustum) {
+    const right = (frustum.width ?? 1) / 2;
+    return { right, up: right / (frustum.aspectRatio ?? 1), parallel: true };
+  }
   const { fovy = Math.PI / 3, aspectRatio = 1 } = frustum as PerspectiveFrustum;
   const up = Math.tan(fovy / 2);
   return { right: up * aspectRatio, up };

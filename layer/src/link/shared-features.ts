@@ -11,16 +11,16 @@ import { heightOf, placeOn } from "./geometry/index.js";
 import { type GlobeLine, GlobeLines } from "./globe-lines.js";
 import type { GlobeSide, ScreenPlace } from "./globe-side.js";
 import type { MapSide } from "./map-side.js";
-import { moveVertex, rowsOf, type Vertex } from "./vertices.js";
+import { insertVertex, moveVertex, removeVertex, rowsOf, type Vertex, type VertexRow } from "./vertices.js";
 
 /** Metres that a line of the map may be cut into for the globe: a chord of that length is a millimetre from the ground. */
 const CHORD = 226;
 /** Parts of a side at most. */
 const PARTS = 256;
-/** CSS pixels around a vertex in which a pointer takes hold of it. */
+/** CSS pixels around a vertex or a line in which a pointer takes hold of it. */
 const REACH = 10;
 
-/** A vertex of a shared feature. */
+/** A vertex of a shared feature, or the side that begins at it. */
 export interface SharedVertex extends Vertex {
   readonly feature: Feature;
 }
@@ -112,10 +112,40 @@ export class SharedFeatures {
     return nearest;
   }
 
+  /** The side of a line or ring that the globe shows nearest to a place of its picture. */
+  sideAt(at: ScreenPlace): SharedVertex | undefined {
+    let nearest: SharedVertex | undefined;
+    let least = REACH;
+    for (const feature of this.#lines.features) {
+      for (const row of rowsOf(feature.getGeometry())) {
+        for (let index = 0; row.joined && index < row.vertices.length - 1; index++) {
+          const shown = this.#sideOf(feature, row, index).map((place) => this.#globe.pixelOf(place));
+          for (let part = 1; part < shown.length; part++) {
+            const [from, to] = [shown[part - 1], shown[part]];
+            const away = from && to ? awayFrom(at, from, to) : Number.POSITIVE_INFINITY;
+            if (away < least) [nearest, least] = [{ feature, row, index }, away];
+          }
+        }
+      }
+    }
+    return nearest;
+  }
+
   /** Moves a vertex to a place of the globe, ECEF. */
   move({ feature, ...vertex }: SharedVertex, place: Vector): void {
     const coordinate = this.coordinateOf(feature, place);
     if (coordinate) moveVertex(vertex, coordinate);
+  }
+
+  /** Puts a vertex into a side, at a place of the globe, ECEF. @returns the vertex; undefined where the map has no such place */
+  insert({ feature, ...side }: SharedVertex, place: Vector): SharedVertex | undefined {
+    const coordinate = this.coordinateOf(feature, place);
+    return coordinate && { feature, ...insertVertex(side, coordinate) };
+  }
+
+  /** Takes a vertex out of its line or ring, where enough others are left. */
+  remove(vertex: SharedVertex): void {
+    removeVertex(vertex);
   }
 
   /** The coordinates of a place, ECEF, for a vertex of a feature; its height is kept where they cannot hold it. */
@@ -159,31 +189,33 @@ export class SharedFeatures {
   #show(feature: Feature): void {
     const shown = this.#sketches.has(feature) || this.source.hasFeature(feature);
     const rows = shown ? rowsOf(feature.getGeometry()) : [];
-    const lines = rows.flatMap(({ vertices, joined }): GlobeLine[] => {
+    const lines = rows.flatMap((row): GlobeLine[] => {
+      const { vertices, joined } = row;
       const places = vertices.map((vertex) => this.#placeOf(feature, vertex));
       if (!places.every((place) => place !== undefined)) return [];
-      return [{ vertices: places, way: joined ? this.#wayOf(feature, vertices, places) : [] }];
+      const sides = joined
+        ? places.slice(1).flatMap((_, index) => this.#sideOf(feature, row, index).slice(1))
+        : [];
+      return [{ vertices: places, way: joined ? [places[0], ...sides] : [] }];
     });
     this.#lines.show(feature, lines);
   }
 
-  /** A line of the map, with vertices between its own where the ground bends away from a chord. */
-  #wayOf(feature: Feature, vertices: readonly Coordinate[], places: readonly Vector[]): Vector[] {
-    const way: Vector[] = [places[0]];
-    for (let side = 1; side < vertices.length; side++) {
-      const [from, to] = [vertices[side - 1], vertices[side]];
-      const [low, high] = [from, to].map((vertex) => this.#heightOf(feature, vertex));
-      const length = Math.hypot(...difference(places[side], places[side - 1]));
-      const parts = Math.min(Math.ceil(length / CHORD), PARTS);
-      for (let part = 1; part < parts; part++) {
-        const share = part / parts;
-        const at = [0, 1].map((axis) => from[axis] + share * (to[axis] - from[axis]));
-        const place = placeOn(this.#map.plane, at, low + share * (high - low));
-        if (place) way.push(place);
-      }
-      way.push(places[side]);
+  /** A side of the map's line, with places between its ends where the ground bends away from a chord. */
+  #sideOf(feature: Feature, { vertices }: VertexRow, index: number): Vector[] {
+    const [from, to] = [vertices[index], vertices[index + 1]];
+    const [start, end] = [from, to].map((vertex) => this.#placeOf(feature, vertex));
+    if (!start || !end) return [];
+    const [low, high] = [from, to].map((vertex) => this.#heightOf(feature, vertex));
+    const parts = Math.min(Math.ceil(Math.hypot(...difference(end, start)) / CHORD), PARTS);
+    const way = [start];
+    for (let part = 1; part < parts; part++) {
+      const share = part / parts;
+      const at = [0, 1].map((axis) => from[axis] + share * (to[axis] - from[axis]));
+      const place = placeOn(this.#map.plane, at, low + share * (high - low));
+      if (place) way.push(place);
     }
-    return way;
+    return [...way, end];
   }
 
   #placeOf(feature: Feature, vertex: Coordinate): Vector | undefined {
@@ -237,6 +269,14 @@ export class SharedFeatures {
       return undefined;
     }
   }
+}
+
+/** Distance of a place of the picture from a piece of a line, CSS pixels. */
+function awayFrom({ x, y }: ScreenPlace, from: ScreenPlace, to: ScreenPlace): number {
+  const [dx, dy] = [to.x - from.x, to.y - from.y];
+  const along = ((x - from.x) * dx + (y - from.y) * dy) / (dx * dx + dy * dy || 1);
+  const share = Math.min(Math.max(along, 0), 1);
+  return Math.hypot(from.x + share * dx - x, from.y + share * dy - y);
 }
 
 function keyOf([x, y]: readonly number[]): string {

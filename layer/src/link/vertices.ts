@@ -41,16 +41,50 @@ export function rowsOf(geometry: Geometry | undefined): VertexRow[] {
 
 /** Moves a vertex; that which closes a ring goes with the one that begins it. */
 export function moveVertex({ row, index }: Vertex, to: Coordinate): void {
-  const { geometry, path, vertices } = row;
-  const all = geometry.getCoordinates() as Nested;
-  const place = geometry.getStride() > 2 ? to : to.slice(0, 2);
-  if (geometry.getType() === "Point") {
-    geometry.setCoordinates(place);
+  if (row.geometry.getType() === "Point") {
+    row.geometry.setCoordinates(fitted(row, to));
     return;
   }
+  change(row, (own) => {
+    const last = own.length - 1;
+    for (const at of isRing(row) && (index === 0 || index === last) ? [0, last] : [index]) {
+      own[at] = fitted(row, to);
+    }
+  });
+}
+
+/** Puts a vertex into the side that begins at one. @returns the vertex, in the row as it is then */
+export function insertVertex({ row, index }: Vertex, at: Coordinate): Vertex {
+  const vertices = change(row, (own) => own.splice(index + 1, 0, fitted(row, at)));
+  return { row: { ...row, vertices }, index: index + 1 };
+}
+
+/** Takes a vertex out of a line or ring. @returns whether enough are left for one; else nothing is done */
+export function removeVertex({ row, index }: Vertex): boolean {
+  const ring = isRing(row);
+  if (!row.joined || row.vertices.length <= (ring ? 4 : 2)) return false;
+  change(row, (own) => {
+    const last = own.length - 1;
+    own.splice(ring && index === last ? 0 : index, 1);
+    if (ring && (index === 0 || index === last)) own[own.length - 1] = [...own[0]];
+  });
+  return true;
+}
+
+function isRing({ geometry }: VertexRow): boolean {
+  return geometry.getType().includes("Polygon");
+}
+
+/** A coordinate with as many numbers as those of a row. */
+function fitted({ geometry }: VertexRow, coordinate: Coordinate): Coordinate {
+  return coordinate.slice(0, geometry.getStride() > 2 ? 3 : 2);
+}
+
+/** Changes the vertices of a row in its geometry. @returns them, as they are then */
+function change({ geometry, path }: VertexRow, work: (own: Coordinate[]) => void): Coordinate[] {
+  const all = geometry.getCoordinates() as Nested;
   const own = path.reduce<Nested>((nested, at) => (nested as Nested[])[at], all) as Coordinate[];
-  const last = vertices.length - 1;
-  const closed = geometry.getType().includes("Polygon") && (index === 0 || index === last);
-  for (const at of closed ? [0, last] : [index]) own[at] = [...place];
+  work(own);
   geometry.setCoordinates(all as Coordinate[]);
+  return own;
 }

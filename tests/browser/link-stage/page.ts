@@ -13,6 +13,7 @@ class LinkStage {
   readonly globe: Stage;
   readonly cloud: PointCloud;
   readonly maps: MapStage[] = [];
+  #next: number | undefined;
 
   constructor(cloud: PointCloud, options: StageOptions = {}) {
     this.cloud = cloud;
@@ -28,12 +29,28 @@ class LinkStage {
     return stage;
   }
 
+  /** Has the globe draw all frames of the page until it is to {@link halt}. */
+  run(): void {
+    const frame = () => {
+      this.globe.frame();
+      this.#next = requestAnimationFrame(frame);
+    };
+    this.halt();
+    frame();
+  }
+
+  halt(): void {
+    if (this.#next !== undefined) cancelAnimationFrame(this.#next);
+    this.#next = undefined;
+  }
+
   /** Resolves after the next frames of the page. */
   async frames(count = 2): Promise<void> {
     for (let frame = 0; frame < count; frame++) await new Promise(requestAnimationFrame);
   }
 
   destroy(): void {
+    this.halt();
     for (const map of this.maps) map.destroy();
     this.globe.destroy();
   }
@@ -51,6 +68,7 @@ declare global {
       readonly PointCloudSource: typeof PointCloudSource;
       readonly Clip: typeof Clip;
       readonly LinkStage: typeof LinkStage;
+      readonly Stage: typeof Stage;
       /** What stands, if anything. */
       stage: LinkStage;
       link: Link;
@@ -63,7 +81,7 @@ declare global {
 }
 
 window.linked = {
-  ...{ Cesium, ol, synchronize, PointCloud, MapLayer, PointCloudSource, Clip, LinkStage },
+  ...{ Cesium, ol, synchronize, PointCloud, MapLayer, PointCloudSource, Clip, LinkStage, Stage },
   stage: undefined as unknown as LinkStage,
 } as Window["linked"];
 document.body.dataset.ready = "true";

@@ -6,6 +6,7 @@ plane    20 x 20 m, points every 10 cm, level, mid grey
 steps    a level square of 20 x 20 m with a block of 8 x 8 x 4 m on it, points every 10 cm, mid grey
 stripes  as plane, but colours, classes, returns, intensities, times and extra bytes change from strip to strip
 checks   4 x 4 m with points every 2 cm and squares of 4 cm, black and white
+terraces as stripes, but each strip lies 1.2 m above the one to its west, and no two attributes go the same way
 density  20 x 20 m; the west has a point every 5 cm, the east one every 20 cm
 cliff    two level squares of 10 x 10 m: red ones at 0 m, green ones at 6 m above them
 """
@@ -64,24 +65,37 @@ def steps():
     return np.vstack([ground, top, *walls])
 
 
-def stripes(folder):
+# Numbers of the strips of `terraces`, from west to east, by what has them.
+WAYS = {
+    "return": [0, 2, 1, 3, 4],
+    "source": [0, 3, 2, 1, 4],
+    "angle": [4, 0, 2, 1, 3],
+    "user": [0, 4, 1, 2, 3],
+    "time": [1, 0, 4, 2, 3],
+    "extra": [2, 1, 0, 3, 4],
+}
+
+
+def stripes(folder, name="stripes", step=0.0, ways={}):
     points = grid(20, 0.1)
     strip = np.clip(((points[:, 0] + 10) / 4).astype(int), 0, 4)
     palette = np.array([[220, 40, 40], [40, 200, 60], [50, 80, 230], [240, 220, 60], [240, 240, 240]])
+    points[:, 2] += step * strip
+    way = {key: np.array(ways.get(key, range(5)))[strip] for key in WAYS}
     return write(
         folder,
-        "stripes",
+        name,
         points,
         palette[strip],
         intensity=(strip * 12_000 + 1_000).astype(np.uint16),
         classification=np.array([2, 3, 5, 6, 9])[strip].astype(np.uint8),
-        return_number=(strip + 1).astype(np.uint8),
+        return_number=(way["return"] + 1).astype(np.uint8),
         number_of_returns=np.full(len(points), 5, np.uint8),
-        point_source_id=(strip + 100).astype(np.uint16),
-        scan_angle=((strip - 2) * 1_000).astype(np.int16),
-        user_data=(strip * 50).astype(np.uint8),
-        gps_time=300_000_000.25 + strip * 10.0,
-        extra={"amplitude": (strip * 1.5 - 2.0).astype(np.float32)},
+        point_source_id=(way["source"] + 100).astype(np.uint16),
+        scan_angle=((way["angle"] - 2) * 1_000).astype(np.int16),
+        user_data=(way["user"] * 50).astype(np.uint8),
+        gps_time=300_000_000.25 + way["time"] * 10.0,
+        extra={"amplitude": (way["extra"] * 1.5 - 2.0).astype(np.float32)},
     )
 
 
@@ -102,6 +116,7 @@ def main(folder):
         "plane": write(folder, "plane", grid(20, 0.1)),
         "steps": write(folder, "steps", steps()),
         "stripes": stripes(folder),
+        "terraces": stripes(folder, "terraces", 1.2, WAYS),
         "checks": write(folder, "checks", dense, np.array([[0, 0, 0], [255, 255, 255]])[black]),
         "density": write(folder, "density", density()),
         "cliff": write(folder, "cliff", cliff, levels),

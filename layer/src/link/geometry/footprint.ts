@@ -1,12 +1,14 @@
-import { cross, difference, dot, type Vector } from "@groma/georef";
+import { cross, difference, dot, unit, type Vector } from "@groma/georef";
 import type { CameraPose } from "./camera.js";
 import { geodeticOf, type Plane, unwrapped } from "./plane-view.js";
-import { horizonBelow, meetSurface, type Ray } from "./surface.js";
+import { horizonBelow, limbBeside, meetSurface, type Ray } from "./surface.js";
 
-/** Half of the picture's edges at unit distance: tangents of half of the fields of view. */
+/** Half of the picture's edges: tangents of half of the fields of view, or metres where there is no perspective. */
 export interface PictureHalves {
   readonly right: number;
   readonly up: number;
+  /** Whether all rays have the camera's direction. Default: they begin in one place. */
+  readonly parallel?: boolean;
 }
 
 /** Parts of an edge of the picture, at least, each of which is a side of the footprint. */
@@ -35,13 +37,13 @@ export function footprintOf(
   const right = cross(pose.direction, pose.up);
   const rayAt = (place: number): Ray => {
     const [x, y] = onEdge(place);
-    const [a, b] = [x * halves.right, y * halves.up];
-    const length = Math.hypot(1, a, b);
-    const along = (axis: number) => (pose.direction[axis] + a * right[axis] + b * pose.up[axis]) / length;
-    return { origin: pose.position, direction: [along(0), along(1), along(2)] };
+    const aside = (axis: number) => x * halves.right * right[axis] + y * halves.up * pose.up[axis];
+    const beside = (from: Vector): Vector => [from[0] + aside(0), from[1] + aside(1), from[2] + aside(2)];
+    if (halves.parallel) return { origin: beside(pose.position), direction: pose.direction };
+    return { origin: pose.position, direction: unit(beside(pose.direction)) };
   };
   const horizonAt = (ray: Ray): Vector | undefined => {
-    const place = horizonBelow(ray, height);
+    const place = halves.parallel ? limbBeside(ray, height) : horizonBelow(ray, height);
     return place && isSeen(pose, right, halves, place) ? place : undefined;
   };
   const isMet = (place: number) => meet(rayAt(place)) !== undefined;
@@ -92,10 +94,11 @@ function crossingOf(holds: (place: number) => boolean, from: number, to: number)
 function isSeen(pose: CameraPose, right: Vector, halves: PictureHalves, place: Vector): boolean {
   const away = difference(place, pose.position);
   const depth = dot(away, pose.direction);
+  const scale = (1 + EDGE) * (halves.parallel ? 1 : depth);
   return (
     depth > 0 &&
-    Math.abs(dot(away, right)) <= (1 + EDGE) * halves.right * depth &&
-    Math.abs(dot(away, pose.up)) <= (1 + EDGE) * halves.up * depth
+    Math.abs(dot(away, right)) <= halves.right * scale &&
+    Math.abs(dot(away, pose.up)) <= halves.up * scale
   );
 }
 

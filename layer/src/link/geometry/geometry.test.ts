@@ -300,6 +300,38 @@ describe("the footprint of what a camera sees", () => {
     );
   });
 
+  it("is the edge of the picture, or the limb, where there is no perspective", () => {
+    fc.assert(
+      fc.property(
+        ...[longitude, latitude, span.map((x) => 5 * x), number(0, 360), number(-90, 20), span],
+        (lon, lat, above, heading, pitch, width) => {
+          const pose = cameraAt(ecef(lon, lat, above), heading, pitch, 10);
+          const right = cross(pose.direction, pose.up);
+          const wide = { right: 0.8 * width, up: 0.6 * width, parallel: true };
+          for (const place of footprintOf(pose, wide, 0)) {
+            expect(Math.abs(heightOf(place))).toBeLessThan(0.01);
+            const away = difference(place, pose.position);
+            expect(dot(away, pose.direction)).toBeGreaterThan(0);
+            const x = Math.abs(dot(away, right) / wide.right);
+            const y = Math.abs(dot(away, pose.up) / wide.up);
+            expect(Math.max(x, y)).toBeLessThan(1 + 1e-5);
+            const touch = Math.abs(dot(pose.direction, upAt(place)));
+            expect(Math.max(x, y) > 1 - 1e-5 || touch < 1e-4).toBe(true);
+          }
+        },
+      ),
+    );
+    // Parallel rays see as much ground from any height: 80 by 60 m.
+    const flat = { right: 80, up: 60, parallel: true };
+    const outline = footprintOf(cameraAt(ecef(0, 0, 5000), 0, -90), flat, 0);
+    expect(Math.max(...outline.map(([, y]) => y))).toBeCloseTo(80, 6);
+    expect(Math.min(...outline.map(([, , z]) => z))).toBeCloseTo(-60, 6);
+    // And the half of a globe that is seen as a whole, not less as from a place.
+    const whole = footprintOf(cameraAt(ecef(20, 0, 3e7), 0, -90), { right: 8e6, up: 8e6, parallel: true }, 0);
+    expect(whole.length).toBe(48);
+    for (const place of whole) expect(Math.abs(dot(upAt(place), upAt(ecef(20, 0))))).toBeLessThan(1e-6);
+  });
+
   it("is none of the sky, and the horizon round a globe that is seen as a whole", () => {
     expect(footprintOf(cameraAt(ecef(0, 0, 100), 0, 80), halves, 0)).toEqual([]);
     const whole = footprintOf(cameraAt(ecef(20, 0, 3e7), 0, -90), halves, 0);

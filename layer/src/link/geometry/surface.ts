@@ -90,6 +90,25 @@ export function horizonBelow(ray: Ray, height: number): Vector | undefined {
   return [x, y, z];
 }
 
+/**
+ * The place of the limb that a ray of a picture without perspective passes by: of those that touch the surface of a
+ * height, in the plane of the ray and the centre of the earth.
+ *
+ * In coordinates that make the ellipsoid a unit sphere it is the part of the origin perpendicular to the direction, of
+ * length 1.
+ *
+ * @returns undefined for a ray whose line meets the surface
+ */
+export function limbBeside(ray: Ray, height: number): Vector | undefined {
+  const { origin, direction } = scaled(ray, height);
+  const along = dot(origin, direction) / dot(direction, direction);
+  const aside = origin.map((value, axis) => value - along * direction[axis]);
+  const length = Math.hypot(...aside);
+  if (length < 1) return undefined;
+  const [x, y, z] = axesOf(height).map((axis, at) => (axis * aside[at]) / length);
+  return [x, y, z];
+}
+
 /** The ray in coordinates in which the ellipsoid of a height is a unit sphere. */
 function scaled({ origin, direction }: Ray, height: number): Ray {
   const [x, y, z] = axesOf(height);

@@ -1,0 +1,186 @@
+import { describe, expect, it } from "vitest";
+import { screenshot } from "./harness.js";
+import { LinkedPage, missing, unless } from "./linked.js";
+
+describe.skipIf(missing)(`the pointer on map and globe${unless}`, () => {
+  const linked = new LinkedPage();
+
+  it("has a handle on the map that moves and turns the camera, and nothing else", {
+    timeout: 120_000,
+  }, async () => {
+    const { map } = await linked.show({ view: "both", cursor: false });
+    const state = () =>
+      linked.page.evaluate(async () => {
+        const { stage, link, ol, Cesium } = window.linked;
+        const { map } = stage.maps[0]!;
+        const { camera } = stage.globe.scene;
+        stage.globe.frame();
+        await stage.frames(2);
+        const { longitude, latitude, height } = camera.positionCartographic;
+        const nadir = ol.fromLonLat([longitude, latitude].map(Cesium.Math.toDegrees), "EPSG:32632");
+        const stand = link.camera!.getGeometry()!.getCoordinates();
+        return {
+          ...{ nadir, height, stand, pixel: map.getPixelFromCoordinate(stand) },
+          ...{ heading: camera.heading, pitch: camera.pitch, rotation: map.getView().getRotation() },
+          center: map.getView().getCenter()!,
+        };
+      });
+    await linked.page.evaluate(() => {
+      const { stage } = window.linked;
+      const view = stage.maps[0]!.map.getView();
+      view.setResolution(0.2);
+      return stage.maps[0]!.complete();
+    });
+    const before = await state();
+    const moves = await linked.page.evaluateHandle(() => {
+      const moves: string[] = [];
+      window.linked.link.onMove(({ origin, target }) => moves.push(`${origin} > ${target}`));
+      return moves;
+    });
+    expect(Math.hypot(before.stand[0]! - before.nadir[0]!, before.stand[1]! - before.nadir[1]!)).toBeLessThan(
+      1e-3,
+    );
+    const { mouse } = linked.page;
+    const drag = async (from: number[], to: number[]) => {
+      await mouse.move(map[0] + from[0]!, map[1] + from[1]!);
+      await mouse.down();
+      await mouse.move(map[0] + to[0]!, map[1] + to[1]!, { steps: 4 });
+      await mouse.up();
+      return state();
+    };
+    await screenshot(linked.page, "link-handle");
+    const [x, y] = before.pixel as [number, number];
+    const moved = await drag([x, y], [x + 50, y - 30]);
+    // What lies under the pointer at the end is where the camera stands.
+    const [cosine, sine] = [Math.cos(before.rotation), Math.sin(before.rotation)];
+    const wanted = [
+      before.stand[0]! + 0.2 * (cosine * 50 - sine * 30),
+      before.stand[1]! + 0.2 * (sine * 50 + cosine * 30),
+    ];
+    expect(Math.hypot(moved.nadir[0]! - wanted[0]!, moved.nadir[1]! - wanted[1]!)).toBeLessThan(0.01);
+    expect(moved.height).toBeCloseTo(before.height, 6);
+    expect([moved.heading, moved.pitch]).toEqual([
+      expect.closeTo(before.heading, 5),
+      expect.closeTo(before.pitch, 5),
+    ]);
+    expect(moved.center).toEqual(before.center);
+    // The arm points upwards, as the camera looks; its end is taken to the right.
+    const [mx, my] = moved.pixel as [number, number];
+    const turned = await drag([mx, my - 44], [mx + 60, my]);
+    const quarter = turned.heading - moved.heading;
+    expect((quarter + 2 * Math.PI) % (2 * Math.PI)).toBeCloseTo(Math.PI / 2, 4);
+    expect(turned.pitch).toBeCloseTo(before.pitch, 5);
+    expect(Math.hypot(turned.nadir[0]! - moved.nadir[0]!, turned.nadir[1]! - moved.nadir[1]!)).toBeLessThan(
+      1e-3,
+    );
+    expect(turned.center).toEqual(before.center);
+    const told = await moves.jsonValue();
+    expect(told.length).toBeGreaterThan(4);
+    expect(new Set(told)).toEqual(new Set(["handle > globe"]));
+    await screenshot(linked.page, "link-handle-turned");
+  });
+
+  it("marks the record under the pointer of one side on the other", { timeout: 120_000 }, async () => {
+    const { map, globe } = await linked.show({ camera: false, footprint: false });
+    const { mouse } = linked.page;
+    /** The cursor's marks, once that of the globe is shown or not as asked, and elsewhere than before. */
+    const look = async (shown: boolean, before?: readonly number[]) => {
+      await linked.until(
+        ({ shown, before }) => {
+          const { map, globe } = window.linked.link.cursor!;
+          const { x, y, z } = globe.position;
+          const other = before === undefined || `${[x, y, z]}` !== `${before}`;
+          return globe.show === shown && other && !(shown && map.getGeometry());
+        },
+        { shown, before },
+      );
+      return linked.page.evaluate(() => {
+        const { link, Cesium } = window.linked;
+        const { map, globe } = link.cursor!;
+        const { x, y, z } = globe.position;
+        const { height } = Cesium.Cartographic.fromCartesian(globe.position) ?? { height: Number.NaN };
+        return { map: map.getGeometry()?.getCoordinates(), globe: [x, y, z], height };
+      });
+    };
+    await mouse.move(globe[0] + 215, globe[1] + 140);
+    await linked.until(() => window.linked.link.cursor!.map.getGeometry(), undefined);
+    const onGlobe = await look(false);
+    const [picked, ecef] = await linked.page.evaluate(async () => {
+      const { stage, Cesium } = window.linked;
+      const { source, position } = (await stage.globe.layer.pick(new Cesium.Cartesian2(215, 140)))!;
+      return [source, [position.x, position.y, position.z]];
+    });
+    await screenshot(linked.page, "link-cursor");
+    // The map's plane is the scan's own: the record's coordinates are the place on it.
+    expect(Math.hypot(onGlobe.map![0]! - picked![0]!, onGlobe.map![1]! - picked![1]!)).toBeLessThan(1e-3);
+    const pixel = await linked.page.evaluate(
+      (at) => window.linked.stage.maps[0]!.map.getPixelFromCoordinate(at!),
+      onGlobe.map,
+    );
+    await mouse.move(Math.round(map[0] + pixel[0]!), Math.round(map[1] + pixel[1]!));
+    const onMap = await look(true);
+    expect(onMap.map).toBeUndefined();
+    const recorded = await linked.page.evaluate(
+      async (at) => {
+        const { stage } = window.linked;
+        const hit = (await stage.maps[0]!.layer.pick(at))!;
+        return [...stage.cloud.place(...hit.source)];
+      },
+      [Math.round(pixel[0]!), Math.round(pixel[1]!)],
+    );
+    const away = (place: readonly number[]) =>
+      Math.hypot(...onMap.globe.map((value, axis) => value - place[axis]!));
+    expect(away(recorded)).toBeLessThan(1e-6);
+    // The pointer stands on whole pixels, of which two lie between neighbouring points.
+    expect(away(ecef!)).toBeLessThan(0.15);
+    // Beside the scan it is the ground at the height that was looked at.
+    await mouse.move(map[0] + 20, map[1] + 20);
+    const beside = await look(true, onMap.globe);
+    expect(beside.height).toBeCloseTo(500, 0);
+    await mouse.move(map[0] + 750, map[1] + 20);
+    await look(false);
+  });
+
+  it("goes where it is clicked", { timeout: 120_000 }, async () => {
+    const { map, globe } = await linked.show({ view: "both", click: true, flight: 0, camera: false });
+    /** The views, once they are elsewhere than before and rest. */
+    const seen = async (before?: readonly number[]) => {
+      await linked.until(
+        (before) => `${window.linked.stage.maps[0]!.map.getView().getCenter()}` !== `${before}`,
+        before,
+      );
+      return linked.page.evaluate(async () => {
+        const { stage, Cesium } = window.linked;
+        const { scene } = stage.globe;
+        const view = stage.maps[0]!.map.getView();
+        const pose = () => `${view.getCenter()} ${scene.camera.positionWC}`;
+        // Longer than the link waits before it reads the record in the middle.
+        for (let last = "", resting = 0; resting < 8; last = pose()) {
+          await new Promise((done) => setTimeout(done, 30));
+          resting = pose() === last && stage.globe.layer.settled ? resting + 1 : 0;
+        }
+        const [width, height] = [scene.canvas.clientWidth, scene.canvas.clientHeight];
+        const hit = await stage.globe.layer.pick(new Cesium.Cartesian2(width / 2, height / 2));
+        return { source: hit?.source, center: view.getCenter()!, pitch: scene.camera.pitch };
+      });
+    };
+    const start = await seen();
+    const coordinate = await linked.page.evaluate(() =>
+      window.linked.stage.maps[0]!.map.getCoordinateFromPixel([340, 180]),
+    );
+    await linked.page.mouse.click(map[0] + 340, map[1] + 180);
+    const gone = await seen(start.center);
+    expect(gone.pitch).toBeCloseTo(start.pitch, 4);
+    for (const found of [gone.center, gone.source!]) {
+      expect(Math.hypot(found[0]! - coordinate[0]!, found[1]! - coordinate[1]!)).toBeLessThan(0.5);
+    }
+    await linked.page.mouse.click(globe[0] + 180, globe[1] + 170);
+    const back = await seen(gone.center);
+    expect(Math.hypot(back.center[0]! - gone.center[0]!, back.center[1]! - gone.center[1]!)).toBeGreaterThan(
+      1,
+    );
+    expect(Math.hypot(back.center[0]! - back.source![0]!, back.center[1]! - back.source![1]!)).toBeLessThan(
+      0.5,
+    );
+  });
+});
