@@ -127,8 +127,11 @@ module.exports = {
     layer("tools/ellipsoid", ["tools/profile", "tools/sections", "query"]),
     layer("tools/plot", ["tools/profile", "tools/terrain"]),
     layer("export", [
+      "tools/area",
       "tools/sections",
       "tools/terrain",
+      "clips",
+      "effects",
       "query",
       "octree",
       "workers",
@@ -138,7 +141,7 @@ module.exports = {
     ]),
     layer("tools/exact", []),
     layer("tools/sections", ["tools/profile", "query"]),
-    layer("tools/area", ["tools/exact", "query"]),
+    layer("tools/area", ["tools/exact", "clips", "query"]),
     // A view hands out all that every application needs, beside its own.
     layer("cesium", [
       "tools",

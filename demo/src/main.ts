@@ -13,6 +13,7 @@ import { clipGroup } from "./panel/clip-fields.js";
 import { Controls } from "./panel/controls.js";
 import { Drawing } from "./panel/drawing.js";
 import { byId } from "./panel/elements.js";
+import { ExportPoints } from "./panel/export-points.js";
 import { showFacts } from "./panel/facts.js";
 import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
@@ -72,6 +73,7 @@ function start(viewer: Viewer): void {
   const groups = [...STYLE_GROUPS, ...VIEW_GROUPS, clipGroup(box)];
   const drawing = new Drawing(groups, (thrown) => message.show(thrown));
   const classes = new Classes();
+  const exporting = new ExportPoints((thrown) => message.show(thrown));
   const ledger = new Ledger();
   const picked = new Picked();
   const profile = new ProfilePanel(viewer, () => slot.layer, {
@@ -247,6 +249,7 @@ function start(viewer: Viewer): void {
     box.attach(layer);
     drawing.attach(layer);
     classes.attach(layer);
+    exporting.attach(layer);
     ledger.attach(layer);
     picking.clear();
     measuring.tool.attach([layer.cloud]);

@@ -54,11 +54,13 @@ describe.skipIf(scan.missing)(
       timeout: 480_000,
     }, async () => {
       const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
+      page.setDefaultTimeout(120_000);
       // Browsers with a file picker ask the user; the download is what a test can take.
       await page.addInitScript(() => {
         (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;
       });
-      await page.goto(`${server.address}&fly=0`);
+      // Fewer points are drawn than there are, so that software frames leave time for the rest.
+      await page.goto(`${server.address}&fly=0&budget=60000`);
       await settle(page);
       await page.click("#above");
       await settle(page);
@@ -116,6 +118,7 @@ describe.skipIf(scan.missing)(
       expect(watch.errors).toEqual([]);
       expect(watch.foreign).toEqual([]);
 
+      await clippedPointsAreExported(page, folder);
       await plotIsMovedAndMeasured(page);
       await lineIsChangedAndKept(page);
       await page.click("#profile-close");
@@ -125,6 +128,62 @@ describe.skipIf(scan.missing)(
     });
   },
 );
+
+/** Exports what a polygon and a filter leave of the cloud, to the bytes of the command line; and gives an export up. */
+async function clippedPointsAreExported(page: Page, folder: string): Promise<void> {
+  const { ring, heights } = await page.evaluate(async () => {
+    const { cloud, clips } = window.groma.layer;
+    const { min, max } = cloud.boundingBox;
+    const at = (u: number, v: number) => [min[0] + u * (max[0] - min[0]), min[1] + v * (max[1] - min[1])];
+    const ring = [at(0.3, 0.35), at(0.7, 0.3), at(0.6, 0.7), at(0.5, 0.5)] as [number, number][];
+    const ends = { bottom: undefined, top: undefined };
+    clips.add({ kind: "polygon", mode: "inside", coordinates: "source", ring, ...ends });
+    const heights = [0.2, 0.6].map((share) => min[2] + share * (max[2] - min[2])) as [number, number];
+    window.groma.layer.filter = { ranges: { elevation: heights } };
+    return { ring, heights };
+  });
+  await page.click("#export summary");
+  const downloading = page.waitForEvent("download");
+  await page.click("#export-points");
+  const download = await downloading;
+  expect(download.suggestedFilename()).toBe("vol_total-points.las");
+  const exported = join(folder, "points.las");
+  await download.saveAs(exported);
+
+  const file = join(folder, "polygon.geojson");
+  writeFileSync(file, JSON.stringify({ type: "Polygon", coordinates: [[...ring, ring[0]]] }));
+  const out = join(folder, "clipped.las");
+  const polygon = ["--polygon", file, "--polygon-crs", "source", "--heights", heights.join(",")];
+  expect(groma(["clip", converted(scan.path), ...polygon, "--out", out]).code).toBe(0);
+  const [here, there] = [readFileSync(exported), readFileSync(out)];
+  expect(Number(here.readBigUInt64LE(247))).toBeGreaterThan(1000);
+  expect(Buffer.compare(here, there)).toBe(0);
+
+  // A disk that takes its time: an export that is given up meanwhile leaves no file.
+  await page.evaluate(() => {
+    const told: string[] = [];
+    let go = () => {};
+    const createWritable = async () => ({
+      write: () => new Promise<void>((resolve) => (go = resolve)),
+      abort: async () => void told.push("abort"),
+      close: async () => void told.push("close"),
+    });
+    Object.assign(window, { showSaveFilePicker: async () => ({ createWritable }), told, go: () => go() });
+  });
+  await page.click("#export-points");
+  await expect.poll(() => page.textContent("#export-points")).toBe("Cancel");
+  await page.click("#export-points");
+  await page.evaluate(() => (window as unknown as { go: () => void }).go());
+  await expect.poll(() => page.textContent("#export-status")).toBe("Nothing was written.");
+  expect(await page.evaluate(() => (window as unknown as { told: string[] }).told)).toEqual(["abort"]);
+  await screenshot(page, "export-points");
+  await page.evaluate(() => {
+    (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;
+    window.groma.layer.clips.clear();
+    window.groma.layer.filter = undefined;
+  });
+  await page.click("#export summary");
+}
 
 /** Text of the line below the picture. */
 const readout = (page: Page) => page.textContent("#profile-readout");

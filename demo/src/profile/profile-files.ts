@@ -1,24 +1,18 @@
-import { ecefToGeodetic } from "@groma/georef";
 import type { PointCloud } from "@groma/layer/cesium";
 import {
   type ByteSink,
   type CutFacts,
   cutFacts,
   type ExportOptions,
-  exportCsv,
-  exportDxf,
-  exportGeoJson,
   exportLandXml,
-  exportLas,
   exportPicture,
+  exportPoints,
   exportSections,
   type GroundOptions,
   MemorySink,
-  type PointSelection,
+  type PointExportOptions,
 } from "@groma/layer/export";
 import { CrossSections, type Profile, stations } from "@groma/layer/tools";
-
-const DEGREE = Math.PI / 180;
 
 /** What files of a profile are made with. */
 export interface FileChoices extends ExportOptions {
@@ -43,25 +37,15 @@ interface FileFormat {
 
 /** Formats by what the page calls them; full density in all of them. */
 export const FORMATS: ReadonlyMap<string, FileFormat> = new Map<string, FileFormat>([
-  ["las", { label: "LAS", ending: "las", write: (profile, ...rest) => exportLas([profile], ...rest) }],
-  ["csv", { label: "CSV", ending: "csv", write: (profile, ...rest) => exportCsv([profile], ...rest) }],
-  [
-    "geojson",
-    {
-      label: "GeoJSON",
-      ending: "geojson",
-      write: (profile, ...rest) => exportGeoJson([placed(profile)], ...rest),
-    },
-  ],
-  [
-    "dxf",
-    { label: "DXF, in space", ending: "dxf", write: (profile, ...rest) => exportDxf([profile], ...rest) },
-  ],
+  ["las", { label: "LAS", ending: "las", write: points({ format: "las" }) }],
+  ["csv", { label: "CSV", ending: "csv", write: points({ format: "csv" }) }],
+  ["geojson", { label: "GeoJSON", ending: "geojson", write: points({ format: "geojson" }) }],
+  ["dxf", { label: "DXF, in space", ending: "dxf", write: points({ format: "dxf" }) }],
   [
     "dxf-straightened",
     {
       ...{ label: "DXF, straightened", ending: "dxf" },
-      write: (profile, sink, options) => exportDxf([profile], sink, { ...options, layout: "straightened" }),
+      write: points({ format: "dxf", layout: "straightened" }),
     },
   ],
   [
@@ -89,17 +73,9 @@ function picture(format: "pdf" | "svg"): Write {
   return (profile, sink, options) => exportPicture([profile], sink, { ...options, format });
 }
 
-/** The same selection with the places of its points. */
-function placed({ origin, volume, along }: Profile): PointSelection {
-  return {
-    ...{ origin, volume, along },
-    geodetic: (x, y, z, out) => {
-      origin.place(x, y, z, out);
-      ecefToGeodetic(out[0]!, out[1]!, out[2]!, out);
-      out[0]! /= DEGREE;
-      out[1]! /= DEGREE;
-    },
-  };
+function points(how: Pick<PointExportOptions, "format" | "layout">): Write {
+  return (profile, sink, { signal, onProgress }) =>
+    exportPoints(profile, sink, { ...how, signal, onProgress });
 }
 
 /** The picture to scale, drawn by the browser at 200 dots per inch. */

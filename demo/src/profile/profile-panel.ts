@@ -12,13 +12,13 @@ import {
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
 import { byId, optionElement, setText } from "../panel/elements.js";
+import { ExportJob } from "../panel/export-job.js";
 import { groundTable } from "./ground-table.js";
 import { ProfilePlot, placeOf } from "./plot.js";
 import type { PointColours } from "./point-colours.js";
 import { FORMATS, writeProfile } from "./profile-files.js";
 import { type GroundChoice, groundOf, intervalFor } from "./profile-ground.js";
 import { type DrawnLine, ProfileLines } from "./profile-lines.js";
-import { saveFile } from "./save-file.js";
 import { PlaceMark, StripOutline } from "./strip-outline.js";
 
 /** Points of the picture at most; all of them are exported. */
@@ -63,6 +63,7 @@ export class ProfilePanel {
   readonly #tableShown = byId("profile-table-shown", HTMLInputElement);
   readonly #table = byId("profile-table", HTMLElement);
   readonly #interval = byId("profile-interval", HTMLInputElement);
+  readonly #job: ExportJob;
   #plot: ProfilePlot | undefined;
   #profile: Profile | undefined;
   #work: AbortController | undefined;
@@ -79,6 +80,7 @@ export class ProfilePanel {
       this.#width.value = String(Number(width.toPrecision(3)));
       void this.#read();
     });
+    this.#job = new ExportJob(this.#export, this.#status, () => void this.#save(), events.failed);
     for (const [value, { label }] of FORMATS) this.#format.append(optionElement({ value, label }));
     this.#connect();
   }
@@ -127,7 +129,6 @@ export class ProfilePanel {
       element.addEventListener(event, work);
     on(this.#start, "click", () => (this.drawing ? this.finish() : this.#begin()));
     on(this.#width, "change", () => void this.#read());
-    on(this.#export, "click", () => void this.#save());
     on(byId("profile-close", HTMLButtonElement), "click", () => this.#close());
     on(this.#list, "change", () => this.lines.choose(this.#list.value || undefined));
     on(this.#name, "change", () => this.lines.rename(this.#name.value.trim() || "profile"));
@@ -162,6 +163,7 @@ export class ProfilePanel {
 
   #close(): void {
     this.#work?.abort();
+    this.#job.cancel();
     this.lines.tool.cancel();
     this.#profile = undefined;
     this.lines.choose(undefined);
@@ -356,31 +358,24 @@ export class ProfilePanel {
     const profile = this.#profile;
     const format = FORMATS.get(this.#format.value);
     if (!profile || !format) return;
-    const onProgress = ({ read, total }: { read: number; total: number }) =>
-      setText(this.#status, `writing, ${total > 0 ? Math.floor((100 * read) / total) : 100} %`);
     const { statistic, classification } = this.#groundChoice();
     const unit = profile.origin.crs.horizontalUnit.size;
     const classes = classification === undefined ? undefined : new Set([classification]);
     const chosen = this.#groundBy.value !== "";
-    try {
-      const stem = profile.origin.name.replace(/(\.copc)?\.laz$/i, "");
-      const name = `${stem}-profile.${format.ending}`;
-      const saved = await saveFile(name, (sink) =>
-        writeProfile(format, profile, sink, {
-          ...{ title: this.lines.chosen?.name ?? stem, onProgress },
-          exaggeration: Number(this.#plot?.view.exaggeration.toPrecision(3) ?? 1),
-          ground: chosen ? { interval: intervalFor(profile.length) / unit, statistic, classes } : undefined,
-          sections: {
-            interval: this.#interval.valueAsNumber || 10,
-            width: 40,
-            thickness: this.#width.valueAsNumber,
-          },
-        }),
-      );
-      setText(this.#status, saved ? `${name} is written.` : "Nothing was written.");
-    } catch (thrown) {
-      this.#events.failed(thrown);
-    }
+    const stem = profile.origin.name.replace(/(\.copc)?\.laz$/i, "");
+    await this.#job.save(`${stem}-profile.${format.ending}`, (sink, options) =>
+      writeProfile(format, profile, sink, {
+        ...options,
+        title: this.lines.chosen?.name ?? stem,
+        exaggeration: Number(this.#plot?.view.exaggeration.toPrecision(3) ?? 1),
+        ground: chosen ? { interval: intervalFor(profile.length) / unit, statistic, classes } : undefined,
+        sections: {
+          interval: this.#interval.valueAsNumber || 10,
+          width: 40,
+          thickness: this.#width.valueAsNumber,
+        },
+      }),
+    );
   }
 }
 

@@ -12,7 +12,13 @@ export { composeQuad } from "./compose-quad.js";
 export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./declaration/classes.js";
 export { drawnSpacing, footprint } from "./declaration/drawn-spacing.js";
 export type { ColumnScale, DrawnNode, PlacingFacts, SceneFacts } from "./declaration/facts.js";
-export { checkFilter, type PointFilter, passesFilter, type ReturnKind } from "./declaration/filter.js";
+export {
+  checkFilter,
+  isOfReturns,
+  type PointFilter,
+  passesFilter,
+  type ReturnKind,
+} from "./declaration/filter.js";
 export { GRADIENTS, type GradientName, type GradientStop } from "./declaration/gradients.js";
 export type { StyledAttribute, StyledCloud } from "./declaration/option.js";
 export type {

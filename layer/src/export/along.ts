@@ -1,5 +1,5 @@
 import { Pace, type PointBatch } from "../query/index.js";
-import { readerOf, type StoredAttribute, viewOf } from "../workers/index.js";
+import { valueReader } from "../workers/index.js";
 import { SLICE } from "./columns.js";
 import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
 
@@ -68,12 +68,6 @@ function numbersOf(
 ): (((record: number) => number) | undefined)[] {
   return names.map((name) => {
     const found = records.attributes.find((one) => one.name === name);
-    return found && numberOf(found);
+    return found && valueReader(found);
   });
-}
-
-function numberOf({ bytes, type, at, stride, shift, mask }: StoredAttribute): (record: number) => number {
-  const [view, read] = [viewOf(bytes), readerOf(type)];
-  if (mask === -1) return (record) => read(view, at + record * stride);
-  return (record) => (read(view, at + record * stride) >> shift) & mask;
 }

@@ -94,7 +94,7 @@ export async function collectParts(
     selections.flatMap((selection) => {
       const { volume: _volume, ...rest } = selection;
       const origin = collected.get(selection)?.originOf(part, store);
-      return origin ? [{ ...rest, origin, classes: undefined }] : [];
+      return origin ? [{ ...rest, origin, classes: undefined, filter: undefined }] : [];
     }),
   );
 }

@@ -1,10 +1,5 @@
-import {
-  ofClasses,
-  type PointBatch,
-  type PointOrigin,
-  type QueryVolume,
-  type RecordQuery,
-} from "../query/index.js";
+import type { PointBatch, QueryVolume, RecordQuery } from "../query/index.js";
+import { passing, type WantedPoints } from "./passing.js";
 
 /** How points lie along a line: what a profile adds to their records. */
 export interface AlongLine {
@@ -20,21 +15,13 @@ export interface AlongLine {
 }
 
 /** Points that are written to one file. */
-export interface PointSelection {
-  readonly origin: PointOrigin;
+export interface PointSelection extends WantedPoints {
   /** Part of space, source coordinates. Default: everything. */
   readonly volume?: QueryVolume | undefined;
-  /** Classes of the points that are wanted. Default: all. */
-  readonly classes?: ReadonlySet<number> | undefined;
   /** Distance between neighbouring points that suffices; as `QueryOptions.spacing`. Default: 0, every point. */
   readonly spacing?: number | undefined;
   /** The line along which the points were cut. */
   readonly along?: AlongLine | undefined;
-  /**
-   * Where source coordinates are, for GeoJSON: longitude and latitude (degrees, WGS 84) and height above the ellipsoid
-   * (metres), written to `out`.
-   */
-  readonly geodetic?: ((x: number, y: number, z: number, out: Float64Array) => void) | undefined;
 }
 
 /** How far an export is. */
@@ -78,9 +65,8 @@ export async function eachBatch(
   }
   onProgress?.({ read, total, written });
   for (const { query, selection } of queries) {
-    const { classes } = selection;
     for await (const batch of query.batches({ signal })) {
-      const wanted = classes ? ofClasses(batch, classes) : batch.inside;
+      const wanted = passing(batch, selection);
       if (wanted.length > 0) await take(batch, wanted, selection);
       read += batch.records.count;
       written += wanted.length;

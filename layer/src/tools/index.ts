@@ -11,7 +11,15 @@ export type {
   Unit,
   Vector,
 } from "@groma/georef";
-export type { SourceSpace } from "../clips/index.js";
+export type { ClipMode, SourceSpace } from "../clips/index.js";
+export {
+  type BoxClip,
+  Clip,
+  type ClipPlace,
+  type Corner,
+  type PlaneClip,
+  type PolygonClip,
+} from "../clips/index.js";
 export { MeasureError } from "../errors/index.js";
 export type { VoxelKey } from "../octree/index.js";
 export type {
@@ -32,6 +40,7 @@ export { readDxfLine } from "./alignment/read-dxf.js";
 export { readLandXml } from "./alignment/read-landxml.js";
 export { type Station, type StationEquation, StationEquations } from "./alignment/station-equations.js";
 export { BoxVolume } from "./area/box-volume.js";
+export { ClippedVolume } from "./area/clipped-volume.js";
 export { PolygonVolume } from "./area/polygon-volume.js";
 export { SliceVolume } from "./area/slice-volume.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";

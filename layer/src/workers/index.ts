@@ -23,4 +23,4 @@ export type {
   WorkerRequest,
 } from "./protocol.js";
 export { readCoordinates } from "./records.js";
-export { exactValue, readerOf, type StoredAttribute, viewOf } from "./stored-attribute.js";
+export { exactValue, type StoredAttribute, valueReader, viewOf } from "./stored-attribute.js";

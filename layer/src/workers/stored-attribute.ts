@@ -57,6 +57,22 @@ export function exactValue(from: StoredAttribute, point: number, component: numb
   return (mask === -1 ? stored : (stored >> shift) & mask) * scale + offset;
 }
 
+/**
+ * Reads the first component of a point in its unit, as float64: {@link exactValue} for loops, which makes nothing for a point.
+ * NaN stands for no value.
+ */
+export function valueReader(from: StoredAttribute): (point: number) => number {
+  const { bytes, type, at, stride, shift, mask } = from;
+  const [view, read] = [viewOf(bytes), READERS[type]];
+  const noData = from.noData === undefined ? undefined : Number(from.noData);
+  const [scale, offset] = [from.scale[0] ?? 1, from.offset[0] ?? 0];
+  return (point) => {
+    const stored = read(view, at + point * stride);
+    if (stored === noData) return Number.NaN;
+    return (mask === -1 ? stored : (stored >> shift) & mask) * scale + offset;
+  };
+}
+
 /** A view to read numbers by. */
 export function viewOf(bytes: Uint8Array): DataView {
   return new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);

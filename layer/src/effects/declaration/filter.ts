@@ -42,6 +42,12 @@ function returnBits(number: number, of: number): number {
   return number >= of ? last : intermediate;
 }
 
+/** Whether a return is of one of some kinds. */
+export function isOfReturns(kinds: readonly ReturnKind[], number: number, of: number): boolean {
+  const bits = returnBits(number, of);
+  return kinds.some((kind) => (RETURN_BITS[kind] & bits) !== 0);
+}
+
 /**
  * Whether a record passes, on its exact values: what the GPU does in float32, for picks and exports.
  * @param attributes values by name, in their units; an attribute that a record has not got passes no range
@@ -53,10 +59,8 @@ export function passesFilter(
 ): boolean {
   const value = (name: string) => Number(Object.hasOwn(attributes, name) ? attributes[name] : Number.NaN);
   if (hidesClasses(style, filter) && !showsClass(style, filter, value("classification"))) return false;
-  if (filter?.returns) {
-    const bits = returnBits(value("returnNumber"), value("numberOfReturns"));
-    if (!filter.returns.some((kind) => (RETURN_BITS[kind] & bits) !== 0)) return false;
-  }
+  const { returns } = filter ?? {};
+  if (returns && !isOfReturns(returns, value("returnNumber"), value("numberOfReturns"))) return false;
   return Object.entries(filter?.ranges ?? {}).every(([name, [least, greatest]]) => {
     const at = value(name);
     return at >= least && at <= greatest;

@@ -1,0 +1,142 @@
+import { ecefToGeodetic } from "@groma/georef";
+import { CLIPS_OPTION, type Clip, type ClipSet, type SourceSpace } from "../clips/index.js";
+import { checkFilter, type PointFilter, type StyledCloud } from "../effects/index.js";
+import {
+  flag,
+  type Kind,
+  kindOf,
+  list,
+  number,
+  oneOf,
+  optionPlace,
+  signal,
+  some,
+  whole,
+} from "../options/index.js";
+import { Pace, type PointOrigin, type QueryVolume } from "../query/index.js";
+import { ClippedVolume } from "../tools/area/clipped-volume.js";
+import type { ByteSink } from "./byte-sink.js";
+import { exportCsv } from "./csv.js";
+import { exportDxf } from "./dxf.js";
+import { exportGeoJson } from "./geojson.js";
+import { exportLas, type LasOptions } from "./las.js";
+import { noPlace } from "./passing.js";
+import type { PointSelection } from "./selection.js";
+
+/** Formats that points are exported in. */
+export type PointFormat = "las" | "csv" | "geojson" | "dxf";
+
+/** What points are exported of: a data set, or a part of one, such as a `Profile`. */
+export type ExportedPoints = PointOrigin | PointSelection;
+
+/** Which points are exported, and how. */
+export interface PointExportOptions extends LasOptions {
+  /** Default: `las`. */
+  readonly format?: PointFormat | undefined;
+  /** Volumes that cut, such as `layer.clips`; what only highlights changes nothing. Default: none. */
+  readonly clips?: ClipSet | undefined;
+  /** What passes, such as `layer.filter`. Default: everything. */
+  readonly filter?: PointFilter | undefined;
+  /** Classes that are wanted. Default: all, or those of the selection. */
+  readonly classes?: readonly number[] | undefined;
+  /** Distance between neighbouring points that suffices, metres; the file then names it. Default: 0, every point. */
+  readonly spacing?: number | undefined;
+  /** DXF: whether points are laid along the straightened line of a profile. Default: `space`. */
+  readonly layout?: "space" | "straightened" | undefined;
+}
+
+const WRITERS = { las: exportLas, csv: exportCsv, geojson: exportGeoJson, dxf: exportDxf } as const;
+
+/** Checked against the data set, which knows its attributes. */
+const FILTER: Kind<PointFilter> = { valid: "a filter", read: (given) => given as PointFilter };
+
+const PROGRESS = kindOf(
+  "a function",
+  (given): given is NonNullable<PointExportOptions["onProgress"]> => typeof given === "function",
+);
+
+const OPTIONS = some<PointExportOptions>({
+  ...{ format: oneOf("las", "csv", "geojson", "dxf"), layout: oneOf("space", "straightened") },
+  ...{ clips: CLIPS_OPTION, filter: FILTER, classes: list(whole(0, 255)), spacing: number(0) },
+  ...{ chainage: flag, signal, onProgress: PROGRESS },
+});
+
+/**
+ * Writes points complete, each once, with all that is recorded of them: of a whole data set, of a profile, or of what clips and
+ * a filter leave of either; to the file that `groma clip` or `groma profile` writes of the same.
+ *
+ * @param from a `PointCloud`, a `Profile`, or several of one kind of records
+ * @param sink gets the file, part by part; what was written before a failure is no file
+ * @returns number of points
+ * @throws StyleError STYLE_OPTION, STYLE_FILTER, STYLE_CLIP before anything is read
+ * @throws FormatError EXPORT_NO_PLACE where clips of the globe, or longitudes and latitudes, are asked for of points without a
+ *   place; EXPORT_NO_LAS, EXPORT_MIXED
+ * @throws SourceError, FormatError, DecodeError, PlacementError; the signal's reason when aborted; what the sink throws
+ */
+export async function exportPoints(
+  from: ExportedPoints | readonly ExportedPoints[],
+  sink: ByteSink,
+  options: PointExportOptions = {},
+): Promise<number> {
+  const given: readonly ExportedPoints[] = Array.isArray(from) ? from : [from as ExportedPoints];
+  const named = given.map(selectionOf);
+  const place = optionPlace("options", named[0]?.origin.name ?? "");
+  const { format = "las", clips, filter, classes, spacing, ...rest } = OPTIONS.read(options, place);
+  const selections: PointSelection[] = [];
+  for (const selection of named) {
+    const { origin } = selection;
+    if (filter && isStyled(origin)) checkFilter(filter, origin);
+    if (format === "geojson" && !geodeticOf(selection))
+      throw noPlace(origin.name, "longitudes and latitudes");
+    selections.push({
+      ...{
+        origin,
+        along: selection.along,
+        geodetic: geodeticOf(selection),
+        filter: filter ?? selection.filter,
+      },
+      volume: clips ? await clipped(selection, [...clips], rest.signal) : selection.volume,
+      classes: classes ? new Set(classes) : selection.classes,
+      spacing: spacing ?? selection.spacing,
+    });
+  }
+  return WRITERS[format](selections, sink, rest);
+}
+
+function selectionOf(from: ExportedPoints): PointSelection {
+  return "origin" in from ? from : { origin: from };
+}
+
+async function clipped(
+  { origin, volume }: PointSelection,
+  clips: readonly Clip[],
+  given: AbortSignal | undefined,
+): Promise<QueryVolume | undefined> {
+  if (clips.length === 0) return volume;
+  if (!isPlaced(origin)) throw noPlace(origin.name, "clips of the globe");
+  const steps = ClippedVolume.overInSteps(clips, origin, volume);
+  const pace = new Pace(given);
+  for (;;) {
+    const { done, value } = steps.next();
+    if (done) return value;
+    await pace.rest();
+  }
+}
+
+function geodeticOf({ origin, geodetic }: PointSelection): PointSelection["geodetic"] {
+  if (geodetic || !isPlaced(origin)) return geodetic;
+  return (x, y, z, out) => {
+    origin.place(x, y, z, out);
+    ecefToGeodetic(out[0], out[1], out[2], out);
+    out[0] *= 180 / Math.PI;
+    out[1] *= 180 / Math.PI;
+  };
+}
+
+function isPlaced(origin: PointOrigin): origin is PointOrigin & SourceSpace {
+  return "place" in origin && "boundingBox" in origin;
+}
+
+function isStyled(origin: PointOrigin): origin is PointOrigin & StyledCloud {
+  return "attributes" in origin;
+}
