@@ -103,6 +103,7 @@ export {
 export { type Anchor, anchorSimilarity } from "./similarity/anchor.js";
 export { type ControlPoint, type FittedSimilarity, fitSimilarity } from "./similarity/fit.js";
 export { localCrs } from "./similarity/local-crs.js";
+export { everyStep } from "./transformation/choice.js";
 export { decodeTransformation } from "./transformation/decode.js";
 export { encodeTransformation } from "./transformation/encode.js";
 export {
@@ -115,6 +116,7 @@ export type { PointTransform } from "./transformation/link.js";
 export { fitPatchwork, PATCHWORK_TOLERANCE, type ProjectionSampler } from "./transformation/patchwork.js";
 export { domainOf, type Rectangle } from "./transformation/rectangle.js";
 export type {
+  ChoiceStep,
   DatumShiftStep,
   EllipsoidAxes,
   GeocentricStep,
@@ -123,9 +125,11 @@ export type {
   Patch,
   Patchwork,
   ProjectionStep,
+  ShiftStep,
   Step,
   Transformation,
   VerticalShiftStep,
+  Way,
 } from "./transformation/step.js";
 export { decodeEgm96, EGM96, egm96Grid, egm96Step, egm96Undulation, encodeEgm96 } from "./vertical/egm96.js";
 export { guessHeight, type HeightGuess } from "./vertical/guess.js";

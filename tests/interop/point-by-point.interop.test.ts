@@ -1,7 +1,15 @@
-import { existsSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { compileTransformation, type Domain } from "@groma/georef";
+import {
+  compileTransformation,
+  type Domain,
+  decodeTransformation,
+  encodeTransformation,
+} from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { geoTiff } from "../../converter/cli/proj/grids/geotiff.fixture.js";
+import { findProj } from "../../converter/cli/proj/program/find.js";
 import { projTransformation } from "../../converter/cli/proj/transformation.js";
 import { proj, projMissing } from "../proj.js";
 import { pythonMissing, runPython } from "../python.js";
@@ -38,34 +46,74 @@ describe.skipIf(missing)(
       ["EPSG:26707", 450_000, 6_900_000, 100_000, 100_000],
       // Sinai, Israel and Jordan.
       ["EPSG:23036", 550_000, 3_300_000, 250_000, 300_000],
-    ])(
-      "%s at %i, %i: no point is farther from PROJ's own than stated",
-      async (code, minX, minY, width, height) => {
-        const domain = { minX, minY, minZ: 0, maxX: minX + width, maxY: minY + height, maxZ: 100 };
+    ])("%s at %i, %i: every point lies where PROJ puts it", async (code, minX, minY, width, height) => {
+      const domain = { minX, minY, minZ: 0, maxX: minX + width, maxY: minY + height, maxZ: 100 };
+      const crs = { name: code, code, proj4: "", horizontalUnit: METRE, verticalUnit: METRE } as const;
+      const { transformation, report } = await projTransformation(
+        proj!,
+        { ...crs, height: { kind: "unknown" } },
+        domain,
+      );
+      const points = raster(domain);
+      const theirs = runPython<(number[] | null)[]>(
+        "interop/point_by_point.py",
+        [code, database()],
+        JSON.stringify(points),
+      );
+      const { evaluate } = compileTransformation(transformation);
+      const ecef = new Float64Array(3);
+      const far = points.map(([x, y, z], i) => {
+        evaluate(x!, y!, z!, ecef, 0);
+        return theirs[i] ? distance([...ecef], theirs[i]) : 0;
+      });
+      const farthest = Math.max(...far);
+      console.info(`${code}: ${farthest} m, ${report.accuracy} m stated by ${report.operation}`);
+      expect(farthest).toBeLessThan(1e-3);
+      expect(report.accuracy ?? 999).toBeGreaterThan(1);
+      expect(report.notes.join()).toMatch(/points are placed by another operation, as PROJ does/);
+    });
+    it("goes by the grid as far as that reaches, and by what PROJ takes beyond", async () => {
+      const folder = mkdtempSync(join(tmpdir(), "groma-grid-end-"));
+      try {
+        // Not LINZ's: chance shifts under its name, which end within the data set at 174.85° E and 41.0° S.
+        writeFileSync(join(folder, "nz_linz_nzgd2kgrid0005.tif"), geoTiff("horizontal", [174, -41]));
+        const grids = (await findProj({ grids: folder }))!;
+        const code = "EPSG:27200";
+        const domain = {
+          minX: 2_650_000,
+          minY: 6_000_000,
+          minZ: 0,
+          maxX: 2_680_000,
+          maxY: 6_040_000,
+          maxZ: 100,
+        };
         const crs = { name: code, code, proj4: "", horizontalUnit: METRE, verticalUnit: METRE } as const;
         const { transformation, report } = await projTransformation(
-          proj!,
+          grids,
           { ...crs, height: { kind: "unknown" } },
           domain,
         );
         const points = raster(domain);
         const theirs = runPython<(number[] | null)[]>(
           "interop/point_by_point.py",
-          [code, database()],
+          [code, `${folder}:${database()}`],
           JSON.stringify(points),
         );
-        const { evaluate } = compileTransformation(transformation);
+        const { evaluate } = compileTransformation(
+          decodeTransformation(encodeTransformation(transformation), code),
+        );
         const ecef = new Float64Array(3);
         const far = points.map(([x, y, z], i) => {
           evaluate(x!, y!, z!, ecef, 0);
-          return theirs[i] ? distance([...ecef], theirs[i]) : 0;
+          return distance([...ecef], theirs[i]!);
         });
-        const farthest = Math.max(...far);
-        console.info(`${code}: ${farthest} m, ${report.accuracy} m stated by ${report.operation}`);
-        expect(farthest).toBeGreaterThan(1);
-        expect(farthest).toBeLessThanOrEqual(report.accuracy!);
-        expect(report.notes.join()).toMatch(/of the data set's bounds PROJ has another operation/);
-      },
-    );
+        expect(Math.max(...far)).toBeLessThan(1e-3);
+        expect(report.grids).toEqual(["nz_linz_nzgd2kgrid0005.tif"]);
+        expect(report.accuracy).toBeGreaterThanOrEqual(4);
+        expect(report.notes.join()).toMatch(/points are placed by another operation, as PROJ does/);
+      } finally {
+        rmSync(folder, { recursive: true, force: true });
+      }
+    });
   },
 );

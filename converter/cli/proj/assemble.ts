@@ -1,9 +1,12 @@
 import {
+  type ChoiceStep,
   type EllipsoidAxes,
   fitPatchwork,
+  type GeocentricStep,
   type GridWindow,
   type Patchwork,
-  type Step,
+  type Rectangle,
+  type ShiftStep,
   type Transformation,
 } from "@groma/georef";
 import type { Candidate } from "./candidate.js";
@@ -11,6 +14,7 @@ import { runProjection } from "./cct.js";
 import { ellipsoidAxes } from "./ellipsoid.js";
 import type { EllipsoidText, PlannedStep } from "./plan.js";
 import type { Proj } from "./program/find.js";
+import { pipelineWords } from "./step-text.js";
 
 const ARC_SECOND = Math.PI / 648_000;
 /** In place of a grid's file name. */
@@ -25,25 +29,62 @@ export interface AssembleOptions {
   readonly signal?: AbortSignal | undefined;
 }
 
-/** Fits the projection and puts the steps together. */
+/**
+ * Fits the projection and puts the steps together: those of the one way, or a choice between several.
+ *
+ * @param ways all with one projection, and one ellipsoid in the end ({@link isSameGround})
+ */
 export async function assemble(
   proj: Proj,
-  { plan, zScale }: Candidate,
-  windows: readonly GridWindow[],
+  ways: readonly [AssembledWay, ...AssembledWay[]],
   { domain, tolerance, file, signal }: AssembleOptions,
 ): Promise<{ transformation: Transformation; patchwork: Patchwork }> {
+  const { plan } = ways[0].candidate;
   const projection = plan.pipeline.slice(0, plan.projection);
   const sample = (points: Float64Array) => runProjection(proj, projection, points, signal);
   const patchwork = await fitPatchwork(sample, domain, tolerance, undefined, file);
+  const chains: Awaited<ReturnType<typeof stepsOf>>[] = [];
+  for (const way of ways) chains.push(await stepsOf(proj, way, signal));
+  const [{ steps, last }] = chains as [(typeof chains)[0]];
+  const choice: ChoiceStep = {
+    kind: "choice",
+    ways: ways.flatMap(({ areas }, i) => areas.map((area) => ({ area, steps: chains[i]!.steps }))),
+  };
+  const middle = ways.length > 1 ? [choice] : steps;
+  return { transformation: { steps: [{ kind: "projection", patchwork }, ...middle, last] }, patchwork };
+}
 
-  const steps: Step[] = [{ kind: "projection", patchwork }];
+/** An operation that is followed in its areas (source units). */
+export interface AssembledWay {
+  readonly candidate: Candidate;
+  readonly windows: readonly GridWindow[];
+  readonly areas: readonly Rectangle[];
+}
+
+/** Whether operations differ only in what lies between the projection and the last ellipsoid. */
+export function isSameGround(a: Candidate, b: Candidate): boolean {
+  const ends = ({ plan, zScale }: Candidate) => {
+    const last = plan.steps[plan.steps.length - 1];
+    const ellipsoid = last?.kind === "geocentric" ? [...last.ellipsoid] : [];
+    return JSON.stringify([zScale, ellipsoid, pipelineWords(plan.pipeline.slice(0, plan.projection))]);
+  };
+  return ends(a) === ends(b);
+}
+
+/** What lies between the projection and the last step, and the last step. */
+async function stepsOf(
+  proj: Proj,
+  { candidate: { plan, zScale }, windows }: AssembledWay,
+  signal?: AbortSignal,
+): Promise<{ steps: ShiftStep[]; last: GeocentricStep }> {
+  const steps: ShiftStep[] = [];
   if (zScale !== 1) steps.push({ kind: "height", metresPerUnit: zScale });
   const axes = await axesOf(proj, plan.steps, signal);
   const unused = [...windows];
   for (const step of plan.steps) {
     if (step.kind === "height") steps.push(step);
     else if (step.kind === "geocentric") {
-      steps.push({ kind: "geocentric", ellipsoid: axes.get(step.ellipsoid)! });
+      return { steps, last: { kind: "geocentric", ellipsoid: axes.get(step.ellipsoid)! } };
     } else if (step.kind === "datumShift") {
       const { map, keepHeight } = step;
       const [from, to] = [axes.get(step.from)!, axes.get(step.to)!];
@@ -61,7 +102,7 @@ export async function assemble(
       else steps.push({ kind: step.kind, direction: step.direction, window });
     }
   }
-  return { transformation: { steps }, patchwork };
+  throw new RangeError("a pipeline that does not end in ECEF");
 }
 
 /** A grid of one cell round the earth with the same values everywhere: what a step adds that needs no grid. */

@@ -74,7 +74,7 @@ function gridSteps(plan: Plan) {
  *
  * @throws ProjError PROJ_GRID when a grid is missing, cannot be read, or does not reach the data
  */
-async function cutWindows(
+export async function cutWindows(
   proj: Proj,
   { plan, zScale }: Candidate,
   domain: Domain,

@@ -1,7 +1,20 @@
-import { compileTransformation, type Domain, PlacementError, type Transformation } from "@groma/georef";
+import {
+  compileTransformation,
+  type Domain,
+  PlacementError,
+  type Rectangle,
+  type Transformation,
+} from "@groma/georef";
 import { runPipeline } from "./cct.js";
+import { holds } from "./elsewhere.js";
 import type { Proj } from "./program/find.js";
 import type { StepText } from "./step-text.js";
+
+/** A pipeline of PROJ, and where it is taken; source units. */
+export interface CheckedWay {
+  readonly pipeline: readonly StepText[];
+  readonly areas: readonly Rectangle[];
+}
 
 /** Points inside of the domain that are compared, besides its eight corners. */
 const CHECKED_POINTS = 500;
@@ -18,13 +31,14 @@ export interface CheckResult {
 /**
  * Compares a transformation with PROJ itself at points spread over the domain by chance (the same ones every time).
  *
+ * @param ways in the order in which PROJ takes them for a point; the areas of a single one do not count
  * @param zScale what z is multiplied by before PROJ gets it
  * @throws PlacementError PLACE_CHECK when they lie further apart than a tenth of a millimetre, or one has a place where
  *   the other has none, or none has any
  */
 export async function checkTransformation(
   proj: Proj,
-  pipeline: readonly StepText[],
+  ways: readonly CheckedWay[],
   transformation: Transformation,
   domain: Domain,
   zScale: number,
@@ -33,7 +47,7 @@ export async function checkTransformation(
 ): Promise<CheckResult> {
   const points = chancePoints(domain);
   const scaled = points.map((value, i) => (i % 3 === 2 ? value * zScale : value));
-  const truth = await runPipeline(proj, pipeline, scaled, signal);
+  const truth = await byFirst(proj, ways, scaled, signal);
   const { evaluate } = compileTransformation(transformation, file);
   const own = new Float64Array(3);
   let checkedPoints = 0;
@@ -55,6 +69,28 @@ export async function checkTransformation(
     throw refused(file, `a point lies ${worstDifference.toPrecision(3)} m from where PROJ puts it`);
   }
   return { checkedPoints, worstDifference };
+}
+
+/** Where PROJ puts each point, by the first way that is for its place and has a place for it. */
+async function byFirst(
+  proj: Proj,
+  ways: readonly CheckedWay[],
+  points: Float64Array,
+  signal?: AbortSignal,
+): Promise<Float64Array> {
+  const [first, ...others] = ways;
+  if (others.length === 0) return runPipeline(proj, first!.pipeline, points, signal);
+  const found = new Float64Array(points.length).fill(Number.NaN);
+  for (const { pipeline, areas } of ways) {
+    const places = await runPipeline(proj, pipeline, points, signal);
+    for (let i = 0; i < points.length; i += 3) {
+      if (Number.isFinite(found[i]!)) continue;
+      if (areas.some((area) => holds(area, points[i]!, points[i + 1]!))) {
+        found.set(places.subarray(i, i + 3), i);
+      }
+    }
+  }
+  return found;
 }
 
 function chancePoints(domain: Domain): Float64Array {

@@ -1,20 +1,28 @@
-import {
-  type AreaOfUse,
-  type Domain,
-  ecefToGeodetic,
-  extentOf,
-  GromaError,
-  isInside,
-  spread,
-} from "@groma/georef";
+import { type AreaOfUse, type Domain, extentOf, GromaError, type Rectangle, spread } from "@groma/georef";
 import { type Candidate, tryOperation } from "./candidate.js";
-import { type DegreeBox, type Operation, operationAreas } from "./operation.js";
+import { type DegreeBox, listOperations, type Operation, operationAreas } from "./operation.js";
 import type { Proj } from "./program/find.js";
 import type { CrsText } from "./source.js";
+import { rectanglesOf } from "./source-areas.js";
 
-/** Parts of a data set that PROJ would place by another operation. */
-export interface Elsewhere {
-  /** The one that leads farthest away. */
+/** An operation, and where PROJ takes it. */
+export interface TakenWay {
+  readonly candidate: Candidate;
+  /** Source units; several where its area of use goes across the antimeridian. */
+  readonly areas: readonly Rectangle[];
+  /** Share of the data set's bounds for which PROJ takes it. */
+  readonly share: number;
+}
+
+/** What PROJ does with a data set that it places point by point. */
+export interface PointByPoint {
+  /** In the order in which PROJ takes them. */
+  readonly ways: readonly TakenWay[];
+  /** The one that leads farthest away from the way that was chosen for all; nothing where no point has a place by both. */
+  readonly farthest?: Farthest | undefined;
+}
+
+export interface Farthest {
   readonly operation: string;
   /** Greatest distance between the two ways, metres. */
   readonly metres: number;
@@ -30,25 +38,38 @@ export interface Listed {
   readonly operations: readonly Operation[];
 }
 
-/** What a reader has to know of it. */
-export function elsewhereNote({ operation, metres, share }: Elsewhere): string {
-  const percent = Math.max(1, Math.round(100 * share));
+/** What a reader has to know where PROJ's other operations are not followed. */
+export function elsewhereNote({ operation, metres, share }: Farthest): string {
   const far = (Math.ceil(metres * 100) / 100).toFixed(2);
-  return `for ${percent} % of the data set's bounds PROJ has another operation, up to ${far} m from this one, which the accuracy counts: ${operation}`;
+  return `for ${percent(share)} % of the data set's bounds PROJ has another operation, up to ${far} m from this one, which the accuracy counts: ${operation}`;
 }
 
-const DEGREE = Math.PI / 180;
+/** What a reader has to know where they are. */
+export function severalNote(ways: readonly TakenWay[], main: TakenWay): string {
+  const others = ways.filter(({ candidate }) => candidate !== main.candidate);
+  const operations = new Set(others.map(({ candidate }) => candidate.operation));
+  const named = [...operations].map(({ name, accuracy }) => {
+    return `${name} (${accuracy === null ? "unknown accuracy" : `${accuracy} m`})`;
+  });
+  const share = percent(others.reduce((sum, way) => sum + way.share, 0));
+  return `in ${share} % of the data set's bounds points are placed by another operation, as PROJ does: ${named.join("; ")}`;
+}
+
+function percent(share: number): number {
+  return Math.max(1, Math.round(100 * share));
+}
 
 /**
- * How far a data set that is placed by one operation lies from where PROJ puts its points one by one: each by the most
- * accurate operation whose area of use the point lies in and that has a place for it (`pj_get_suggested_operation`).
+ * By which operations PROJ places the points of a data set one by one: each by the most accurate whose area of use the
+ * point lies in and that has a place for it (`pj_get_suggested_operation`).
  *
+ * @param candidate the one that was chosen for all of them
  * @param box where the data are, as the operations were listed for
  * @param metresPerUnit of the source's z
- * @returns nothing where PROJ takes the same operation everywhere, or all of them lead to the same places
+ * @returns nothing where that is the chosen one everywhere, or all of them lead to the same places
  * @throws ProjError PROJ_FAILED, PROJ_OUTPUT
  */
-export async function placedElsewhere(
+export async function pointByPoint(
   proj: Proj,
   { source, operations }: Listed,
   candidate: Candidate,
@@ -56,43 +77,72 @@ export async function placedElsewhere(
   box: DegreeBox | undefined,
   metresPerUnit: number,
   signal?: AbortSignal,
-): Promise<Elsewhere | undefined> {
-  const usable = (one: Operation) =>
-    !one.ballpark && one.missingGrids.length === 0 && one.pipeline !== undefined;
-  if (candidate.operation.ballpark || operations.filter(usable).length < 2) return undefined;
-  const areas = await operationAreas(proj, source, { box, signal });
-  const { places: own } = candidate;
-  const count = spread(domain).length / 3;
-  const where = Array.from({ length: count }, (_, i) => placeOf(own, i));
+): Promise<PointByPoint | undefined> {
+  const usable = operations.filter(
+    (one) => !one.ballpark && one.missingGrids.length === 0 && one.pipeline !== undefined,
+  );
+  if (candidate.operation.ballpark || usable.length < 2) return undefined;
+  let order: readonly Operation[] | undefined;
+  const inOrder = async () => {
+    const named = new Map(usable.map((operation) => [operation.name, operation]));
+    order ??= (await listOperations(proj, source, { signal })).flatMap(({ name }) => named.get(name) ?? []);
+    return order;
+  };
+  // Only those that never take the place of another ask for PROJ's own order.
+  const listed = usable.some(isLast) ? await inOrder() : usable;
+  const list = ranked(listed, await operationAreas(proj, source, { box, signal }));
+  const { plan, places: own } = candidate;
+  const rectangles = await rectanglesOf(
+    proj,
+    plan.pipeline.slice(0, plan.projection),
+    list.map(({ area }) => area),
+    signal,
+  );
+  const points = spread(domain);
+  const total = points.length / 3;
   // Points that no operation has placed as PROJ would, so far.
-  const open = new Set(where.flatMap((place, i) => (place ? [i] : [])));
-  const total = open.size;
-  let farthest: Elsewhere | undefined;
-  let elsewhere = 0;
-  for (const { operation, area } of ranked(operations.filter(usable), areas)) {
-    const inside = [...open].filter((i) => isInside(area, where[i]!));
-    if (inside.length === 0) continue;
-    const its = operation === candidate.operation ? candidate : await other(operation);
-    if (!its) continue;
-    const { places } = its;
-    for (const i of inside) {
-      if (!Number.isFinite(places[3 * i]!)) continue;
-      open.delete(i);
-      const [x, y, z] = [0, 1, 2].map((axis) => places[3 * i + axis]! - own[3 * i + axis]!) as [
-        number,
-        number,
-        number,
-      ];
-      const metres = Math.hypot(x, y, z);
-      if (its !== candidate) elsewhere++;
-      const worth = metres + (operation.accuracy ?? 0);
-      if (metres <= SAME || worth <= (farthest?.worth ?? 0)) continue;
-      farthest = { operation: operation.name, metres, worth, share: 0 };
+  const open = new Set(Array.from({ length: total }, (_, i) => i));
+  const ways: TakenWay[] = [];
+  let farthest: Omit<Farthest, "share"> | undefined;
+  let beyond = false;
+  for (const [rank, { operation }] of list.entries()) await take(operation, rectangles[rank]!);
+  // A point in no area goes by the first that needs no grid.
+  if (open.size > 0) {
+    for (const operation of await inOrder()) {
+      if (!/\+grids=/.test(operation.pipeline!) && (await take(operation, [around(domain)]))) break;
     }
   }
-  return farthest && { ...farthest, share: elsewhere / total };
+  if (!farthest && !beyond) return undefined;
+  const elsewhere = ways.reduce((sum, way) => (way.candidate === candidate ? sum : sum + way.share), 0);
+  return { ways, ...(farthest && { farthest: { ...farthest, share: elsewhere } }) };
 
-  async function other(operation: Operation): Promise<Candidate | undefined> {
+  /** Takes an operation for the points in its areas that are open; says whether there were any. */
+  async function take(operation: Operation, areas: readonly Rectangle[]): Promise<boolean> {
+    const inside = [...open].filter((i) =>
+      areas.some((area) => holds(area, points[3 * i]!, points[3 * i + 1]!)),
+    );
+    if (inside.length === 0) return false;
+    const its = await candidateOf(operation);
+    if (!its) return false;
+    const placed = inside.filter((i) => Number.isFinite(its.places[3 * i]!));
+    if (placed.length === 0) return false;
+    for (const i of placed) {
+      open.delete(i);
+      const metres = Math.hypot(...[0, 1, 2].map((axis) => its.places[3 * i + axis]! - own[3 * i + axis]!));
+      const worth = metres + (operation.accuracy ?? 0);
+      beyond ||= Number.isNaN(metres);
+      if (!(metres > SAME) || worth <= (farthest?.worth ?? 0)) continue;
+      farthest = { operation: operation.name, metres, worth };
+    }
+    ways.push({ candidate: its, areas, share: placed.length / total });
+    return true;
+  }
+
+  async function candidateOf(operation: Operation): Promise<Candidate | undefined> {
+    const known = [candidate, ...ways.map((way) => way.candidate)].find(
+      (one) => one.operation.name === operation.name,
+    );
+    if (known) return known;
     try {
       return await tryOperation(proj, operation, domain, metresPerUnit, signal);
     } catch (error) {
@@ -103,31 +153,51 @@ export async function placedElsewhere(
   }
 }
 
+/** A domain with as much again on every side. */
+export function around({ minX, minY, maxX, maxY }: Domain): Rectangle {
+  const [width, height] = [maxX - minX + 1, maxY - minY + 1];
+  return { minX: minX - width, minY: minY - height, maxX: maxX + width, maxY: maxY + height };
+}
+
+export function holds({ minX, minY, maxX, maxY }: Rectangle, x: number, y: number): boolean {
+  return x >= minX && x <= maxX && y >= minY && y <= maxY;
+}
+
+interface Ranked {
+  readonly operation: Operation;
+  readonly area: AreaOfUse;
+}
+
 /**
- * In the order in which PROJ takes them for a point within: by accuracy, the smaller area first; then those of unknown
- * accuracy, and those for the sea alone.
+ * In the order in which PROJ takes them for a point within. It goes through its list, which is the same for all places: the
+ * first that is for a point gives way to a later one that is more accurate, or as accurate and for a smaller area; never to one
+ * of unknown accuracy, or for the sea alone.
+ *
+ * @param list in the order for all places
  */
-function ranked(operations: readonly Operation[], areas: ReadonlyMap<string, AreaOfUse>) {
-  const last = ({ accuracy, area }: Operation) => accuracy === null || area.includes("- offshore");
-  return operations
-    .flatMap((operation) => {
-      const area = areas.get(operation.name);
-      return area ? [{ operation, area }] : [];
-    })
-    .sort((a, b) => {
-      const [first, second] = [last(a.operation), last(b.operation)];
-      if (first || second) return Number(first) - Number(second);
-      return a.operation.accuracy! - b.operation.accuracy! || extentOf(a.area) - extentOf(b.area);
-    });
+function ranked(list: readonly Operation[], areas: ReadonlyMap<string, AreaOfUse>): Ranked[] {
+  const order: Ranked[] = [];
+  for (const operation of list) {
+    const area = areas.get(operation.name);
+    if (!area) continue;
+    const one = { operation, area };
+    let at = order.length;
+    while (at > 0 && goesBefore(one, order[at - 1]!)) at--;
+    order.splice(at, 0, one);
+  }
+  return order;
+}
+
+function goesBefore(later: Ranked, earlier: Ranked): boolean {
+  if (isLast(later.operation)) return false;
+  // PROJ's tables have 999 m where nobody knows.
+  const difference = later.operation.accuracy! - (earlier.operation.accuracy ?? 999);
+  return difference < 0 || (difference === 0 && extentOf(later.area) < extentOf(earlier.area));
+}
+
+function isLast({ accuracy, area }: Operation): boolean {
+  return accuracy === null || area.includes("- offshore");
 }
 
 /** Metres; two ways that are closer lead to the same place. */
 const SAME = 1e-3;
-
-function placeOf(ecef: Float64Array, i: number) {
-  const [x, y, z] = ecef.subarray(3 * i, 3 * i + 3);
-  if (!Number.isFinite(x! + y! + z!)) return undefined;
-  const out = new Float64Array(3);
-  ecefToGeodetic(x!, y!, z!, out);
-  return { longitude: out[0]! / DEGREE, latitude: out[1]! / DEGREE };
-}

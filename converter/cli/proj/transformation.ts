@@ -13,19 +13,29 @@ import {
   isAboveGeoid,
   PATCHWORK_TOLERANCE,
   PlacementError,
+  type Rectangle,
   spread,
   type Transformation,
 } from "@groma/georef";
 import { degreeBox } from "./area.js";
-import { assemble } from "./assemble.js";
-import { type Choice, choose, type PassedOver } from "./candidate.js";
+import { type AssembledWay, assemble, isSameGround } from "./assemble.js";
+import { type Choice, choose, cutWindows, type PassedOver } from "./candidate.js";
 import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
 import { egm96 } from "./egm96.js";
-import { type Elsewhere, elsewhereNote, type Listed, placedElsewhere } from "./elsewhere.js";
+import {
+  around,
+  elsewhereNote,
+  type Listed,
+  type PointByPoint,
+  pointByPoint,
+  severalNote,
+  type TakenWay,
+} from "./elsewhere.js";
 import { howToGet } from "./grids/current-names.js";
 import { type DegreeBox, listOperations, type Operation } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
+import { ProjError } from "./program/errors.js";
 import type { Proj } from "./program/find.js";
 import { OTHER_WAY } from "./refuse.js";
 import { type EngineOptions, type EngineResult, type Lacking, UNKNOWN_HEIGHT_NOTE } from "./report.js";
@@ -65,42 +75,85 @@ export async function projTransformation(
   const box = await boxOf(proj, source, domain, file, signal);
   const chosen = await chooseFor(proj, crs, source, domain, box, signal);
   const { choice, operations, passedOver, substitute, from } = chosen;
-  const { candidate, windows } = choice;
+  const { candidate } = choice;
   const { tolerance = PATCHWORK_TOLERANCE } = options;
-  const { transformation, patchwork } = await assemble(proj, candidate, windows, {
-    ...{ domain, tolerance, file, signal },
-  });
-  const { pipeline } = candidate.plan;
+  const byPoint = await pointByPoint(proj, from, candidate, domain, box, crs.verticalUnit.size, signal);
+  const several = byPoint && (await waysOf(proj, choice, byPoint, domain, signal));
+  const ways = several ?? ([{ ...choice, areas: [] }] as const);
+  const { transformation, patchwork } = await assemble(proj, ways, { domain, tolerance, file, signal });
   const check = await checkTransformation(
-    proj,
-    pipeline,
-    transformation,
-    domain,
-    candidate.zScale,
-    file,
-    signal,
+    ...([proj, ways.map(({ candidate: { plan }, areas }) => ({ pipeline: plan.pipeline, areas }))] as const),
+    ...([transformation, domain, candidate.zScale, file, signal] as const),
   );
 
-  const other = await placedElsewhere(proj, from, candidate, domain, box, crs.verticalUnit.size, signal);
-  const { accuracy } = candidate.operation;
-  const counted = other && (accuracy === null || other.worth > accuracy) ? other : undefined;
-  const notes = notesFor(crs, choice, substitute, counted);
-  const grids = [...new Set(windows.map(({ grid }) => grid))];
+  const main = several && byPoint ? widest(byPoint) : undefined;
+  const { operation } = (main ?? choice).candidate;
+  const accuracy = main && byPoint ? leastAccurate(byPoint) : operation.accuracy;
+  const far = main ? undefined : byPoint?.farthest;
+  const counted = far && (accuracy === null || far.worth > accuracy) ? far : undefined;
+  const told = main && byPoint ? severalNote(byPoint.ways, main) : counted && elsewhereNote(counted);
+  const notes = notesFor(crs, choice, substitute, told, main !== undefined);
+  const grids = [...new Set(ways.flatMap(({ windows }) => windows.map(({ grid }) => grid)))];
   return {
     transformation: substitute ? await withEgm96(transformation, candidate.places) : transformation,
     report: {
       engine: { name: "PROJ", version: proj.version },
-      operation: candidate.operation.name,
+      operation: operation.name,
       accuracy: accuracy === null ? null : Math.max(accuracy, counted?.worth ?? 0),
-      ballpark: candidate.operation.ballpark,
+      ballpark: operation.ballpark,
       grids: substitute ? [...grids, EGM96] : grids,
-      lacking: lackingIn(operations, candidate.operation, substitute),
+      lacking: lackingIn(operations, operation, substitute),
       passedOver,
       fitBound: patchwork.bound,
       ...check,
       notes,
     },
   };
+}
+
+/**
+ * The operations that PROJ takes for the points of a data set, as a choice that a file can carry; the one that was chosen
+ * for all of it goes last, for what lies between their areas.
+ *
+ * @returns nothing where PROJ takes one operation alone, or they do not differ in datum shifts alone
+ */
+async function waysOf(
+  proj: Proj,
+  { candidate, windows }: Choice,
+  { ways }: PointByPoint,
+  domain: Domain,
+  signal?: AbortSignal,
+): Promise<readonly [AssembledWay, ...AssembledWay[]] | undefined> {
+  if (ways.length < 2 || !ways.every((way) => isSameGround(way.candidate, candidate))) return undefined;
+  const found: AssembledWay[] = [];
+  try {
+    for (const { candidate: its, areas } of ways) {
+      const own = its === candidate ? windows : await cutWindows(proj, its, domain, signal);
+      found.push({ candidate: its, windows: own, areas: areas.filter((area) => meets(area, domain)) });
+    }
+  } catch (error) {
+    // A grid that cannot be read: what lies there is told, and counted.
+    if (error instanceof ProjError && error.code === "PROJ_GRID") return undefined;
+    throw error;
+  }
+  found.push({ candidate, windows, areas: [around(domain)] });
+  return found as [AssembledWay, ...AssembledWay[]];
+}
+
+function meets(area: Rectangle, { minX, minY, maxX, maxY }: Domain): boolean {
+  return area.minX <= maxX && area.maxX >= minX && area.minY <= maxY && area.maxY >= minY;
+}
+
+/** The operation that PROJ takes for most of the bounds. */
+function widest({ ways }: PointByPoint): TakenWay {
+  return ways.reduce((most, way) => (way.share > most.share ? way : most));
+}
+
+/** What is published for the operation that is worth least, metres; `null` where that is not known of all. */
+function leastAccurate({ ways }: PointByPoint): number | null {
+  return ways.reduce<number | null>((least, { candidate: { operation } }) => {
+    return least === null || operation.accuracy === null ? null : Math.max(least, operation.accuracy);
+  }, 0);
 }
 
 /** Where the data are, by the projection alone, which is the same in all operations. */
@@ -184,7 +237,8 @@ function notesFor(
   crs: Crs,
   { candidate }: Choice,
   substitute: boolean,
-  other: Elsewhere | undefined,
+  elsewhere: string | undefined,
+  several: boolean,
 ): string[] {
   const notes: string[] = [];
   if (crs.height.kind === "unknown") notes.push(UNKNOWN_HEIGHT_NOTE);
@@ -194,8 +248,9 @@ function notesFor(
       "PROJ knows no shift of this datum for this place: expect errors of up to some hundred metres",
     );
   }
-  if (other) notes.push(elsewhereNote(other));
-  if (!candidate.covers) notes.push("parts of the data set's bounds lie outside of the operation's grids");
+  if (elsewhere) notes.push(elsewhere);
+  if (!candidate.covers && !several)
+    notes.push("parts of the data set's bounds lie outside of the operation's grids");
   return notes;
 }
 

@@ -1,5 +1,5 @@
 import { random } from "../cartesian/points.fixture.js";
-import { fitPatchwork, type GridWindow, type Step, WGS84 } from "../index.js";
+import { type ChoiceStep, fitPatchwork, type GridWindow, type Step, WGS84 } from "../index.js";
 import { samplerOf } from "../transformation/sampler.fixture.js";
 
 const DEGREE = Math.PI / 180;
@@ -40,7 +40,7 @@ export function chanceSteps(
   roughness: number,
   seed: number,
   { shift, heights }: { readonly shift?: "forward" | "inverse" | undefined; readonly heights: boolean },
-): Step[] {
+): Exclude<Step, ChoiceStep>[] {
   return [
     { kind: "projection", patchwork },
     ...(shift

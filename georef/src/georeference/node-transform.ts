@@ -1,16 +1,18 @@
 import { AMPLIFICATION } from "../approximation/chebyshev.js";
 import type { Domain } from "../cartesian/domain.js";
 import type { ExactTransform } from "../engines/exact.js";
+import { choiceOf } from "../transformation/choice.js";
 import { linksOf } from "../transformation/compile.js";
 import type { StepwiseTruth } from "../transformation/evaluate.js";
 import type { Link, PointTransform } from "../transformation/link.js";
 import { holds, projectionLink } from "../transformation/projection.js";
 import { patchworkOf } from "../transformation/rectangle.js";
-import type { Transformation } from "../transformation/step.js";
+import type { Step, Transformation } from "../transformation/step.js";
 import { type Unfolded, unfoldAll } from "./creases.js";
 import { boxOf } from "./expansion.js";
 import { type GridRemainder, heightsOf } from "./grid-remainder.js";
 import { NodeSamples } from "./node-samples.js";
+import { settledWay } from "./settled-way.js";
 import { type FinishedPart, type GridPart, splitGrid } from "./split-grid.js";
 
 /** A transformation over one node: what can be fitted, what may be added per point, and what neither holds. */
@@ -55,17 +57,20 @@ export function nodeTransform(
   const box = boxOf(domain);
   const samples = new NodeSamples(box);
   const common = { truth: evaluate, truthBound: stretch * patchworkOf(transformation).bound };
-  const smoothOf = (links: readonly Link[]) => {
-    const smooth = linearInHeight(links, box.z, samples.halfHeight);
-    return own === undefined ? smooth : keepingPlane(smooth, own);
-  };
+  const inPlane = (smooth: ExactTransform) => (own === undefined ? smooth : keepingPlane(smooth, own));
+  const smoothOf = (links: readonly Link[]) => inPlane(linearInHeight(links, box.z, samples.halfHeight));
   const undivided = (): NodeTransform => {
-    return { ...common, smooth: smoothOf(linksOf(transformation, end)), corrections: [] };
+    const smooth = choiceOf(transformation)
+      ? inPlane(byThreeHeights(evaluate, box.z, samples.halfHeight))
+      : smoothOf(linksOf(transformation, end));
+    return { ...common, smooth, corrections: [] };
   };
   if (hasGrid(transformation) && isTornByCut(transformation, domain)) return undivided();
+  const settled = settledWay(transformation, box);
+  if (!settled) return undivided();
   const links: Link[] = [];
   const parts: GridPart[] = [];
-  for (const step of transformation.steps) {
+  for (const step of settled.steps) {
     if (step.kind === "horizontalShift" || step.kind === "verticalShift") {
       const part = splitGrid(step, samples, links.length);
       if (!part) return undivided();
@@ -84,7 +89,8 @@ export function nodeTransform(
 }
 
 function hasGrid({ steps }: Transformation): boolean {
-  return steps.some(({ kind }) => kind === "horizontalShift" || kind === "verticalShift");
+  const onGrid = new Set<Step["kind"]>(["horizontalShift", "verticalShift", "choice"]);
+  return steps.some(({ kind }) => onGrid.has(kind));
 }
 
 /**
@@ -159,6 +165,7 @@ function correctionsOf(
 function linearInHeight(links: readonly Link[], middle: number, half: number): ExactTransform {
   const [projection, ...others] = links;
   const [low, centre, high] = [0, 0, 0].map(() => new Float64Array(3));
+  const write = chordOf(low, centre, high, middle, half);
   const place = (state: Float64Array, z: number) => {
     state[2] = z;
     for (let i = 0; i < others.length; i++) others[i].apply(state);
@@ -172,6 +179,30 @@ function linearInHeight(links: readonly Link[], middle: number, half: number): E
     place(low, middle - half);
     place(centre, middle);
     place(high, middle + half);
+    write(out, offset);
+  };
+}
+
+/** The same from the whole, point by point. */
+function byThreeHeights(evaluate: PointTransform, middle: number, half: number): ExactTransform {
+  const [low, centre, high] = [0, 0, 0].map(() => new Float64Array(3));
+  const write = chordOf(low, centre, high, middle, half);
+  return (x, y, out, offset) => {
+    evaluate(x, y, middle - half, low, 0);
+    evaluate(x, y, middle, centre, 0);
+    evaluate(x, y, middle + half, high, 0);
+    write(out, offset);
+  };
+}
+
+function chordOf(
+  low: Float64Array,
+  centre: Float64Array,
+  high: Float64Array,
+  middle: number,
+  half: number,
+): (out: Float64Array, offset: number) => void {
+  return (out, offset) => {
     for (let axis = 0; axis < 3; axis++) {
       const slope = (high[axis] - low[axis]) / (2 * half);
       out[offset + axis + 3] = slope;

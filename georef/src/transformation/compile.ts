@@ -1,9 +1,10 @@
 import { bilinear, type Surface } from "../grid/surface.js";
+import { choiceLink, choiceOf } from "./choice.js";
 import { datumShiftLink, geocentricLink, heightLink } from "./ellipsoid-links.js";
 import type { Link } from "./link.js";
 import { projectionLink } from "./projection.js";
 import { horizontalShiftLink, verticalShiftLink } from "./shift-links.js";
-import type { HorizontalShiftStep, Step, Transformation, VerticalShiftStep } from "./step.js";
+import type { ChoiceStep, HorizontalShiftStep, Step, Transformation, VerticalShiftStep } from "./step.js";
 
 /** A step that looks something up in a grid. */
 export type GridStep = HorizontalShiftStep | VerticalShiftStep;
@@ -17,7 +18,7 @@ function surfaceOfWindow({ kind, window }: GridStep): Surface {
 }
 
 /** Compiles one step. */
-export function linkOf(step: Step, surfaceOf: SurfaceOf = surfaceOfWindow): Link {
+export function linkOf(step: Exclude<Step, ChoiceStep>, surfaceOf: SurfaceOf = surfaceOfWindow): Link {
   switch (step.kind) {
     case "projection":
       return projectionLink(step.patchwork);
@@ -34,7 +35,12 @@ export function linkOf(step: Step, surfaceOf: SurfaceOf = surfaceOfWindow): Link
   }
 }
 
-/** Compiles all steps. @param end takes the place of the step to ECEF */
+/** Compiles all steps; the projection and a choice after it are one link. @param end takes the place of the step to ECEF */
 export function linksOf({ steps }: Pick<Transformation, "steps">, end?: Link): Link[] {
-  return steps.map((step) => (end && step.kind === "geocentric" ? end : linkOf(step)));
+  const choice = choiceOf({ steps });
+  return steps.flatMap((step): Link[] => {
+    if (step.kind === "choice") return [];
+    if (choice && step === steps[0]) return [choiceLink(linkOf(step), choice, linkOf)];
+    return [end && step.kind === "geocentric" ? end : linkOf(step)];
+  });
 }

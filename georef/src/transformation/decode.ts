@@ -1,9 +1,18 @@
 import type { GridWindow } from "../grid/window.js";
 import { ByteReader } from "./bytes.js";
-import { DIRECTIONS, KINDS, MAGIC, TURNED_PROJECTION, VERSION } from "./format.js";
+import { CHOICE, DIRECTIONS, KINDS, MAGIC, TURNED_PROJECTION, VERSION } from "./format.js";
 import { readGridValues } from "./grid-values.js";
 import { DEGREE_MAX } from "./projection.js";
-import type { EllipsoidAxes, Patch, Patchwork, Step, Transformation } from "./step.js";
+import type {
+  ChoiceStep,
+  EllipsoidAxes,
+  Patch,
+  Patchwork,
+  ShiftStep,
+  Step,
+  Transformation,
+  Way,
+} from "./step.js";
 
 /** Channels that a step of a kind needs of its grid. */
 const CHANNELS = { horizontalShift: 2, verticalShift: 1 } as const;
@@ -34,6 +43,11 @@ export function decodeTransformation(bytes: Uint8Array, file: string): Transform
   for (let i = 0; i < count; i++) {
     const number = reader.u8();
     const turned = number === TURNED_PROJECTION;
+    if (number === CHOICE) {
+      reader.check(i === 1 && count > 2, "a choice that does not follow the projection");
+      steps.push(readChoice(reader));
+      continue;
+    }
     const kind = turned ? "projection" : KINDS[number];
     reader.check(kind !== undefined, "a step of an unknown kind");
     reader.check((kind === "projection") === (i === 0), "a projection that is not its first step");
@@ -51,10 +65,35 @@ function readTurned(reader: ByteReader): Step {
   return { kind: "projection", patchwork: { ...readPatchwork(reader), centre: [longitude, latitude] } };
 }
 
-function readStep(reader: ByteReader, kind: Step["kind"]): Step {
+function readChoice(reader: ByteReader): ChoiceStep {
+  const count = reader.u8();
+  reader.check(count > 0, "a choice without ways");
+  return { kind: "choice", ways: Array.from({ length: count }, () => readWay(reader)) };
+}
+
+function readWay(reader: ByteReader): Way {
+  const number = () => reader.f64("an edge of an area");
+  const [minX, minY, maxX, maxY] = [number(), number(), number(), number()];
+  reader.check(minX < maxX && minY < maxY, "an area without extent");
+  const steps = Array.from({ length: reader.u8() }, () => {
+    const kind = KINDS[reader.u8()];
+    reader.check(kind !== undefined && !ENDS.has(kind), "a step that a way cannot have");
+    return readShift(reader, kind as ShiftStep["kind"]);
+  });
+  return { area: { minX, minY, maxX, maxY }, steps };
+}
+
+/** Steps that stand once, before or after a choice. */
+const ENDS: ReadonlySet<Step["kind"]> = new Set(["projection", "geocentric"]);
+
+function readStep(reader: ByteReader, kind: Exclude<Step["kind"], "choice">): Step {
+  if (kind === "projection") return { kind, patchwork: readPatchwork(reader) };
+  if (kind === "geocentric") return { kind, ellipsoid: readEllipsoid(reader) };
+  return readShift(reader, kind);
+}
+
+function readShift(reader: ByteReader, kind: ShiftStep["kind"]): ShiftStep {
   switch (kind) {
-    case "projection":
-      return { kind, patchwork: readPatchwork(reader) };
     case "height":
       return { kind, metresPerUnit: reader.nonZero("a height unit") };
     case "horizontalShift": {
@@ -74,8 +113,6 @@ function readStep(reader: ByteReader, kind: Step["kind"]): Step {
       const matrix = Array.from({ length: 9 }, number);
       return { kind, from, to, translation, matrix, keepHeight: readFlag(reader) };
     }
-    case "geocentric":
-      return { kind, ellipsoid: readEllipsoid(reader) };
   }
 }
 

@@ -1,6 +1,6 @@
 import type { GridWindow } from "../grid/window.js";
 import { ByteWriter } from "./bytes.js";
-import { DIRECTIONS, KINDS, MAGIC, TURNED_PROJECTION, VERSION } from "./format.js";
+import { CHOICE, DIRECTIONS, KINDS, MAGIC, TURNED_PROJECTION, VERSION } from "./format.js";
 import { writeGridValues } from "./grid-values.js";
 import type { EllipsoidAxes, Patchwork, Step, Transformation } from "./step.js";
 
@@ -11,11 +11,16 @@ export function encodeTransformation({ steps }: Transformation): Uint8Array {
   writer.u8(VERSION);
   writer.u8(steps.length);
   for (const step of steps) {
-    const turned = step.kind === "projection" && step.patchwork.centre;
-    writer.u8(turned ? TURNED_PROJECTION : KINDS.indexOf(step.kind));
+    writer.u8(numberOf(step));
     writeStep(writer, step);
   }
   return writer.finish();
+}
+
+function numberOf(step: Step): number {
+  if (step.kind === "choice") return CHOICE;
+  const turned = step.kind === "projection" && step.patchwork.centre;
+  return turned ? TURNED_PROJECTION : KINDS.indexOf(step.kind);
 }
 
 function writeStep(writer: ByteWriter, step: Step): void {
@@ -39,6 +44,17 @@ function writeStep(writer: ByteWriter, step: Step): void {
       writeEllipsoid(writer, step.to);
       writer.f64(...step.translation, ...step.matrix);
       writer.u8(step.keepHeight ? 1 : 0);
+      break;
+    case "choice":
+      writer.u8(step.ways.length);
+      for (const { area, steps } of step.ways) {
+        writer.f64(area.minX, area.minY, area.maxX, area.maxY);
+        writer.u8(steps.length);
+        for (const inner of steps) {
+          writer.u8(numberOf(inner));
+          writeStep(writer, inner);
+        }
+      }
       break;
     case "geocentric":
       writeEllipsoid(writer, step.ellipsoid);

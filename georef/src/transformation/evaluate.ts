@@ -1,8 +1,9 @@
 import { PlacementError } from "../errors/errors.js";
+import { along, choiceOf } from "./choice.js";
 import { linksOf } from "./compile.js";
 import { invert, startingPoints } from "./inverse.js";
 import type { Link, PointTransform } from "./link.js";
-import { domainOf } from "./rectangle.js";
+import { domainOf, type Rectangle } from "./rectangle.js";
 import type { Transformation } from "./step.js";
 
 /** A transformation as far as points are placed by it: to ECEF, or to what stands in its place. */
@@ -49,30 +50,9 @@ export function compileTransformation(
   file = "points",
   end?: Link,
 ): CompiledTransformation {
-  const links = linksOf(transformation, end);
   const state = new Float64Array(3);
   const domain = domainOf(transformation);
-
-  const evaluate: PointTransform = (x, y, z, out, offset) => {
-    state[0] = x;
-    state[1] = y;
-    state[2] = z;
-    for (let i = 0; i < links.length; i++) links[i].apply(state);
-    out[offset] = state[0];
-    out[offset + 1] = state[1];
-    out[offset + 2] = state[2];
-  };
-
-  const differentiate = (x: number, y: number, z: number, ecef: Float64Array, jacobian: Float64Array) => {
-    ecef[0] = x;
-    ecef[1] = y;
-    ecef[2] = z;
-    jacobian.fill(0);
-    jacobian[0] = jacobian[4] = jacobian[8] = 1;
-    for (let i = 0; i < links.length; i++) links[i].differentiate(ecef, jacobian);
-    // Next to a pole derivatives are those of a place beside it.
-    evaluate(x, y, z, ecef, 0);
-  };
+  const { evaluate, differentiate } = chained(linksOf(transformation, end));
 
   const outside = (what: string, x: number, y: number, z: number) =>
     new PlacementError({
@@ -82,7 +62,15 @@ export function compileTransformation(
       fix: "use coordinates within the bounds of the data set, or convert it again with the points that lie there",
     });
 
-  let starts: Float64Array | undefined;
+  // Newton's iteration is for functions without jumps: it goes the ways of a choice one by one.
+  const ways = choiceOf(transformation)?.ways.map((way) => chained(linksOf(along(transformation, way), end)));
+  const whole = ways ?? [{ evaluate, differentiate }];
+  const inverses = whole.map((way) => inverseOf(way, domain));
+  const leadsTo = (point: readonly [number, number, number], out: Float64Array, offset: number) => {
+    evaluate(out[offset], out[offset + 1], out[offset + 2], state, 0);
+    return point.every((value, axis) => Math.abs(value - state[axis]) <= PROMISED);
+  };
+
   return {
     transformation,
     evaluate,
@@ -104,8 +92,55 @@ export function compileTransformation(
       if (!out.every(Number.isFinite)) throw outside("the point", x, y, z);
     },
     inverse(x, y, z, out, offset = 0) {
-      starts ??= startingPoints(domain, evaluate);
-      if (!invert(differentiate, domain, starts, [x, y, z], out, offset)) throw outside("the place", x, y, z);
+      const point = [x, y, z] as const;
+      const found = inverses.some((inverse) => {
+        return inverse(point, out, offset) && (inverses.length === 1 || leadsTo(point, out, offset));
+      });
+      if (!found) throw outside("the place", x, y, z);
     },
+  };
+}
+
+/** Metres: the inverse leads back to within so far. */
+const PROMISED = 1e-6;
+
+/** A chain of links as a function, and with its derivatives. */
+interface Chain {
+  readonly evaluate: PointTransform;
+  differentiate(x: number, y: number, z: number, ecef: Float64Array, jacobian: Float64Array): void;
+}
+
+function chained(links: readonly Link[]): Chain {
+  const state = new Float64Array(3);
+  const evaluate: PointTransform = (x, y, z, out, offset) => {
+    state[0] = x;
+    state[1] = y;
+    state[2] = z;
+    for (let i = 0; i < links.length; i++) links[i].apply(state);
+    out[offset] = state[0];
+    out[offset + 1] = state[1];
+    out[offset + 2] = state[2];
+  };
+  return {
+    evaluate,
+    differentiate(x, y, z, ecef, jacobian) {
+      ecef[0] = x;
+      ecef[1] = y;
+      ecef[2] = z;
+      jacobian.fill(0);
+      jacobian[0] = jacobian[4] = jacobian[8] = 1;
+      for (let i = 0; i < links.length; i++) links[i].differentiate(ecef, jacobian);
+      // Next to a pole derivatives are those of a place beside it.
+      evaluate(x, y, z, ecef, 0);
+    },
+  };
+}
+
+/** Writes source coordinates that lead to a point, and says whether there are any. */
+function inverseOf({ evaluate, differentiate }: Chain, domain: Rectangle) {
+  let starts: Float64Array | undefined;
+  return (point: readonly [number, number, number], out: Float64Array, offset: number): boolean => {
+    starts ??= startingPoints(domain, evaluate);
+    return starts.length > 0 && invert(differentiate, domain, starts, point, out, offset);
   };
 }

@@ -5,8 +5,8 @@ export const MAGIC = Uint8Array.of(0x47, 0x54, 0x52, 0x46);
 
 export const VERSION = 1;
 
-/** Steps by their number in the file. Append only; {@link TURNED_PROJECTION} is taken. */
-export const KINDS: ReadonlyArray<Step["kind"]> = [
+/** Steps by their number in the file. Append only; {@link TURNED_PROJECTION} is and {@link CHOICE} are taken. */
+export const KINDS: ReadonlyArray<Exclude<Step["kind"], "choice">> = [
   "projection",
   "height",
   "horizontalShift",
@@ -17,6 +17,9 @@ export const KINDS: ReadonlyArray<Step["kind"]> = [
 
 /** Number of a projection whose patchwork counts from a centre of its own. */
 export const TURNED_PROJECTION = 6;
+
+/** Number of a choice between ways. */
+export const CHOICE = 7;
 
 /** Directions of a horizontal shift by their number in the file. */
 export const DIRECTIONS: ReadonlyArray<HorizontalShiftStep["direction"]> = ["forward", "inverse"];

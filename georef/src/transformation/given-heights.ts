@@ -1,4 +1,5 @@
-import type { Transformation, VerticalShiftStep } from "./step.js";
+import { choiceOf } from "./choice.js";
+import type { ChoiceStep, ShiftStep, Step, Transformation, VerticalShiftStep } from "./step.js";
 
 /** What heights are measured from, in place of what a transformation was made for. */
 export interface GivenHeights {
@@ -17,16 +18,26 @@ export function withHeights(
   { metresPerUnit, geoid }: GivenHeights,
 ): Transformation {
   const [projection, ...others] = steps;
-  const inPlane = others.filter(({ kind }) => kind !== "height" && kind !== "verticalShift");
+  const height: ShiftStep[] = metresPerUnit === 1 ? [] : [{ kind: "height", metresPerUnit }];
+  const choice = choiceOf({ steps });
+  const inPlane = others.flatMap((step): readonly Step[] => {
+    if (step.kind !== "choice") return planeOf(step);
+    const ways = step.ways.map((way) => ({ ...way, steps: [...height, ...way.steps.flatMap(planeOf)] }));
+    return [{ ...step, ways }];
+  });
   return {
     steps: [
       projection,
-      ...(metresPerUnit === 1 ? [] : [{ kind: "height", metresPerUnit } as const]),
-      ...inPlane
-        .slice(0, -1)
-        .map((step) => (step.kind === "datumShift" ? { ...step, keepHeight: true } : step)),
+      ...(choice ? [] : height),
+      ...inPlane.slice(0, -1),
       ...(geoid ? [geoid] : []),
       inPlane[inPlane.length - 1],
     ],
   };
+}
+
+/** What a step does in plane; nothing of one that changes heights alone. */
+function planeOf<Kind extends Exclude<Step, ChoiceStep>>(step: Kind): Kind[] {
+  if (step.kind === "height" || step.kind === "verticalShift") return [];
+  return [step.kind === "datumShift" ? { ...step, keepHeight: true } : step];
 }

@@ -5,6 +5,7 @@ import {
   encodeTransformation,
   type GridWindow,
   RecordError,
+  type ShiftStep,
   type Step,
   type Transformation,
 } from "../index.js";
@@ -69,7 +70,7 @@ const patch = fc
     }));
   });
 
-const middle: fc.Arbitrary<Step> = fc.oneof(
+const shift: fc.Arbitrary<ShiftStep> = fc.oneof(
   fc.record({ kind: fc.constant("height" as const), metresPerUnit: positive }),
   fc.record({
     kind: fc.constant("horizontalShift" as const),
@@ -87,6 +88,17 @@ const middle: fc.Arbitrary<Step> = fc.oneof(
   }),
 );
 
+const way = fc
+  .record({ minX: number, minY: number, steps: fc.array(shift, { maxLength: 3 }) })
+  .map(({ minX, minY, steps }) => ({
+    area: { minX, minY, maxX: minX + 1 + Math.abs(minX), maxY: minY + 1 + Math.abs(minY) },
+    steps,
+  }));
+const choice: fc.Arbitrary<Step> = fc.record({
+  kind: fc.constant("choice" as const),
+  ways: fc.array(way, { minLength: 1, maxLength: 3 }),
+});
+
 const transformation: fc.Arbitrary<Transformation> = fc
   .record({
     patches: fc.array(patch, { minLength: 1, maxLength: 4 }),
@@ -98,12 +110,14 @@ const transformation: fc.Arbitrary<Transformation> = fc
       ),
       { nil: undefined },
     ),
-    others: fc.array(middle, { maxLength: 4 }),
+    choice: fc.option(choice, { nil: undefined }),
+    others: fc.array(shift, { maxLength: 4 }),
     ellipsoid: axes,
   })
-  .map(({ patches, bound, centre, others, ellipsoid }) => ({
+  .map(({ patches, bound, centre, choice, others, ellipsoid }) => ({
     steps: [
       { kind: "projection", patchwork: { patches, bound, ...(centre && { centre }) } },
+      ...(choice ? [choice] : []),
       ...others,
       { kind: "geocentric", ellipsoid },
     ],

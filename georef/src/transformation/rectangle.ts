@@ -1,12 +1,6 @@
-import type { Patchwork, Transformation } from "./step.js";
+import type { Patchwork, Rectangle, Transformation } from "./step.js";
 
-/** Source coordinates in plan, source units. */
-export interface Rectangle {
-  readonly minX: number;
-  readonly minY: number;
-  readonly maxX: number;
-  readonly maxY: number;
-}
+export type { Rectangle };
 
 /** The patchwork of a transformation, which is its first step. */
 export function patchworkOf({ steps }: Transformation): Patchwork {

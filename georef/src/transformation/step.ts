@@ -8,13 +8,10 @@ import type { GridWindow } from "../grid/window.js";
  * State between the steps: after `projection` longitude, latitude (radians) and z in source units; after `height`
  * z in metres; after `geocentric` ECEF (EPSG:4978, metres).
  */
-export type Step =
-  | ProjectionStep
-  | HeightStep
-  | HorizontalShiftStep
-  | VerticalShiftStep
-  | DatumShiftStep
-  | GeocentricStep;
+export type Step = ProjectionStep | ShiftStep | ChoiceStep | GeocentricStep;
+
+/** Leads from longitude, latitude and height to longitude, latitude and height. */
+export type ShiftStep = HeightStep | HorizontalShiftStep | VerticalShiftStep | DatumShiftStep;
 
 /** (x, y) in source units → longitude, latitude in radians, by a patchwork of certified fits. z is untouched. */
 export interface ProjectionStep {
@@ -57,6 +54,22 @@ export interface DatumShiftStep {
   readonly keepHeight: boolean;
 }
 
+/**
+ * As PROJ chooses for each point: the first way whose area the point lies in, and that has a place for it. Follows the
+ * projection.
+ */
+export interface ChoiceStep {
+  readonly kind: "choice";
+  readonly ways: readonly Way[];
+}
+
+/** One operation of a {@link ChoiceStep}. */
+export interface Way {
+  /** Where it is for; source units, edges included. */
+  readonly area: Rectangle;
+  readonly steps: readonly ShiftStep[];
+}
+
 /** Longitude, latitude, ellipsoidal height → ECEF. The last step. */
 export interface GeocentricStep {
   readonly kind: "geocentric";
@@ -68,6 +81,14 @@ export interface EllipsoidAxes {
   readonly a: number;
   /** Flattening. */
   readonly f: number;
+}
+
+/** Source coordinates in plan, source units. */
+export interface Rectangle {
+  readonly minX: number;
+  readonly minY: number;
+  readonly maxX: number;
+  readonly maxY: number;
 }
 
 /** A quadtree-like set of rectangles, each with its own polynomial; every point of the domain lies in exactly one. */

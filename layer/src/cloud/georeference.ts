@@ -9,6 +9,7 @@ import {
   ENGINE,
   type EpsgLookup,
   encodeRecord,
+  everyStep,
   fitPlacement,
   type GeoreferenceRecord,
   GromaError,
@@ -274,9 +275,9 @@ function derived(
   { name, boundingBox }: Declared,
 ): Pick<Georeference, "sources" | "truth" | "geoids"> {
   const truth = truthOf(sources, (boundingBox.min[2] + boundingBox.max[2]) / 2, name);
-  const steps = typeof truth === "function" ? [] : truth.transformation.steps;
+  const steps = typeof truth === "function" ? [] : everyStep(truth.transformation);
   const geoids = steps.flatMap((step) => (step.kind === "verticalShift" ? [step.window.grid] : []));
-  return { sources, truth, geoids };
+  return { sources, truth, geoids: [...new Set(geoids)] };
 }
 
 /** Adds to what is said of one part. */

@@ -12,6 +12,7 @@ import {
   ecefToGeodetic,
   egm96Step,
   encodeTransformation,
+  everyStep,
   type GeoreferenceRecord,
   type Grid,
   isAboveGeoid,
@@ -151,9 +152,10 @@ export function regiven(
 /** What the conversion said of its operation, as far as it holds with other heights. */
 export function operationRegiven(
   { grids, notes, ...rest }: OperationReport,
-  { steps }: Transformation,
+  transformation: Transformation,
   crs: Crs,
 ): OperationReport {
+  const steps = everyStep(transformation);
   const inPlane = steps.flatMap((step) => (step.kind === "horizontalShift" ? [step.window.grid] : []));
   const geoid = isAboveGeoid(crs);
   const told = notes.filter((note) => !/^height/.test(note));
