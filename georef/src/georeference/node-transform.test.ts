@@ -95,7 +95,8 @@ describe("a transformation over a node, taken apart", () => {
           // The greatest first.
           const [first, second] = [corrections[1].reach, corrections[2].reach - corrections[1].reach];
           expect(first).toBeGreaterThanOrEqual(second);
-          expect(second).toBeGreaterThan(0);
+          // Nothing is left to add within one cell of its grid; `both` counts the nodes where much is.
+          expect(second).toBeGreaterThanOrEqual(0);
           expect(corrections[1].bound - truthBound).toBeLessThanOrEqual(
             1.01 * second + 0.012 * first + little,
           );
