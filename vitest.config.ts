@@ -45,8 +45,14 @@ export default defineConfig({
     setupFiles: ["tests/properties.ts"],
     projects: Object.entries(rooms).map(([name, include]) => ({
       extends: true,
-      // A browser test fills both cores by itself.
-      test: { name, include, fileParallelism: !["browser", "install"].includes(name) },
+      test: {
+        name,
+        include,
+        // A browser test fills both cores by itself.
+        fileParallelism: !["browser", "install"].includes(name),
+        // Loading the modules anew for each of many short files takes as long as the tests themselves.
+        isolate: !["unit", "browser"].includes(name),
+      },
     })),
   },
 });
