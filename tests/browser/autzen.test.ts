@@ -3,7 +3,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
 import { data } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
-import { ecef, lookDown, pixelOf, settle } from "./globe.js";
+import { ecef, hideCloud, lookDown, pixelOf, settle } from "./globe.js";
 import { colourDifference, launch, meanColour, openPage, screenshot, type View, view } from "./harness.js";
 
 interface Landmark {
@@ -50,10 +50,7 @@ describe.skipIf(missing)(`Autzen on the globe${missing ? ` (skipped: ${missing})
     expect(drawn).toBeGreaterThan(10_000);
     await page.waitForFunction((told) => document.querySelector("#count")!.textContent!.includes(told), told);
     expect(await page.textContent("#stage")).toBe("This view is complete.");
-    await page.evaluate(() => {
-      window.groma.layer.show = false;
-    });
-    await page.waitForTimeout(3000);
+    await hideCloud(page);
     const hidden = await screenshot(page, "autzen-oblique-hidden");
     let changed = 0;
     for (let at = 0; at < shown.data.length; at += 4) {
@@ -78,7 +75,7 @@ describe.skipIf(missing)(`Autzen on the globe${missing ? ` (skipped: ${missing})
     });
     expect(bare).toBe(480);
     await lookDown(page, ecef(-123.0685, 44.056, 200));
-    await page.waitForTimeout(1500);
+    await hideCloud(page);
     const globe = meanColour(await screenshot(page, "autzen-bare-globe"), 240, 300, 30);
     const landmarks = runPython<Landmark[]>("browser/landmarks.py", [
       scan.path,
@@ -98,10 +95,7 @@ describe.skipIf(missing)(`Autzen on the globe${missing ? ` (skipped: ${missing})
       const { x, y } = await pixelOf(page, ecef(longitude, latitude, height));
       const shown = meanColour(await screenshot(page, `autzen-landmark-${index}`), x, y, 4);
       expect(colourDifference(shown, rgb), `landmark ${index}: ${shown} for ${rgb}`).toBeLessThan(20);
-      await page.evaluate(() => {
-        window.groma.layer.show = false;
-      });
-      await page.waitForTimeout(1500);
+      await hideCloud(page);
       const hidden = meanColour(await screenshot(page, `autzen-landmark-${index}-hidden`), x, y, 4);
       expect(colourDifference(hidden, rgb), `landmark ${index} hidden`).toBeGreaterThan(30);
     }

@@ -63,6 +63,23 @@ export async function settle(page: Page): Promise<void> {
   });
 }
 
+/** Hides the cloud, and waits until the globe is drawn whole without it. */
+export async function hideCloud(page: Page): Promise<void> {
+  await page.evaluate(() => {
+    const { layer, viewer } = window.groma;
+    layer.show = false;
+    return new Promise<void>((done) => {
+      const stop = viewer.scene.postRender.addEventListener(() => {
+        const { globe } = viewer.scene;
+        if (globe.show && !globe.tilesLoaded) return viewer.scene.requestRender();
+        stop();
+        done();
+      });
+      viewer.scene.requestRender();
+    });
+  });
+}
+
 /** Canvas pixel of an ECEF position, by Cesium. */
 export async function pixelOf(page: Page, position: Point): Promise<{ x: number; y: number }> {
   const pixel = await page.evaluate((at) => {

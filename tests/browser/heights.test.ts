@@ -9,7 +9,7 @@ import { converted } from "../converted.js";
 import { proj, projMissing } from "../proj.js";
 import { data, projectRoot } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
-import { ecef, pixelOf, settle } from "./globe.js";
+import { ecef, hideCloud, pixelOf, settle } from "./globe.js";
 import { launch, openPage, screenshot, type View, view } from "./harness.js";
 
 const folder = join(projectRoot, "tests/artifacts/zones");
@@ -96,10 +96,7 @@ async function lookNorth(page: Page): Promise<void> {
 /** Mean row of the pixels that a picture has and one without the cloud has not, and how many they are. */
 async function rowOfCloud(page: Page, name: string): Promise<{ row: number; pixels: number }> {
   const shown = await screenshot(page, name);
-  await page.evaluate(() => {
-    window.groma.layer.show = false;
-  });
-  await page.waitForTimeout(1500);
+  await hideCloud(page);
   const bare = await screenshot(page, `${name}-hidden`);
   await page.evaluate(() => {
     window.groma.layer.show = true;
