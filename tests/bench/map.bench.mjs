@@ -61,6 +61,7 @@ function row(style, { globe, map, still }) {
     ...{ "ms, globe": figure(globe.whole), "own, globe": figure(own(globe)) },
     ...{ "ms, map": figure(map.whole), "own, map": figure(own(map)) },
     "own, map ÷ globe": figure(own(map) / own(globe)),
+    "the same per point": figure(own(map) / map.points / (own(globe) / globe.points)),
     "draws, globe / map": `${globe.draws} / ${map.draws}`,
     still,
   };

@@ -26,8 +26,10 @@ type Code = keyof typeof MAPS;
 const CODES = Object.keys(MAPS) as Code[];
 const ROTATIONS = [0, 0.7, -2.2];
 
-/** What a 5 cm pixel of each map is of its units. */
+/** Metres of a pixel. */
 const RESOLUTION = 0.05;
+/** Pixels of the canvas for each of the map: a point covers as many squared, so that its middle is known to half of one. */
+const RATIO = 2;
 
 type Referee = { points: ({ source: number[] } & Record<Code, [number, number]>)[]; all: number };
 
@@ -44,15 +46,19 @@ describe.skipIf(missing)(`Autzen on maps of OpenLayers${missing ? ` (skipped: ${
     const targets = CODES.map((code) => `${code}=${code === "EPSG:2994" ? SHIFTED : code}`);
     const where = ["637135", "850900", "20", "1.2", "100"];
     referee = runPython<Referee>("browser/map.py", [path, SHIFTED, ...where, ...targets]);
-    await stage.page.evaluate((projections) => {
-      const { MapStage } = window.map;
-      window.map.stage = new MapStage({
-        view: { projection: "EPSG:3857", center: [0, 0], resolution: 1 },
-        source: { url: "/scans/autzen.copc.laz" },
-        layer: { style: { pointSize: 1 } },
-        projections,
-      }) as MapStage;
-    }, PROJECTIONS);
+    await stage.page.evaluate(
+      ([projections, ratio]) => {
+        const { MapStage } = window.map;
+        window.map.stage = new MapStage({
+          view: { projection: "EPSG:3857", center: [0, 0], resolution: 1 },
+          source: { url: "/scans/autzen.copc.laz" },
+          layer: { style: { pointSize: 1 } },
+          pixelRatio: ratio,
+          projections,
+        }) as MapStage;
+      },
+      [PROJECTIONS, RATIO] as const,
+    );
   }, 280_000);
   afterAll(() => stage?.close());
 
@@ -70,13 +76,14 @@ describe.skipIf(missing)(`Autzen on maps of OpenLayers${missing ? ` (skipped: ${
     });
     const lit = await stage.page.evaluate(() => window.map.stage.lit());
     await screenshot(stage.page, "map-autzen");
-    expect(lit.length).toBeGreaterThan(12_000);
+    expect(lit.length).toBeGreaterThan(48_000);
     // The picture of the points is as large as the scan: no less, and nothing of it lies elsewhere.
     const [minX, minY, maxX, maxY] = extent;
     const across = (maxX - minX) / Math.max((maxX - minX) / 600, (maxY - minY) / 400);
-    const columns = lit.map(([x]) => x);
-    expect(Math.abs(Math.min(...columns) - (300 - across / 2))).toBeLessThan(15);
-    expect(Math.abs(Math.max(...columns) - (300 + across / 2))).toBeLessThan(15);
+    const edges = lit.reduce(([low, high], [x]) => [Math.min(low, x), Math.max(high, x)], [1e9, -1]);
+    const [left, right] = edges.map((x) => x / RATIO);
+    expect(Math.abs(left - (300 - across / 2))).toBeLessThan(15);
+    expect(Math.abs(right - (300 + across / 2))).toBeLessThan(15);
     expect(await stage.page.evaluate(() => window.map.stage.errors)).toEqual([]);
     expect(stage.watch.errors).toEqual([]);
   });
@@ -101,27 +108,29 @@ describe.skipIf(missing)(`Autzen on maps of OpenLayers${missing ? ` (skipped: ${
       if (rotation === 0.7) await screenshot(stage.page, `map-points-${code.slice(5)}`);
       const shown = new Set(lit.map(([x, y]) => `${x} ${y}`));
       const [cosine, sine] = [Math.cos(rotation), Math.sin(rotation)];
-      /** Distance of PROJ's pixel from the middle of the nearest pixel that shows a point, by the longer axis. */
+      /** Distance of PROJ's pixel from the middle of what the picture shows of the point, by the longer axis. */
       const offOf = (shift: number) =>
         places.flatMap(([x, y]) => {
           const [dx, dy] = [(x - center[0]) / resolution, (y - center[1]) / resolution];
           const [px, py] = [300 + cosine * dx + sine * dy + shift, 200 + sine * dx - cosine * dy];
           if (px < 5 || py < 5 || px > 595 || py > 395) return [];
-          let off = Number.POSITIVE_INFINITY;
-          for (let row = Math.floor(py) - 4; row <= py + 4; row++) {
-            for (let column = Math.floor(px) - 4; column <= px + 4; column++) {
-              if (!shown.has(`${column} ${row}`)) continue;
-              off = Math.min(off, Math.max(Math.abs(column + 0.5 - px), Math.abs(row + 0.5 - py)));
+          // No other point is as near as this.
+          const reach = 3 * RATIO;
+          const found: [number, number][] = [];
+          for (let row = Math.floor(RATIO * py) - reach; row <= RATIO * py + reach; row++) {
+            for (let column = Math.floor(RATIO * px) - reach; column <= RATIO * px + reach; column++) {
+              if (shown.has(`${column} ${row}`)) found.push([column + 0.5, row + 0.5]);
             }
           }
-          return [off];
+          const middle = (axis: 0 | 1) => found.reduce((sum, at) => sum + at[axis], 0) / found.length / RATIO;
+          return [found.length ? Math.max(Math.abs(middle(0) - px), Math.abs(middle(1) - py)) : 99];
         });
       const offs = offOf(0);
       expect(offs.length).toBeGreaterThan(60);
-      // Half a pixel is what rounding to pixels takes by itself; where a point stands in its pixel, the GPU knows to 1/16.
-      expect(Math.max(...offs)).toBeLessThanOrEqual(0.54);
-      // Two pixels beside it there is nothing: the picture tells where points are.
-      expect(offOf(2).filter((off) => off <= 0.54).length).toBeLessThan(10);
+      // A quarter is what rounding to pixels of the canvas takes by itself, and the GPU knows places to 1/16 of them.
+      expect(Math.max(...offs)).toBeLessThanOrEqual(0.3);
+      // Two pixels beside it the same points are as far off: the picture tells where they are.
+      expect(Math.min(...offOf(2))).toBeGreaterThan(1.5);
     },
   );
 });

@@ -7,6 +7,7 @@ import type { Program } from "../drawing/programs.js";
 import { type EffectPlan, type PointPass, passesOf } from "../effects/index.js";
 import { GlObjects, type GlTypes } from "./engine/gl-objects.js";
 import { GlUniforms } from "./engine/gl-uniforms.js";
+import { type Corners, ExtentMask } from "./extent-mask.js";
 import type { MapCamera } from "./map-camera.js";
 import { type MapView, NodeDrawable } from "./node-drawable.js";
 import { Picture } from "./picture.js";
@@ -27,7 +28,9 @@ export class LayerRenderer implements Renderer<MapView> {
   readonly #view = new GlUniforms();
   readonly #picture: Picture;
   readonly #numbers: Picture;
+  readonly #mask: ExtentMask;
   #camera: MapCamera | undefined;
+  #extent: Corners | undefined;
   /** Frames in which something was drawn, for tests and benches. */
   #drawn = 0;
 
@@ -38,6 +41,7 @@ export class LayerRenderer implements Renderer<MapView> {
     this.blends = float !== null;
     this.#picture = new Picture(this.objects);
     this.#numbers = new Picture(this.objects);
+    this.#mask = new ExtentMask(this.objects);
     this.content = new LayerContent<MapView>(
       this.objects,
       this.#view,
@@ -50,49 +54,19 @@ export class LayerRenderer implements Renderer<MapView> {
     return this.#drawn;
   }
 
-  /** What is drawn from now on is seen by this camera. */
-  begin(camera: MapCamera): void {
+  /** What is drawn from now on is seen by this camera, as far as it lies within an extent. */
+  begin(camera: MapCamera, extent: Corners | undefined): void {
     this.#camera = camera;
+    this.#extent = extent;
   }
 
   draw(): void {
     const camera = this.#camera;
-    const gl = this.#gl;
     if (!camera) return;
     this.#drawn++;
-    const { canvas } = gl;
-    if (canvas.width !== camera.width || canvas.height !== camera.height) {
-      canvas.width = camera.width;
-      canvas.height = camera.height;
-    }
     const screen: PassTarget = { framebuffer: undefined, viewport: [0, 0, camera.width, camera.height] };
-    clear(gl, screen, true);
-    const { material, nodes } = this.content;
-    if (!material || nodes.length === 0) return;
-    this.#setView(camera, camera.width, camera.height);
-    placeNodes(this.content.groups, camera);
-    const { offscreen, points } = passesOf(material.plan);
-    if (!offscreen) {
-      this.#picture.release();
-      drawPoints(gl, "color", nodes, camera, screen, this.#programs("color", "scene"));
-      return;
-    }
-    const [first, second] = points;
-    this.#picture.prepare(camera.width, camera.height, second !== undefined);
-    const target = this.#picture.target();
-    clear(gl, target, true);
-    drawPoints(gl, first, nodes, camera, target, this.#programs(first, "own"));
-    if (second) {
-      const sums = this.#picture.target("sums");
-      clear(gl, sums, false);
-      drawPoints(gl, second, nodes, camera, sums, this.#programs(second, "own"));
-    }
-    const { colour, depth } = this.#picture;
-    if (colour) this.#view.setTexture("u_color", colour);
-    if (depth) this.#view.setTexture("u_depth", depth);
-    const quad = this.content.programs.of(quadProgramOf(material.plan, this.content.depth));
-    quad.program.use(material.uniforms);
-    drawQuad(gl, screen);
+    this.#drawPoints(camera, screen);
+    if (this.#extent) this.#mask.draw(this.#gl, screen, this.#extent, camera.frame.pixelRatio);
   }
 
   probe(_asked: boolean, _request: ContentRequest): boolean {
@@ -151,6 +125,42 @@ export class LayerRenderer implements Renderer<MapView> {
   destroy(): void {
     this.content.destroy();
     this.objects.destroy();
+  }
+
+  #drawPoints(camera: MapCamera, screen: PassTarget): void {
+    const gl = this.#gl;
+    const { canvas } = gl;
+    if (canvas.width !== camera.width || canvas.height !== camera.height) {
+      canvas.width = camera.width;
+      canvas.height = camera.height;
+    }
+    clear(gl, screen, true);
+    const { material, nodes } = this.content;
+    if (!material || nodes.length === 0) return;
+    this.#setView(camera, camera.width, camera.height);
+    placeNodes(this.content.groups, camera);
+    const { offscreen, points } = passesOf(material.plan);
+    if (!offscreen) {
+      this.#picture.release();
+      drawPoints(gl, "color", nodes, camera, screen, this.#programs("color", "scene"));
+      return;
+    }
+    const [first, second] = points;
+    this.#picture.prepare(camera.width, camera.height, second !== undefined);
+    const target = this.#picture.target();
+    clear(gl, target, true);
+    drawPoints(gl, first, nodes, camera, target, this.#programs(first, "own"));
+    if (second) {
+      const sums = this.#picture.target("sums");
+      clear(gl, sums, false);
+      drawPoints(gl, second, nodes, camera, sums, this.#programs(second, "own"));
+    }
+    const { colour, depth } = this.#picture;
+    if (colour) this.#view.setTexture("u_color", colour);
+    if (depth) this.#view.setTexture("u_depth", depth);
+    const quad = this.content.programs.of(quadProgramOf(material.plan, this.content.depth));
+    quad.program.use(material.uniforms);
+    drawQuad(gl, screen);
   }
 
   #setView({ projection, frame }: MapCamera, width: number, height: number): void {

@@ -1,8 +1,5 @@
 import { DrawError } from "../errors/index.js";
 
-/** Corners of an extent in CSS pixels, from the upper left. */
-type Corners = readonly (readonly number[])[];
-
 /** The element that a layer puts into a map: a canvas with a WebGL 2 context of its own. */
 export class MapCanvas {
   readonly element: HTMLElement;
@@ -38,14 +35,12 @@ export class MapCanvas {
     });
   }
 
-  /** @param size CSS pixels @param corners of the layer's extent, beyond which nothing of it shows */
-  lay(size: readonly number[], opacity: number, corners: Corners | undefined): void {
+  /** @param size CSS pixels */
+  lay(size: readonly number[], opacity: number): void {
     const { style } = this.canvas;
     style.width = `${size[0]}px`;
     style.height = `${size[1]}px`;
     style.opacity = opacity === 1 ? "" : String(opacity);
-    const places = corners?.map(([x, y]) => `${x}px ${y}px`);
-    style.clipPath = places ? `polygon(${places.join(", ")})` : "";
   }
 
   destroy(): void {

@@ -1,4 +1,12 @@
-import { getBottomLeft, getBottomRight, getTopLeft, getTopRight, getWidth } from "ol/extent.js";
+import {
+  containsCoordinate,
+  type Extent,
+  getBottomLeft,
+  getBottomRight,
+  getTopLeft,
+  getTopRight,
+  getWidth,
+} from "ol/extent.js";
 import Feature from "ol/Feature.js";
 import Point from "ol/geom/Point.js";
 import type Layer from "ol/layer/Layer.js";
@@ -9,6 +17,7 @@ import { apply } from "ol/transform.js";
 import type { PointCloud, PointRecord } from "../cloud/index.js";
 import type { DrawnNode } from "../drawing/drawn-node.js";
 import { FrameFailures } from "../drawing/frame-failures.js";
+import type { Corners } from "./extent-mask.js";
 import type { LayerDrawing } from "./layer-drawing.js";
 import { MapCanvas } from "./map-canvas.js";
 import type { MapView } from "./node-drawable.js";
@@ -68,15 +77,8 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
 
   override renderFrame(frameState: FrameState): HTMLElement {
     this.#frameState = frameState;
-    const { layerStatesArray, layerIndex, size, coordinateToPixelTransform: toPixel } = frameState;
-    const { opacity, extent } = layerStatesArray[layerIndex];
-    const corners =
-      extent && [getBottomLeft, getBottomRight, getTopRight, getTopLeft].map((of) => of(extent));
-    this.#canvas.lay(
-      size,
-      opacity,
-      corners?.map((corner) => apply(toPixel, [...corner])),
-    );
+    const { layerStatesArray, layerIndex, size } = frameState;
+    this.#canvas.lay(size, layerStatesArray[layerIndex].opacity);
     try {
       this.#draw(frameState);
     } catch (thrown) {
@@ -159,7 +161,8 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     if (this.#shown === key) return;
     const extent = viewState.projection.canWrapX() ? viewState.projection.getExtent() : undefined;
     const worldWidth = extent ? getWidth(extent) : undefined;
-    const report = placed.draw(settings, { view: viewState, size, pixelRatio, worldWidth });
+    const view = { view: viewState, size, pixelRatio, worldWidth };
+    const report = placed.draw(settings, view, this.#cornersIn(frameState));
     this.#tell(placed.frames.takeFailure());
     if (report === "blocked") {
       placed.rest(true);
@@ -178,11 +181,20 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     } else this.#wait();
   }
 
+  /** Corners of the layer's extent, CSS pixels. */
+  #cornersIn(frameState: FrameState): Corners | undefined {
+    const extent = extentIn(frameState);
+    const corners =
+      extent && [getBottomLeft, getBottomRight, getTopRight, getTopLeft].map((of) => of(extent));
+    return corners?.map((corner) => apply(frameState.coordinateToPixelTransform, [...corner]));
+  }
+
   /** What a picture depends on. */
-  #keyOf({ viewState, size, pixelRatio }: FrameState): string {
+  #keyOf(frameState: FrameState): string {
+    const { viewState, size, pixelRatio } = frameState;
     const { center, resolution, rotation } = viewState;
     const { revision, clips } = this.#drawing;
-    return `${center} ${resolution} ${rotation} ${size} ${pixelRatio} ${revision} ${clips.revision}`;
+    return `${center} ${resolution} ${rotation} ${size} ${pixelRatio} ${revision} ${clips.revision} ${extentIn(frameState)}`;
   }
 
   /** Has the points placed in the projection of the map. */
@@ -252,7 +264,9 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
   #find([x, y]: number[], window: number): Found | undefined {
     const [width, height] = this.#frameState?.size ?? [0, 0];
     if (x < 0 || y < 0 || x >= width || y >= height) return undefined;
-    return this.#placed?.renderer.pick({ x, y }, window);
+    const found = this.#placed?.renderer.pick({ x, y }, window);
+    const extent = this.#frameState && extentIn(this.#frameState);
+    return found && extent && !containsCoordinate(extent, this.#coordinateOf(found)) ? undefined : found;
   }
 
   #read({ drawn, index }: Found, signal?: AbortSignal): Promise<PointRecord> {
@@ -279,4 +293,9 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     feature.setId(`${node.name}/${record}`);
     return feature;
   }
+}
+
+/** Beyond which nothing of the layer is to show, units of the projection. */
+function extentIn({ layerStatesArray, layerIndex }: FrameState): Extent | undefined {
+  return layerStatesArray[layerIndex].extent;
 }

@@ -1,5 +1,6 @@
 import type { PlacedOctree, PointCloud } from "../cloud/index.js";
 import { type FrameReport, LayerFrames, type LayerSettings } from "../drawing/frame.js";
+import type { Corners } from "./extent-mask.js";
 import { LayerRenderer } from "./layer-renderer.js";
 import { type MapFrame, mapCamera } from "./map-camera.js";
 import type { MapView } from "./node-drawable.js";
@@ -38,16 +39,17 @@ export class PlacedFrames {
     });
   }
 
-  /** Draws a frame. */
+  /** Draws a frame. @param extent beyond which nothing of it shows */
   draw(
     settings: LayerSettings,
     frame: Omit<MapFrame, "metresPerUnit" | "bounds">,
+    extent: Corners | undefined,
   ): FrameReport | "unfinished" | "blocked" {
     const { plane, bounds } = this.octree;
     if (!plane || !bounds) throw new TypeError("a map needs an octree in its plane");
     const camera = mapCamera({ ...frame, metresPerUnit: plane.metresPerUnit, bounds });
     return this.frames.draw(settings, camera.frame, () => {
-      this.renderer.begin(camera);
+      this.renderer.begin(camera, extent);
       return this.renderer;
     });
   }

@@ -63,7 +63,7 @@ class MapBesideGlobe {
     this.#cloud ??= await PointCloud.fromUrl(address, { limits: { cacheBytes: 2 ** 31 } });
     const drawing = {
       pointBudget: points,
-      maximumScreenSpaceError: 0.05,
+      maximumScreenSpaceError: 0.25,
       style: { size: "fixed", shape: "square", pointSize: 2, eyeDomeLighting: false, ...style },
     } as const;
     const globe = await globeOf(this.#cloud, drawing);

@@ -31,10 +31,12 @@ export class MapStage {
   readonly layer: PointCloudLayer;
   /** Codes of the errors that were raised. */
   readonly errors: string[] = [];
+  readonly #pixelRatio: number;
 
   constructor({ view, source, layer, projections = {}, pixelRatio = 1 }: StageOptions) {
     for (const [code, definition] of Object.entries(projections)) proj4.defs(code, definition);
     register(proj4);
+    this.#pixelRatio = pixelRatio;
     const target = document.createElement("div");
     Object.assign(target.style, { width: "600px", height: "400px" });
     document.body.append(target);
@@ -89,6 +91,21 @@ export class MapStage {
     const context = copy.getContext("2d")!;
     context.drawImage(canvas, 0, 0);
     return context.getImageData(0, 0, canvas.width, canvas.height);
+  }
+
+  /** The map as an application copies it for a print: all canvases, one over the other. As OpenLayers' examples do. */
+  copy(): ImageData {
+    const [width, height] = this.map.getSize()!.map((edge) => edge * this.#pixelRatio) as [number, number];
+    const context = new OffscreenCanvas(width, height).getContext("2d")!;
+    const canvases = this.map.getViewport().querySelectorAll<HTMLCanvasElement>(".ol-layers canvas");
+    for (const canvas of Array.from(canvases)) {
+      if (canvas.width === 0) continue;
+      const opacity = canvas.parentElement!.style.opacity || canvas.style.opacity;
+      context.globalAlpha = opacity === "" ? 1 : Number(opacity);
+      context.resetTransform();
+      context.drawImage(canvas, 0, 0, width, height);
+    }
+    return context.getImageData(0, 0, width, height);
   }
 
   destroy(): void {

@@ -1,0 +1,187 @@
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { pythonMissing } from "../python.js";
+import { colourDifference, screenshot } from "./harness.js";
+import { openStage, type StagePage } from "./stage.js";
+
+const UTM = { "EPSG:32632": "+proj=utm +zone=32 +datum=WGS84 +units=m +no_defs" };
+/** 30 × 20 m at 20 pixels per metre around the scan `stripes`, of which each strip is 4 m wide. */
+const ABOVE = { projection: "EPSG:32632", center: [500_000, 5_200_000], resolution: 0.05 };
+
+describe.skipIf(pythonMissing)(
+  `a layer of points as any layer of a map${pythonMissing ? ` (skipped: ${pythonMissing})` : ""}`,
+  () => {
+    let stage: StagePage;
+    beforeAll(async () => {
+      stage = await openStage("map-stage");
+    }, 240_000);
+    afterAll(() => stage?.close());
+
+    /** Sets a map up and waits until it is drawn. */
+    const open = (options: Record<string, unknown> = {}, pixelRatio = 1) =>
+      stage.page.evaluate(
+        async ({ view, projections, pixelRatio, options }) => {
+          const { MapStage } = window.map;
+          window.map.stage?.destroy();
+          const source = { url: "/clouds/stripes.copc.laz" };
+          const layer = { style: { pointSize: 3 }, ...options };
+          const given = { view, projections, source, pixelRatio, layer };
+          window.map.stage = new MapStage(given) as typeof window.map.stage;
+          await window.map.stage.complete();
+        },
+        { view: ABOVE, projections: UTM, pixelRatio, options },
+      );
+
+    it("lies among tiles and vectors by its order, and lets them through by its opacity", {
+      timeout: 120_000,
+    }, async () => {
+      await open({ zIndex: 1 });
+      const shown = async (name: string) => {
+        const colours = await stage.page.evaluate(async () => {
+          await window.map.stage.complete();
+          const { data, width } = window.map.stage.copy();
+          // In the red strip, in the white one, and beside the scan.
+          return [
+            [300 - 160, 200],
+            [300 + 160, 200],
+            [550, 200],
+          ].map(([x, y]) => [...data.slice(4 * (y! * width + x!), 4 * (y! * width + x!) + 3)]);
+        });
+        const seen = await screenshot(stage.page, name);
+        // What a print copies is what the screen shows.
+        for (const [at, x] of [140, 460, 550].entries()) {
+          const begin = 4 * (200 * seen.width + x);
+          expect(colourDifference(seen.data.subarray(begin, begin + 3), colours[at]!)).toBeLessThan(3);
+        }
+        return colours;
+      };
+      await stage.page.evaluate(() => {
+        const { ol, stage } = window.map;
+        const canvas = document.createElement("canvas");
+        Object.assign(canvas, { width: 256, height: 256 });
+        const context = canvas.getContext("2d")!;
+        context.fillStyle = "rgb(20, 120, 200)";
+        context.fillRect(0, 0, 256, 256);
+        const source = new ol.XYZ({ url: canvas.toDataURL(), projection: "EPSG:32632", maxZoom: 3 });
+        const tiles = new ol.TileLayer({ source, zIndex: 0 });
+        tiles.getSource()!.setState("ready");
+        const east = new ol.Feature(ol.fromExtent([500_000, 5_199_990, 500_015, 5_200_010]));
+        const vectors = new ol.VectorLayer({
+          source: new ol.VectorSource({ features: [east] }),
+          style: new ol.Style({ fill: new ol.Fill({ color: "rgb(255, 0, 255)" }) }),
+          zIndex: 2,
+        });
+        stage.map.addLayer(tiles);
+        stage.map.addLayer(vectors);
+      });
+      const [red, white] = [
+        [220, 40, 40],
+        [240, 240, 240],
+      ];
+      const magenta = [255, 0, 255];
+      const over = await shown("map-order-over");
+      for (const [at, wanted] of [red, magenta, magenta].entries()) {
+        expect(colourDifference(over[at]!, wanted!), `${over}`).toBeLessThan(4);
+      }
+      await stage.page.evaluate(() => window.map.stage.layer.setZIndex(3));
+      const under = await shown("map-order-under");
+      for (const [at, wanted] of [red, white, magenta].entries()) {
+        expect(colourDifference(under[at]!, wanted!), `${under}`).toBeLessThan(4);
+      }
+      await stage.page.evaluate(() => window.map.stage.layer.setOpacity(0.5));
+      const through = await shown("map-order-through");
+      const half = (a: number[], b: number[]) => a.map((value, at) => (value + b[at]!) / 2);
+      for (const [at, wanted] of [half(red, [20, 120, 200]), half(white, magenta), magenta].entries()) {
+        expect(colourDifference(through[at]!, wanted), `${through}`).toBeLessThan(5);
+      }
+      expect(stage.watch.errors).toEqual([]);
+    });
+
+    it("shows at the zooms that it is given, in an element of its class", { timeout: 120_000 }, async () => {
+      await open({ className: "scan", minZoom: 17, maxZoom: 18 });
+      const seen = await stage.page.evaluate(async () => {
+        const { stage } = window.map;
+        const view = stage.map.getView();
+        const found: unknown[] = [];
+        for (const zoom of [16.9, 17.5, 18.1, 17.5]) {
+          view.setResolution(view.getResolutionForZoom(zoom));
+          await stage.complete();
+          const canvas = stage.map.getViewport().querySelector(".scan canvas");
+          found.push([canvas !== null, (await stage.layer.pick([300, 200])) !== undefined]);
+        }
+        stage.layer.setVisible(false);
+        await stage.complete();
+        found.push(stage.map.getViewport().querySelector(".scan canvas") !== null);
+        return found;
+      });
+      const [shown, hidden] = [
+        [true, true],
+        [false, false],
+      ];
+      expect(seen).toEqual([hidden, shown, hidden, shown, false]);
+      expect(stage.watch.errors).toEqual([]);
+    });
+
+    it("is printed in as many pixels as are asked for, all of it, and only within its extent", {
+      timeout: 120_000,
+    }, async () => {
+      await open();
+      const once = await stage.page.evaluate(() => window.map.stage.lit().length);
+      await open({}, 2.5);
+      const seen = await stage.page.evaluate(async () => {
+        const { stage } = window.map;
+        const bounds = ({ data, width, height }: ImageData) => {
+          const lit: [number, number][] = [];
+          for (let at = 3; at < data.length; at += 4) {
+            if (data[at]! > 0) lit.push([((at - 3) / 4) % width, Math.floor((at - 3) / 4 / width)]);
+          }
+          const range = (axis: 0 | 1) =>
+            lit.reduce(([low, high], at) => [Math.min(low!, at[axis]), Math.max(high!, at[axis])], [1e9, -1]);
+          return { width, height, lit: lit.length, x: range(0), y: range(1) };
+        };
+        const full = bounds(stage.copy());
+        // What is complete shows all that the view wants.
+        const { nodesVisible, nodesLoaded } = stage.layer.statistics;
+        stage.layer.setExtent([499_995, 5_199_996, 500_005, 5_200_004]);
+        await stage.complete();
+        const within = bounds(stage.copy());
+        // 6 m to the east there are points, but not within the extent.
+        const picked = [
+          (await stage.layer.pick([300, 200])) !== undefined,
+          (await stage.layer.pick([420, 200])) !== undefined,
+          stage.map.hasFeatureAtPixel([420, 200]),
+        ];
+        // A print on paper: a larger map for a moment, at as many metres.
+        const view = stage.map.getView();
+        stage.layer.setExtent(undefined);
+        view.setRotation(0.3);
+        const printed = new Promise<ReturnType<typeof bounds>>((resolve) => {
+          stage.map.once("rendercomplete", () => resolve(bounds(stage.copy())));
+        });
+        stage.map.setSize([1200, 800]);
+        view.setResolution(0.025);
+        const paper = await printed;
+        const all = stage.layer.statistics;
+        return { full, nodes: [nodesVisible, nodesLoaded], within, picked, paper, all };
+      });
+      await screenshot(stage.page, "map-print");
+      expect([seen.full.width, seen.full.height]).toEqual([1500, 1000]);
+      expect(seen.nodes[0]).toBe(seen.nodes[1]);
+      expect(Math.abs(seen.full.lit / once / 2.5 ** 2 - 1)).toBeLessThan(0.03);
+      // 10 by 8 metres around the middle, at 50 pixels per metre, to a pixel; points that reach over are cut.
+      for (const [found, wanted] of [
+        [seen.within.x, [500, 999]],
+        [seen.within.y, [300, 699]],
+      ] as const) {
+        expect(Math.abs(found[0]! - wanted[0]!)).toBeLessThanOrEqual(1);
+        expect(Math.abs(found[1]! - wanted[1]!)).toBeLessThanOrEqual(1);
+      }
+      expect(seen.picked).toEqual([true, false, false]);
+      expect([seen.paper.width, seen.paper.height]).toEqual([3000, 2000]);
+      expect(seen.all.nodesLoaded).toBe(seen.all.nodesVisible);
+      // 20 by 20 metres at 100 pixels per metre: points 10 pixels apart and 7.5 wide.
+      const share = Math.round(7.5) ** 2 / 10 ** 2;
+      expect(Math.abs(seen.paper.lit / (share * 2000 ** 2) - 1)).toBeLessThan(0.2);
+      expect(stage.watch.errors).toEqual([]);
+    });
+  },
+);
