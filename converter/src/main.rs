@@ -161,6 +161,7 @@ fn convert(arguments: Convert) -> Result<()> {
     let validated = Pipeline::scan(&options, &progress)?.validate()?;
     let plan = validated.plan();
     if dry_run {
+        validated.foretell();
         JsonLines::print(&plan);
         return Ok(());
     }

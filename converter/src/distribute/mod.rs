@@ -45,16 +45,29 @@ pub struct Distribution {
     pub tally: Tally,
 }
 
+/// The bounds that a header declares.
+fn declared(source: &Source) -> Bounds {
+    let h = &source.scan.header;
+    Bounds { min: [h.min_x, h.min_y, h.min_z], max: [h.max_x, h.max_y, h.max_z] }
+}
+
 impl Inputs {
     /// The extent that the headers declare, if they declare one.
     fn declared(&self) -> Option<Extent> {
         let mut extent = Extent::EMPTY;
         for source in &self.sources {
-            let h = &source.scan.header;
-            let bounds = Bounds { min: [h.min_x, h.min_y, h.min_z], max: [h.max_x, h.max_y, h.max_z] };
-            extent.join(&self.frame.nearest(&bounds)?);
+            extent.join(&self.frame.nearest(&declared(source))?);
         }
         Some(extent)
+    }
+
+    /// Why points of a source may not go into the output's scale and offset (`INPUT_MIXED`), which they alone decide.
+    pub fn doubt(&self, source: &Source) -> Option<&'static str> {
+        let change = source.change.as_ref()?;
+        if self.frame.nearest(&declared(source)).is_none() {
+            return Some("its coordinates may be out of reach of the first input's scale and offset");
+        }
+        (!change.is_total()).then_some("its coordinates may lie between the steps of the first input's scale")
     }
 
     /// Where the points go to if they lie in an extent.

@@ -125,6 +125,18 @@ impl<'a> Pipeline<'a, Validated> {
         plan::plan(inputs, shares, *budget, temp_dir(self.options), self.options.rules.sampling)
     }
 
+    /// Warns of inputs whose points alone decide whether they go into one output.
+    pub fn foretell(&self) {
+        let Validated { inputs, .. } = &self.stage;
+        for source in &inputs.sources {
+            if let Some(doubt) = inputs.doubt(source) {
+                let path = source.scan.path.display();
+                self.progress
+                    .warn(&format!("{path}: {doubt}; points that do would be refused (INPUT_MIXED)"));
+            }
+        }
+    }
+
     /// Decodes all points and brings them to the cells of the octree.
     pub fn distribute(self) -> Result<Pipeline<'a, Distributed>> {
         let Self { options, progress, stage: Validated { inputs, additions, shares, .. } } = self;

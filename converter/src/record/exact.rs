@@ -74,6 +74,11 @@ impl ExactChange {
         Some(Self([axis(0)?, axis(1)?, axis(2)?]))
     }
 
+    /// Whether every coordinate of the one scale and offset is one of the other, but for the range of int32.
+    pub fn is_total(&self) -> bool {
+        self.0.iter().all(|axis| axis.factor % axis.divisor == 0 && axis.shift % axis.divisor == 0)
+    }
+
     /// Changes the first 12 bytes of a record; `None`, with the record half changed, if that is not exact or
     /// leaves the range of int32.
     pub fn apply(&self, record: &mut [u8]) -> Option<()> {
@@ -112,6 +117,19 @@ mod tests {
         assert_eq!(change(i32::MAX, 0.01, 1.0, 0.01, 0.0), None);
         assert_eq!(change(1, 1e-300, 0.0, 1e300, 0.0), None);
         assert_eq!(change(5, 0.01, -0.0, 0.01, 0.0), Some(5));
+    }
+
+    #[test]
+    fn total_where_no_coordinate_lies_between_steps() {
+        let total = |scale, offset, to_scale, to_offset| {
+            ExactChange::between([scale; 3], [offset; 3], [to_scale; 3], [to_offset; 3]).unwrap().is_total()
+        };
+        assert!(total(0.01, 637291.0, 0.01, 0.0));
+        assert!(total(0.01, 0.0, 0.001, 0.0));
+        assert!(total(0.01, 0.005, 0.001, 7.0));
+        assert!(!total(0.001, 0.0, 0.01, 0.0));
+        assert!(!total(0.01, 0.005, 0.01, 0.0));
+        assert!(!ExactChange::between([0.01; 3], [0.0; 3], [0.01, 0.01, 0.1], [0.0; 3]).unwrap().is_total());
     }
 
     proptest! {

@@ -133,6 +133,26 @@ fn inputs_that_do_not_fit_together() {
     };
     assert_eq!(other("finer.las", |las| las.scale = [0.001; 3]), "INPUT_MIXED");
     assert_eq!(other("far.las", |las| las.offset = [1e9, 0.0, 0.0]), "INPUT_MIXED");
+    let foretold = |name: &str| {
+        let (done, lines) = bench.run(&["convert", "a.las", name, "out.copc.laz", "--dry-run"]);
+        assert!(done, "{lines:?}");
+        let texts =
+            lines.iter().filter(|line| line["event"] == "warning").map(|line| line["text"].to_string());
+        texts.filter(|text| text.contains("INPUT_MIXED")).collect::<Vec<_>>()
+    };
+    let [between, reach] = ["finer.las", "far.las"].map(foretold);
+    assert!(
+        between.len() == 1 && between[0].contains("finer.las: its coordinates may lie between"),
+        "{between:?}"
+    );
+    assert!(
+        reach.len() == 1 && reach[0].contains("far.las: its coordinates may be out of reach"),
+        "{reach:?}"
+    );
+    let mut moved = small();
+    moved.offset = [1000.5, -2000.0, 10.0];
+    bench.put("moved.las", &moved.las());
+    assert_eq!(foretold("moved.las"), Vec::<String>::new());
     let crs = |las: &mut Las| las.vlrs = vec![VariableRecord::new(PROJECTION, WKT, "", b"OTHER[]".to_vec())];
     assert_eq!(other("crs.las", crs), "INPUT_MIXED");
     bench.put("b.las", &small().las());
