@@ -24,6 +24,17 @@ export class MemorySink implements ByteSink {
     }
   }
 
+  /** All that was written, in one piece. */
+  bytes(): Uint8Array<ArrayBuffer> {
+    const bytes = new Uint8Array(this.#parts.reduce((sum, { length }) => sum + length, 0));
+    let at = 0;
+    for (const part of this.#parts) {
+      bytes.set(part, at);
+      at += part.length;
+    }
+    return bytes;
+  }
+
   /** All that was written; its parts are copied by the Blob. */
   blob(type = "application/octet-stream"): Blob {
     return new Blob(this.#parts as Uint8Array<ArrayBuffer>[], { type });

@@ -21,8 +21,9 @@ const ALONG: readonly AddedAttribute[] = [
 /** Byte of a record that has the return number in its lower half (LAS 1.4 R15, table 15). */
 const RETURN_NUMBER = 14;
 
-/** Bytes that are gathered before they are written. */
+/** Bytes that are gathered before they are written, and those that room is made for at first. */
 const BLOCK = 1 << 20;
+const FIRST = 1 << 10;
 
 /**
  * Writes points as LAS 1.4: their records bit for bit, in the order of the octree, one data set after the other, and all
@@ -190,7 +191,7 @@ class PointTally {
 class Gathering {
   readonly #sink: ByteSink;
   /** Grows to its size: small files of many sections have no use for all of it. */
-  #block = new Uint8Array(1 << 14);
+  #block = new Uint8Array(0);
   #filled = 0;
 
   constructor(sink: ByteSink) {
@@ -204,7 +205,7 @@ class Gathering {
       return;
     }
     if (this.#filled + bytes.length > this.#block.length) {
-      const larger = new Uint8Array(Math.min(BLOCK, 2 * (this.#filled + bytes.length)));
+      const larger = new Uint8Array(Math.min(BLOCK, Math.max(FIRST, 2 * (this.#filled + bytes.length))));
       larger.set(this.#block.subarray(0, this.#filled));
       this.#block = larger;
     }

@@ -221,8 +221,7 @@ async function fileOf(
       return inMemory((sink) => exportLas(selections, sink, { signal }));
     case "laz": {
       if (!compress) throw new RangeError("this program does not compress LAS");
-      const las = await inMemory((sink) => exportLas(selections, sink, { signal }));
-      return compress(new Uint8Array(await las.arrayBuffer()));
+      return compress(await inMemory((sink) => exportLas(selections, sink, { signal })));
     }
     case "csv":
       return inMemory((sink) => exportCsv(selections, sink, { signal }));
@@ -233,10 +232,10 @@ async function fileOf(
   }
 }
 
-async function inMemory(fill: (sink: ByteSink) => Promise<unknown>): Promise<Blob> {
+async function inMemory(fill: (sink: ByteSink) => Promise<unknown>): Promise<Uint8Array> {
   const sink = new MemorySink();
   await fill(sink);
-  return sink.blob();
+  return sink.bytes();
 }
 
 /** Places of all sections as CSV, with every digit, so that anyone can cut them again. */
