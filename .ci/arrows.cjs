@@ -139,6 +139,7 @@ module.exports = {
       "options",
       "errors",
     ]),
+    layer("export/compressor", ["errors"]),
     layer("tools/exact", []),
     layer("tools/sections", ["tools/profile", "query"]),
     layer("tools/area", ["tools/exact", "clips", "query"]),

@@ -7,3 +7,4 @@ export interface Notice {
 }
 export function npmNotices(root: string, from: { workspaces?: string[]; packages?: string[] }): Notice[];
 export function noticesText(what: string, notices: readonly Notice[]): string;
+export function cargoNotices(root: string, of?: { crate?: string; platform?: string }): Notice[];

@@ -70,16 +70,17 @@ export function npmNotices(root, { workspaces = [], packages: named = [] }) {
 }
 
 /**
- * Every crate that is built into the core, by Cargo's lockfile.
+ * Every crate that is built into the core, or into another crate of the project, by Cargo's lockfile.
  *
  * @param {string} root the project's folder
+ * @param {{ crate?: string, platform?: string }} of folder of the crate, and for what it is built; default: this machine
  * @returns {Notice[]} in order of names
  */
-export function cargoNotices(root) {
+export function cargoNotices(root, { crate = "converter", platform } = {}) {
   const host = /^host: (.*)$/m.exec(execFileSync("rustc", ["-vV"], { encoding: "utf8" }))[1];
-  const args = ["metadata", "--locked", "--format-version", "1", "--filter-platform", host];
+  const args = ["metadata", "--locked", "--format-version", "1", "--filter-platform", platform ?? host];
   const { packages, resolve } = JSON.parse(
-    execFileSync("cargo", [...args, "--manifest-path", join(root, "converter/Cargo.toml")], {
+    execFileSync("cargo", [...args, "--manifest-path", join(root, crate, "Cargo.toml")], {
       encoding: "utf8",
       maxBuffer: 1 << 28,
     }),

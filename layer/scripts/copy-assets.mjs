@@ -3,7 +3,7 @@
  * any server can load them, the decoder's WebAssembly beside them, the schema of measurements, the tables of EPSG, and the
  * entries for pages without a bundler.
  */
-import { copyFileSync } from "node:fs";
+import { copyFileSync, existsSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { rolldown } from "rolldown";
@@ -15,10 +15,21 @@ copyFileSync(wasm, join(workers, "laz-perf.wasm"));
 const schema = "measurements.schema.json";
 copyFileSync(join(import.meta.dirname, "../../docs", schema), join(workers, "..", schema));
 
+const laz = join(workers, "..", "export", "compressor");
+const compressor = join(
+  import.meta.dirname,
+  "../../converter/wasm/target/wasm32-unknown-unknown/release/groma_laz.wasm",
+);
+const copy = join(laz, "groma-laz.wasm");
+// Where there is no Rust for WebAssembly, pages write no LAZ, and say so.
+if (existsSync(compressor)) copyFileSync(compressor, copy);
+else rmSync(copy, { force: true });
+
 const volume = join(workers, "..", "tools", "measure", "volume");
 for (const [folder, name] of [
   [workers, "node.worker.js"],
   [volume, "volume.worker.js"],
+  [laz, "laz.worker.js"],
 ]) {
   const bundle = await rolldown({ input: join(folder, "entry.js"), platform: "browser" });
   await bundle.write({ file: join(folder, name), format: "es", sourcemap: true, codeSplitting: false });

@@ -20,39 +20,77 @@ import numpy as np
 
 LANDXML = "{http://www.landxml.org/schema/LandXML-1.2}"
 
-# What LandXML-1.2.xsd requires of the elements that are written: attributes, and children in their order.
+# What LandXML-1.2.xsd says of the elements that are written: attributes that they must have, others that they may have, and
+# children in the order in which they are written, with the least and greatest number of each. The schema itself is no package of
+# a registry; this is its content, read from classes that others generated from it.
+UNITS = {"areaUnit", "linearUnit", "volumeUnit", "temperatureUnit", "pressureUnit"}
+ANY = (0, None)
 SCHEMA = {
-    "LandXML": ({"version", "date", "time"}, ["Units", "CoordinateSystem", "Project", "Application", "Alignments"]),
-    "Units": (set(), ["Metric", "Imperial"]),
-    "Metric": ({"areaUnit", "linearUnit", "volumeUnit", "temperatureUnit", "pressureUnit"}, []),
-    "Imperial": ({"areaUnit", "linearUnit", "volumeUnit", "temperatureUnit", "pressureUnit"}, []),
-    "CoordinateSystem": (set(), []),
-    "Project": ({"name"}, []),
-    "Application": ({"name"}, []),
-    "Alignments": (set(), ["Alignment"]),
-    "Alignment": ({"name", "length", "staStart"}, ["CoordGeom", "StaEquation", "Profile", "CrossSects"]),
-    "StaEquation": ({"staAhead", "staInternal"}, []),
-    "CoordGeom": (set(), ["Line"]),
-    "Line": (set(), ["Start", "End"]),
-    "Start": (set(), []),
-    "End": (set(), []),
-    "Profile": (set(), ["ProfSurf"]),
-    "ProfSurf": ({"name"}, ["PntList2D"]),
-    "CrossSects": (set(), ["CrossSect"]),
-    "CrossSect": ({"sta"}, ["CrossSectSurf"]),
-    "CrossSectSurf": ({"name"}, ["PntList2D"]),
-    "PntList2D": (set(), []),
+    "LandXML": (
+        {"version", "date", "time"},
+        {"language", "readOnly"},
+        {"Units": (1, 1), "CoordinateSystem": (0, 1), "Project": (0, 1), "Application": ANY, "Alignments": ANY},
+    ),
+    "Units": (set(), set(), {"Metric": (0, 1), "Imperial": (0, 1)}),
+    "Metric": (UNITS, set(), {}),
+    "Imperial": (UNITS, set(), {}),
+    "CoordinateSystem": (set(), {"name", "desc", "epsgCode", "ogcWktCode"}, {}),
+    "Project": ({"name"}, {"desc", "state"}, {}),
+    "Application": ({"name"}, {"desc", "manufacturer", "version"}, {}),
+    "Alignments": (set(), {"name", "desc", "state"}, {"Alignment": (1, None)}),
+    "Alignment": (
+        {"name", "length", "staStart"},
+        {"desc", "oID", "state"},
+        {"CoordGeom": (1, 1), "StaEquation": ANY, "Profile": ANY, "CrossSects": (0, 1)},
+    ),
+    "StaEquation": ({"staAhead", "staInternal"}, {"staBack", "staIncrement", "desc"}, {}),
+    "CoordGeom": (set(), {"name", "desc", "state", "oID"}, {"Line": (1, None)}),
+    "Line": (set(), {"desc", "dir", "length", "name", "staStart", "state", "oID", "note"}, {"Start": (1, 1), "End": (1, 1)}),
+    "Start": (set(), set(), {}),
+    "End": (set(), set(), {}),
+    "Profile": (set(), {"name", "desc", "staStart", "state"}, {"ProfSurf": ANY}),
+    "ProfSurf": ({"name"}, {"desc", "state"}, {"PntList2D": (1, None)}),
+    "CrossSects": (set(), {"name", "desc", "state"}, {"CrossSect": ANY}),
+    "CrossSect": ({"sta"}, {"name", "desc"}, {"CrossSectSurf": ANY}),
+    "CrossSectSurf": ({"name"}, {"desc", "state"}, {"PntList2D": (1, None)}),
+    "PntList2D": (set(), set(), {}),
 }
+WORDS = {
+    "areaUnit": {"squareMeter", "hectare", "squareFoot", "acre"},
+    "linearUnit": {"meter", "foot", "USSurveyFoot"},
+    "volumeUnit": {"cubicMeter", "cubicFeet", "cubicYard"},
+    "temperatureUnit": {"celsius", "kelvin", "fahrenheit"},
+    "pressureUnit": {"milliBars", "HPA", "inHG", "inchHG"},
+    "state": {"existing", "proposed"},
+    "staIncrement": {"increasing", "decreasing"},
+    "readOnly": {"true", "false"},
+}
+NUMBERS = {"length", "staStart", "sta", "staAhead", "staInternal", "staBack"}
 
 
 def faults(element):
     """What of an element and its children the schema does not allow."""
     name = element.tag.removeprefix(LANDXML)
-    required, order = SCHEMA[name]
-    found = [f"{name} lacks {attribute}" for attribute in required - set(element.attrib)]
+    required, optional, allowed = SCHEMA[name]
+    given = {key for key in element.attrib if not key.startswith("{")}
+    found = [f"{name} lacks {attribute}" for attribute in required - given]
+    found += [f"{name} has no {attribute}" for attribute in given - required - optional]
+    for key in given:
+        if key in WORDS and element.get(key) not in WORDS[key]:
+            found.append(f"{key} cannot be {element.get(key)}")
+        if key in NUMBERS:
+            float(element.get(key))
+    if name in ("PntList2D", "Start", "End"):
+        numbers = [float(word) for word in element.text.split()]
+        if len(numbers) < 2 or len(numbers) % 2 != 0:
+            found.append(f"{name} has {len(numbers)} numbers")
     children = [child.tag.removeprefix(LANDXML) for child in element]
-    if any(child not in order for child in children) or children != sorted(children, key=order.index):
+    if any(child not in allowed for child in children) or children != sorted(children, key=list(allowed).index):
         found.append(f"{name} has {children}")
+    for child, (least, most) in allowed.items():
+        count = children.count(child)
+        if count < least or (most is not None and count > most):
+            found.append(f"{name} has {count} {child}")
     return found + [fault for child in element for fault in faults(child)]
 
 

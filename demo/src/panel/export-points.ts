@@ -5,6 +5,7 @@ import { ExportJob } from "./export-job.js";
 
 const FORMATS: ReadonlyMap<PointFormat, string> = new Map([
   ["las", "LAS"],
+  ["laz", "LAZ"],
   ["csv", "CSV"],
   ["geojson", "GeoJSON"],
   ["dxf", "DXF"],

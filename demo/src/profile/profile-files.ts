@@ -38,6 +38,7 @@ interface FileFormat {
 /** Formats by what the page calls them; full density in all of them. */
 export const FORMATS: ReadonlyMap<string, FileFormat> = new Map<string, FileFormat>([
   ["las", { label: "LAS", ending: "las", write: points({ format: "las" }) }],
+  ["laz", { label: "LAZ", ending: "laz", write: points({ format: "laz" }) }],
   ["csv", { label: "CSV", ending: "csv", write: points({ format: "csv" }) }],
   ["geojson", { label: "GeoJSON", ending: "geojson", write: points({ format: "geojson" }) }],
   ["dxf", { label: "DXF, in space", ending: "dxf", write: points({ format: "dxf" }) }],

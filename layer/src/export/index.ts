@@ -2,6 +2,8 @@ export { type ArchiveEntry, writeArchive } from "./archive.js";
 export { BlobStore, type BlockStore } from "./block-store.js";
 export { type ByteSink, MemorySink } from "./byte-sink.js";
 export { collectParts, type PartedSelection, type PartedVolume } from "./collect.js";
+export type { LazTask, RecordLayout } from "./compressor/laz-module.js";
+export type { PointCompressor } from "./compressor/laz-worker.js";
 export { exportCsv } from "./csv.js";
 export { type CutFacts, cutFacts, type LengthUnit } from "./cut-facts.js";
 export { type DatedOptions, exportLandXml, exportPicture, type PictureFileOptions } from "./documents.js";
@@ -10,6 +12,7 @@ export { exportGeoJson } from "./geojson.js";
 export type { DocumentOptions, GroundOptions } from "./ground.js";
 export type { GroundRuns, LandXmlSection } from "./landxml.js";
 export { exportLas, type LasOptions } from "./las.js";
+export { exportLaz, type LazOptions } from "./laz.js";
 export type { PictureScale } from "./picture/profile-picture.js";
 export { type ExportedPoints, exportPoints, type PointExportOptions, type PointFormat } from "./points.js";
 export {

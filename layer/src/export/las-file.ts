@@ -1,7 +1,7 @@
 import type { LasEnvelope, LasVariableRecord } from "../sources/contract/point-source.js";
 
 /** Where the fields of the public header block stand that follow from the points (LAS 1.4 R15, table 3). */
-const HEADER = {
+export const HEADER = {
   ...{ software: 58, size: 94, pointsOffset: 96, recordCount: 100, format: 104, recordLength: 105 },
   ...{ legacyCount: 107, legacyReturns: 111, bounds: 179, waveforms: 227, extendedOffset: 235 },
   ...{ extendedCount: 243, count: 247, returns: 255, end: 375 },

@@ -1,6 +1,7 @@
 import { FormatError } from "../errors/index.js";
 import type { LasEnvelope } from "../sources/contract/point-source.js";
 import type { ByteSink } from "./byte-sink.js";
+import { type LasBody, PlainBody } from "./las-body.js";
 import { type AddedAttribute, LasFrame } from "./las-file.js";
 import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from "./selection.js";
 
@@ -21,10 +22,6 @@ const ALONG: readonly AddedAttribute[] = [
 /** Byte of a record that has the return number in its lower half (LAS 1.4 R15, table 15). */
 const RETURN_NUMBER = 14;
 
-/** Bytes that are gathered before they are written, and those that room is made for at first. */
-const BLOCK = 1 << 20;
-const FIRST = 1 << 10;
-
 /**
  * Writes points as LAS 1.4: their records bit for bit, in the order of the octree, one data set after the other, and all
  * that the header and the variable length records of the (first) data set say of them. What follows from the points
@@ -42,25 +39,44 @@ export async function exportLas(
   sink: ByteSink,
   options: LasOptions = {},
 ): Promise<number> {
+  return writeLas(selections, sink, options, async () => new PlainBody(sink));
+}
+
+/** Makes the body of a file. @param layout point format, bytes of a record, and those of them that the format does not have */
+type MakeBody = (layout: {
+  readonly format: number;
+  readonly length: number;
+  readonly extra: number;
+}) => Promise<LasBody>;
+
+/** As {@link exportLas}, with points as a body writes them. */
+export async function writeLas(
+  selections: readonly PointSelection[],
+  sink: ByteSink,
+  options: LasOptions,
+  makeBody: MakeBody,
+): Promise<number> {
   const envelope = withSpacing(await commonEnvelope(selections, options.signal), selections);
   const { pointFormat, recordLength } = envelope;
   const chainage = options.chainage === true;
-  const frame = new LasFrame(envelope, BASE_LENGTH[pointFormat], chainage ? ALONG : []);
+  const base = BASE_LENGTH[pointFormat];
+  const frame = new LasFrame(envelope, base, chainage ? ALONG : []);
+  const { recordLength: length } = frame;
+  const body = await makeBody({ format: pointFormat, length, extra: length - base });
   const points = new PointTally();
-  await sink.write(frame.front(points.summary(selections[0].origin)));
-  const gather = new Gathering(sink);
+  await sink.write(body.front(frame.front(points.summary(selections[0].origin))));
   await eachBatch(selections, options, async ({ records }, wanted, { origin, along }) => {
     const { lasRecords: from, xyz } = records;
     if (!from) throw noLas(origin.name);
     points.add(xyz, from, recordLength, wanted);
     const to = copyRecords(from, recordLength, wanted, frame.recordLength);
     if (chainage) putAlong(to, recordLength, frame.recordLength, xyz, wanted, origin, along);
-    await gather.take(to);
+    await body.take(to);
   });
-  await gather.end();
+  await body.end();
   const back = frame.back();
   if (back.length > 0) await sink.write(back);
-  await sink.overwrite(0, frame.front(points.summary(selections[0].origin)));
+  await sink.overwrite(0, body.front(frame.front(points.summary(selections[0].origin))));
   return points.count;
 }
 
@@ -82,7 +98,12 @@ function withSpacing(envelope: LasEnvelope, selections: readonly PointSelection[
   return { ...envelope, records: [...envelope.records, record] };
 }
 
-function copyRecords(from: Uint8Array, length: number, wanted: Uint32Array, step: number): Uint8Array {
+function copyRecords(
+  from: Uint8Array,
+  length: number,
+  wanted: Uint32Array,
+  step: number,
+): Uint8Array<ArrayBuffer> {
   const to = new Uint8Array(step * wanted.length);
   for (let index = 0, at = 0; index < wanted.length; index++, at += step) {
     const begin = wanted[index] * length;
@@ -184,38 +205,6 @@ class PointTally {
       (value, index) => value * scale[index % 3] + offset[index % 3],
     );
     return { count: this.count, returns: this.#returns, bounds };
-  }
-}
-
-/** Writes small pieces as large ones. */
-class Gathering {
-  readonly #sink: ByteSink;
-  /** Grows to its size: small files of many sections have no use for all of it. */
-  #block = new Uint8Array(0);
-  #filled = 0;
-
-  constructor(sink: ByteSink) {
-    this.#sink = sink;
-  }
-
-  async take(bytes: Uint8Array): Promise<void> {
-    if (this.#filled + bytes.length > BLOCK) await this.end();
-    if (bytes.length > BLOCK) {
-      await this.#sink.write(bytes);
-      return;
-    }
-    if (this.#filled + bytes.length > this.#block.length) {
-      const larger = new Uint8Array(Math.min(BLOCK, Math.max(FIRST, 2 * (this.#filled + bytes.length))));
-      larger.set(this.#block.subarray(0, this.#filled));
-      this.#block = larger;
-    }
-    this.#block.set(bytes, this.#filled);
-    this.#filled += bytes.length;
-  }
-
-  async end(): Promise<void> {
-    if (this.#filled > 0) await this.#sink.write(this.#block.subarray(0, this.#filled));
-    this.#filled = 0;
   }
 }
 

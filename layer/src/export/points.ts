@@ -19,18 +19,19 @@ import type { ByteSink } from "./byte-sink.js";
 import { exportCsv } from "./csv.js";
 import { exportDxf } from "./dxf.js";
 import { exportGeoJson } from "./geojson.js";
-import { exportLas, type LasOptions } from "./las.js";
+import { exportLas } from "./las.js";
+import { exportLaz, type LazOptions } from "./laz.js";
 import { noPlace } from "./passing.js";
 import type { PointSelection } from "./selection.js";
 
 /** Formats that points are exported in. */
-export type PointFormat = "las" | "csv" | "geojson" | "dxf";
+export type PointFormat = "las" | "laz" | "csv" | "geojson" | "dxf";
 
 /** What points are exported of: a data set, or a part of one, such as a `Profile`. */
 export type ExportedPoints = PointOrigin | PointSelection;
 
 /** Which points are exported, and how. */
-export interface PointExportOptions extends LasOptions {
+export interface PointExportOptions extends LazOptions {
   /** Default: `las`. */
   readonly format?: PointFormat | undefined;
   /** Volumes that cut, such as `layer.clips`; what only highlights changes nothing. Default: none. */
@@ -45,7 +46,13 @@ export interface PointExportOptions extends LasOptions {
   readonly layout?: "space" | "straightened" | undefined;
 }
 
-const WRITERS = { las: exportLas, csv: exportCsv, geojson: exportGeoJson, dxf: exportDxf } as const;
+const WRITERS = {
+  las: exportLas,
+  laz: exportLaz,
+  csv: exportCsv,
+  geojson: exportGeoJson,
+  dxf: exportDxf,
+} as const;
 
 /** Checked against the data set, which knows its attributes. */
 const FILTER: Kind<PointFilter> = { valid: "a filter", read: (given) => given as PointFilter };
@@ -55,10 +62,15 @@ const PROGRESS = kindOf(
   (given): given is NonNullable<PointExportOptions["onProgress"]> => typeof given === "function",
 );
 
+const COMPRESSOR = kindOf(
+  "a function",
+  (given): given is NonNullable<PointExportOptions["createCompressor"]> => typeof given === "function",
+);
+
 const OPTIONS = some<PointExportOptions>({
-  ...{ format: oneOf("las", "csv", "geojson", "dxf"), layout: oneOf("space", "straightened") },
+  ...{ format: oneOf("las", "laz", "csv", "geojson", "dxf"), layout: oneOf("space", "straightened") },
   ...{ clips: CLIPS_OPTION, filter: FILTER, classes: list(whole(0, 255)), spacing: number(0) },
-  ...{ chainage: flag, signal, onProgress: PROGRESS },
+  ...{ chainage: flag, signal, onProgress: PROGRESS, createCompressor: COMPRESSOR },
 });
 
 /**
@@ -70,7 +82,7 @@ const OPTIONS = some<PointExportOptions>({
  * @returns number of points
  * @throws StyleError STYLE_OPTION, STYLE_FILTER, STYLE_CLIP before anything is read
  * @throws FormatError EXPORT_NO_PLACE where clips of the globe, or longitudes and latitudes, are asked for of points without a
- *   place; EXPORT_NO_LAS, EXPORT_MIXED
+ *   place; EXPORT_NO_LAS, EXPORT_NO_LAZ, EXPORT_MIXED
  * @throws SourceError, FormatError, DecodeError, PlacementError; the signal's reason when aborted; what the sink throws
  */
 export async function exportPoints(
