@@ -183,4 +183,79 @@ describe.skipIf(missing)(`the pointer on map and globe${unless}`, () => {
       0.5,
     );
   });
+
+  it("leaves nothing behind when it is disposed of, whatever it was doing", {
+    timeout: 120_000,
+  }, async () => {
+    await linked.show({});
+    const seen = await linked.page.evaluate(async () => {
+      const { stage, link, ol, synchronize, countListeners } = window.linked;
+      const { map } = stage.maps[0]!;
+      const { scene } = stage.globe;
+      link.dispose();
+      const features = new ol.VectorSource();
+      const draw = new ol.Draw({ source: features, type: "LineString" });
+      map.addInteraction(draw);
+      const count = () => {
+        const targets = [map, map.getView(), features, draw, map.getInteractions()];
+        const listeners = targets.map((target) => {
+          const { listeners_ } = target as unknown as { readonly listeners_: object | null };
+          return Object.values(listeners_ ?? {}).flat().length;
+        });
+        return [
+          ...[...listeners, scene.preRender.numberOfListeners, scene.primitives.length],
+          ...[map.getInteractions().getLength(), Number(scene.screenSpaceCameraController.enableInputs)],
+        ];
+      };
+      await stage.frames(2);
+      const before = count();
+      const found: unknown[] = [];
+      for (const busy of [false, true]) {
+        const listeners = countListeners();
+        const viewer = stage.globe.widget;
+        const linked = synchronize({ viewer, map, click: true, features });
+        const drawn = busy ? linked.draw("Polygon") : undefined;
+        if (busy) {
+          linked.follow(draw);
+          features.addFeature(
+            new ol.Feature(
+              new ol.LineString([
+                [500_000, 5_200_000],
+                [500_001, 5_200_001],
+              ]),
+            ),
+          );
+          viewer.scene.canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: 200, clientY: 150 }));
+        }
+        const parts: { isDestroyed(): boolean }[] = [];
+        for (let at = 0; at < scene.primitives.length; at++) parts.push(scene.primitives.get(at));
+        const during = count();
+        const listening = listeners.count();
+        await stage.frames(2);
+        linked.dispose();
+        features.clear();
+        await stage.frames(2);
+        found.push({
+          grows: during.reduce((sum, one, at) => sum + one - before[at]!, 0) > 8,
+          listens: listening > 8,
+          after: count(),
+          listeners: listeners.count(),
+          // All but the cloud's own layer.
+          left: parts.filter((part) => !part.isDestroyed()).length,
+          drawn: await drawn,
+        });
+        listeners.end();
+      }
+      return { before, found };
+    });
+    const nothing = {
+      grows: true,
+      listens: true,
+      after: seen.before,
+      listeners: 0,
+      left: 1,
+      drawn: undefined,
+    };
+    expect(seen.found).toEqual([nothing, nothing]);
+  });
 });

@@ -3,7 +3,7 @@ import { screenshot } from "./harness.js";
 import { LinkedPage, MIDDLE, missing, unless } from "./linked.js";
 
 /** Random moves of a map; `GROMA_MOVES=1000` for the figure in docs/link.md. */
-const MOVES = Number(process.env.GROMA_MOVES ?? 100);
+const MOVES = Number(process.env.GROMA_MOVES ?? 60);
 
 describe.skipIf(missing)(`globe and map in step${unless}`, () => {
   const linked = new LinkedPage();
@@ -50,7 +50,7 @@ describe.skipIf(missing)(`globe and map in step${unless}`, () => {
   });
 
   it(`comes back to the pixel after ${MOVES} moves, by the poles and over 180°, and nothing echoes`, {
-    timeout: 240_000,
+    timeout: 120_000 + 1000 * MOVES,
   }, async () => {
     const seen = await linked.page.evaluate(async (count) => {
       const { stage, synchronize, ol, Cesium } = window.linked;

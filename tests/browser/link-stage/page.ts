@@ -56,6 +56,33 @@ class LinkStage {
   }
 }
 
+/** Counts the listeners of elements that are added from now on and not taken away. */
+function countListeners(): { readonly count: () => number; readonly end: () => void } {
+  const { addEventListener, removeEventListener } = EventTarget.prototype;
+  const live = new Map<EventTarget, Set<string>>();
+  const numbers = new Map<unknown, number>();
+  const keyOf = (type: string, listener: unknown) => {
+    numbers.set(listener, numbers.get(listener) ?? numbers.size);
+    return `${type} ${numbers.get(listener)}`;
+  };
+  EventTarget.prototype.addEventListener = function (type, listener, options) {
+    addEventListener.call(this, type, listener, options);
+    const { signal, once = false } = typeof options === "object" ? options : {};
+    if (once || signal?.aborted || this instanceof AbortSignal) return;
+    const key = keyOf(type, listener);
+    live.set(this, (live.get(this) ?? new Set()).add(key));
+    if (signal) addEventListener.call(signal, "abort", () => live.get(this)?.delete(key));
+  };
+  EventTarget.prototype.removeEventListener = function (type, listener, options) {
+    removeEventListener.call(this, type, listener, options);
+    live.get(this)?.delete(keyOf(type, listener));
+  };
+  return {
+    count: () => [...live.values()].reduce((sum, { size }) => sum + size, 0),
+    end: () => Object.assign(EventTarget.prototype, { addEventListener, removeEventListener }),
+  };
+}
+
 declare global {
   interface Window {
     /** What tests of the link work with in the page. */
@@ -69,6 +96,7 @@ declare global {
       readonly Clip: typeof Clip;
       readonly LinkStage: typeof LinkStage;
       readonly Stage: typeof Stage;
+      readonly countListeners: typeof countListeners;
       /** What stands, if anything. */
       stage: LinkStage;
       link: Link;
@@ -81,7 +109,18 @@ declare global {
 }
 
 window.linked = {
-  ...{ Cesium, ol, synchronize, PointCloud, MapLayer, PointCloudSource, Clip, LinkStage, Stage },
+  ...{
+    Cesium,
+    ol,
+    synchronize,
+    PointCloud,
+    MapLayer,
+    PointCloudSource,
+    Clip,
+    LinkStage,
+    Stage,
+    countListeners,
+  },
   stage: undefined as unknown as LinkStage,
 } as Window["linked"];
 document.body.dataset.ready = "true";
