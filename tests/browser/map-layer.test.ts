@@ -309,7 +309,7 @@ describe.skipIf(pythonMissing)(
         },
         { above: ABOVE, projections: UTM },
       );
-      expect(new Set(seen.mercator)).toEqual(new Set(["PLACE_MAP"]));
+      expect(seen.mercator).toEqual(["PLACE_MAP"]);
       expect(seen.lit).toBeGreaterThan(100_000);
       expect(seen.without).toEqual(["DRAW_WEBGL2"]);
     });
@@ -346,12 +346,15 @@ describe.skipIf(pythonMissing)(
             const columns = stage.lit().map(([x]) => x);
             return {
               ...{ lit: columns.length, left: Math.min(...columns), right: Math.max(...columns) },
-              ...{ errors: stage.errors, width: maxX - minX },
+              ...{ errors: stage.errors, width: (maxX - minX) * (metres ? 1 : 111_320) },
             };
           },
           [world, projection] as const,
         );
         errors.push(...seen.errors);
+        // 20 m, as long as a map at 47° shows them.
+        expect(seen.width).toBeGreaterThan(28);
+        expect(seen.width).toBeLessThan(31);
         // Both halves, and the middle of the scan in the middle of the map.
         expect(seen.lit).toBeGreaterThan(20_000);
         expect(Math.abs(seen.left + seen.right - 600)).toBeLessThan(8);

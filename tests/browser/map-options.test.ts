@@ -96,6 +96,48 @@ describe.skipIf(pythonMissing)(
       expect(stage.watch.errors).toEqual([]);
     });
 
+    it("has a source that tells its state, who made it, and its outline in the map's projection", {
+      timeout: 120_000,
+    }, async () => {
+      const seen = await stage.page.evaluate(
+        async ({ view, projections }) => {
+          const { MapStage, ol } = window.map;
+          window.map.stage?.destroy();
+          const response = await fetch("/clouds/stripes.copc.laz");
+          const file = new File([await response.arrayBuffer()], "stripes.copc.laz");
+          const source = { file, attributions: "Surveyed by us" };
+          window.map.stage = new MapStage({ view, projections, source }) as typeof window.map.stage;
+          const { stage } = window.map;
+          const states = [String(stage.source.getState())];
+          stage.source.on("change", () => states.push(String(stage.source.getState())));
+          stage.map.addLayer(new ol.VectorLayer({ source: stage.source.footprint }));
+          await stage.source.opened();
+          await stage.complete();
+          const outline = () => {
+            const [feature, ...others] = stage.source.footprint.getFeatures();
+            return { name: feature?.get("name"), extent: feature?.getGeometry()?.getExtent(), others };
+          };
+          const found = [outline()];
+          const extent = stage.source.getExtent("EPSG:3857")!;
+          await stage.show({ projection: "EPSG:3857", center: extent.slice(0, 2), resolution: 0.2 });
+          found.push(outline());
+          const frame = stage.map as unknown as { frameState_: never };
+          const attributions = stage.source.getAttributions()?.(frame.frameState_);
+          return { states: [...new Set(states)], found, extent, attributions };
+        },
+        { view: ABOVE, projections: UTM },
+      );
+      await screenshot(stage.page, "map-footprint");
+      expect(seen.states).toEqual(["loading", "ready"]);
+      expect(seen.attributions).toEqual(["Surveyed by us"]);
+      const [utm, mercator] = seen.found;
+      for (const { name, others } of seen.found) expect([name, others]).toEqual(["stripes.copc.laz", []]);
+      for (const [at, edge] of [499_990, 5_199_990, 500_010, 5_200_010].entries()) {
+        expect(Math.abs(utm!.extent![at]! - edge)).toBeLessThan(0.06);
+      }
+      expect(mercator!.extent).toEqual(seen.extent);
+    });
+
     it("shows at the zooms that it is given, in an element of its class", { timeout: 120_000 }, async () => {
       await open({ className: "scan", minZoom: 17, maxZoom: 18 });
       const seen = await stage.page.evaluate(async () => {

@@ -3,6 +3,7 @@ import BaseEvent from "ol/events/Event.js";
 import type { Extent } from "ol/extent.js";
 import Feature from "ol/Feature.js";
 import Polygon from "ol/geom/Polygon.js";
+import type Projection from "ol/proj/Projection.js";
 import { type ProjectionLike, transform } from "ol/proj.js";
 import Source, { type AttributionLike } from "ol/source/Source.js";
 import VectorSource from "ol/source/Vector.js";
@@ -35,6 +36,36 @@ export class PointCloudErrorEvent extends BaseEvent {
 
 /** Parts that a side of the outline is cut into, so that it bends as the ground does. */
 const SIDE = 16;
+
+/** The outline of a data set, in the projection that was asked for last. */
+class Footprint extends VectorSource {
+  readonly #feature = new Feature<Polygon>();
+  #cloud: PointCloud | undefined;
+  #code: string | undefined;
+
+  constructor(opened: Promise<PointCloud>) {
+    super();
+    // What keeps it from being opened is told by the source of the points.
+    opened.then(
+      (cloud) => {
+        this.#cloud = cloud;
+        this.changed();
+      },
+      () => undefined,
+    );
+  }
+
+  override loadFeatures(extent: Extent, resolution: number, projection: Projection): void {
+    const code = projection.getCode();
+    if (this.#cloud && code !== this.#code) {
+      this.#code = code;
+      this.#feature.set("name", this.#cloud.name);
+      this.#feature.setGeometry(outlineOf(this.#cloud, projection));
+      if (!this.hasFeature(this.#feature)) this.addFeature(this.#feature);
+    }
+    super.loadFeatures(extent, resolution, projection);
+  }
+}
 
 /**
  * A georeferenced point cloud as a source of OpenLayers: `loading` until it is open, then `ready`, or `error` with an
@@ -73,26 +104,16 @@ export class PointCloudSource extends Source {
 
   /**
    * The outline of the data set's box, with its name, for a vector layer. It comes in the projection of the map that
-   * asks for it.
+   * asks for it, and follows it to another one. Maps of several projections need a source each.
    */
   get footprint(): VectorSource {
-    this.#footprint ??= new VectorSource({
-      loader: async (_extent, _resolution, projection, success, failure) => {
-        try {
-          const cloud = await this.#opened;
-          const feature = new Feature({ geometry: outlineOf(cloud, projection), name: cloud.name });
-          this.#footprint?.addFeature(feature);
-          success?.([feature]);
-        } catch {
-          failure?.();
-        }
-      },
-    });
+    this.#footprint ??= new Footprint(this.#opened);
     return this.#footprint;
   }
 
   /**
-   * Box around the data set in a projection, to fit a view to; undefined until it is open.
+   * Box around the data set in a projection, to fit a view to; undefined until it is open. Across 180° it goes on beyond
+   * the edge of the world.
    * @param projection Default: EPSG:3857
    */
   getExtent(projection: ProjectionLike = "EPSG:3857"): Extent | undefined {
@@ -137,14 +158,18 @@ function outlineOf(cloud: PointCloud, projection: ProjectionLike): Polygon {
     [min[0], max[1]],
   ];
   const place = new Float64Array(3);
+  let near: number | undefined;
   const ring = corners.flatMap(([x, y], side) => {
     const [toX, toY] = corners[(side + 1) % corners.length];
     return Array.from({ length: SIDE }, (_, step) => {
       const share = step / SIDE;
       cloud.place(x + share * (toX - x), y + share * (toY - y), z, place);
       ecefToGeodetic(place[0], place[1], place[2], place);
-      const degrees = [place[0], place[1]].map((angle) => (angle * 180) / Math.PI);
-      return transform(degrees, "EPSG:4326", projection);
+      const [longitude, latitude] = [place[0], place[1]].map((angle) => (angle * 180) / Math.PI);
+      // In one piece across 180°.
+      near ??= longitude;
+      const turns = Math.round((near - longitude) / 360);
+      return transform([longitude + 360 * turns, latitude], "EPSG:4326", projection);
     });
   });
   return new Polygon([[...ring, ring[0]]]);
