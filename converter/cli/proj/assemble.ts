@@ -1,5 +1,6 @@
 import {
   type ChoiceStep,
+  type Domain,
   type EllipsoidAxes,
   fitPatchwork,
   type GeocentricStep,
@@ -9,7 +10,7 @@ import {
   type ShiftStep,
   type Transformation,
 } from "@groma/georef";
-import type { Candidate } from "./candidate.js";
+import type { Candidate, Choice } from "./candidate.js";
 import { runProjection } from "./cct.js";
 import { ellipsoidAxes } from "./ellipsoid.js";
 import type { EllipsoidText, PlannedStep } from "./plan.js";
@@ -18,10 +19,10 @@ import { pipelineWords } from "./step-text.js";
 
 const ARC_SECOND = Math.PI / 648_000;
 /** In place of a grid's file name. */
-const CONSTANT = "constant offset";
+export const CONSTANT = "constant offset";
 
 export interface AssembleOptions {
-  readonly domain: Parameters<typeof fitPatchwork>[1];
+  readonly domain: Domain;
   /** Metres. */
   readonly tolerance: number;
   /** For error messages. */
@@ -45,19 +46,22 @@ export async function assemble(
   const patchwork = await fitPatchwork(sample, domain, tolerance, undefined, file);
   const chains: Awaited<ReturnType<typeof stepsOf>>[] = [];
   for (const way of ways) chains.push(await stepsOf(proj, way, signal));
+  const sampled = Math.max(...chains.map(({ bound }) => bound));
   const [{ steps, last }] = chains as [(typeof chains)[0]];
   const choice: ChoiceStep = {
     kind: "choice",
     ways: ways.flatMap(({ areas }, i) => areas.map((area) => ({ area, steps: chains[i]!.steps }))),
   };
   const middle = ways.length > 1 ? [choice] : steps;
-  return { transformation: { steps: [{ kind: "projection", patchwork }, ...middle, last] }, patchwork };
+  const whole = { ...patchwork, bound: patchwork.bound + sampled };
+  return {
+    transformation: { steps: [{ kind: "projection", patchwork: whole }, ...middle, last] },
+    patchwork: whole,
+  };
 }
 
 /** An operation that is followed in its areas (source units). */
-export interface AssembledWay {
-  readonly candidate: Candidate;
-  readonly windows: readonly GridWindow[];
+export interface AssembledWay extends Choice {
   readonly areas: readonly Rectangle[];
 }
 
@@ -71,20 +75,22 @@ export function isSameGround(a: Candidate, b: Candidate): boolean {
   return ends(a) === ends(b);
 }
 
-/** What lies between the projection and the last step, and the last step. */
+/** What lies between the projection and the last step, how far it may be off (metres), and the last step. */
 async function stepsOf(
   proj: Proj,
-  { candidate: { plan, zScale }, windows }: AssembledWay,
+  { candidate: { plan, zScale }, windows, sampled }: Choice,
   signal?: AbortSignal,
-): Promise<{ steps: ShiftStep[]; last: GeocentricStep }> {
+): Promise<{ steps: ShiftStep[]; bound: number; last: GeocentricStep }> {
   const steps: ShiftStep[] = [];
+  let bound = 0;
   if (zScale !== 1) steps.push({ kind: "height", metresPerUnit: zScale });
   const axes = await axesOf(proj, plan.steps, signal);
   const unused = [...windows];
+  const unsampled = [...sampled];
   for (const step of plan.steps) {
     if (step.kind === "height") steps.push(step);
     else if (step.kind === "geocentric") {
-      return { steps, last: { kind: "geocentric", ellipsoid: axes.get(step.ellipsoid)! } };
+      return { steps, bound, last: { kind: "geocentric", ellipsoid: axes.get(step.ellipsoid)! } };
     } else if (step.kind === "datumShift") {
       const { map, keepHeight } = step;
       const [from, to] = [axes.get(step.from)!, axes.get(step.to)!];
@@ -93,6 +99,11 @@ async function stepsOf(
       for (const window of constantShift(step.longitude * ARC_SECOND, step.latitude * ARC_SECOND)) {
         steps.push({ kind: "horizontalShift", direction: "forward", window });
       }
+    } else if (step.kind === "sampled") {
+      const taken = unsampled.shift();
+      if (!taken) throw new RangeError("fewer rasters than steps that are sampled");
+      steps.push(...taken.steps);
+      bound += taken.bound;
     } else if (step.kind === "verticalOffset") {
       steps.push({ kind: "verticalShift", multiplier: step.metres, window: constantWindow([1]) });
     } else {

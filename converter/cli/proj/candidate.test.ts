@@ -15,7 +15,7 @@ function operation(name: string, pipeline: string, more: Partial<Operation> = {}
 }
 
 const good = operation("good", `${UTM} ${CART}`);
-const unsupported = operation("unsupported", `${UTM} +step +proj=tinshift +file=x.json ${CART}`, {
+const unsupported = operation("unsupported", `${UTM} +step +proj=defmodel +model=x.json ${CART}`, {
   accuracy: 0.01,
 });
 const lacking = operation("lacking", `${UTM} +step +proj=hgridshift +grids=x.tif ${CART}`, {
@@ -34,7 +34,7 @@ describe.skipIf(!proj)(`of the operations that PROJ proposes${absent}`, () => {
       ["unsupported", 0.01],
       ["broken", 1],
     ]);
-    expect(passedOver[0].why).toContain("tinshift");
+    expect(passedOver[0].why).toContain("defmodel");
   });
 
   it("a ballpark is taken only when nothing better is known", async () => {

@@ -17,6 +17,7 @@ import type { Operation } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
 import type { GridName, Plan } from "./plan.js";
 import type { Proj } from "./program/find.js";
+import { type Sampled, sampleSteps } from "./sample.js";
 
 /** An operation that can be followed for a domain. */
 export interface Candidate {
@@ -74,7 +75,7 @@ function gridSteps(plan: Plan) {
  *
  * @throws ProjError PROJ_GRID when a grid is missing, cannot be read, or does not reach the data
  */
-export async function cutWindows(
+async function cutWindows(
   proj: Proj,
   { plan, zScale }: Candidate,
   domain: Domain,
@@ -119,6 +120,8 @@ export interface PassedOver {
 export interface Choice {
   readonly candidate: Candidate;
   readonly windows: readonly GridWindow[];
+  /** Of the steps that are taken as PROJ gives them, in their order. */
+  readonly sampled: readonly Sampled[];
 }
 
 /** What became of a list of operations. */
@@ -128,6 +131,26 @@ export interface Selection {
   readonly passedOver: readonly PassedOver[];
   /** Why the best one that PROJ would have used could not be; only ballparks are left, and none was taken for it. */
   readonly blocked?: GromaError;
+}
+
+/**
+ * An operation with all that its steps need of grids over the domain.
+ *
+ * @throws ProjError PROJ_GRID when a grid is missing, cannot be read, or does not reach the data
+ * @throws CrsError CRS_OPERATION_UNSUPPORTED when steps cannot be followed closely enough
+ */
+export async function prepared(
+  proj: Proj,
+  candidate: Candidate,
+  domain: Domain,
+  signal?: AbortSignal,
+): Promise<Choice> {
+  const windows = await cutWindows(proj, candidate, domain, signal);
+  const sampled: Sampled[] = [];
+  for (const step of candidate.plan.steps) {
+    if (step.kind === "sampled") sampled.push(await sampleSteps(proj, candidate, step, domain, signal));
+  }
+  return { candidate, windows, sampled };
 }
 
 /** Faults of one operation that leave the others as they are; the last means that it is not for this place. */
@@ -160,9 +183,9 @@ export async function choose(
       try {
         const candidate = await tryOperation(proj, operation, domain, metresPerUnit, signal);
         if (!candidate.covers && partial) continue;
-        const windows = await cutWindows(proj, candidate, domain, signal);
-        if (candidate.covers) return { choice: { candidate, windows }, passedOver };
-        partial = { candidate, windows };
+        const choice = await prepared(proj, candidate, domain, signal);
+        if (candidate.covers) return { choice, passedOver };
+        partial = choice;
       } catch (error) {
         if (!(error instanceof GromaError) || !GIVES_WAY.has(error.code)) throw error;
         passedOver.push({ operation: name, accuracy, why: `${error.file}: ${error.cause}` });

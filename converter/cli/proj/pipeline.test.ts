@@ -51,6 +51,14 @@ describe("a pipeline", () => {
     ]);
   });
 
+  it("knows what PROJ writes for `cart` behind a projection without a name in WKT", () => {
+    const geocent = "+step +proj=geocent +datum=WGS84 +units=m";
+    expect(parse("+step +inv +proj=lsat +lsat=5 +path=220 +ellps=WGS84", geocent)).toMatchObject({
+      steps: [{ kind: "geocentric", ellipsoid: new Map([["datum", "WGS84"]]) }],
+    });
+    expect(() => parse(UTM, geocent.replace("=m", "=km"))).toThrow(/units/);
+  });
+
   it("takes no notice of geographic coordinates in between, and none for another meridian", () => {
     const longlat = "+step +inv +proj=longlat +a=6378249.145 +rf=293.465";
     expect(parse(UTM, longlat, CART)).toMatchObject({ projection: 2, steps: [{ kind: "geocentric" }] });
@@ -138,14 +146,34 @@ describe("a pipeline", () => {
     expect(kinds(UTM, end)).toEqual(["datumShift", "geocentric"]);
   });
 
+  it("takes steps without a form of their own together with what leads to them and back", () => {
+    const degrees = "+step +proj=unitconvert +xy_in=rad +xy_out=deg +step +proj=axisswap +order=2,1";
+    const back = "+step +proj=axisswap +order=2,1 +step +proj=unitconvert +xy_in=deg +xy_out=rad";
+    const triangles = `${degrees} +step +proj=tinshift +file=x.json ${back}`;
+    const grid = "+step +proj=hgridshift +grids=a.tif";
+    expect(parse(UTM, grid, triangles, CART).steps).toMatchObject([
+      { kind: "horizontalShift" },
+      { kind: "sampled", before: 2, after: 7 },
+      { kind: "geocentric" },
+    ]);
+    const space =
+      "+step +proj=cart +ellps=clrk80ign +step +proj=xyzgridshift +grids=b.tif +step +inv +proj=cart +ellps=GRS80";
+    const kept = parse(UTM, `+step +proj=push +v_3 ${space} +step +proj=pop +v_3`, CART);
+    expect(kept.steps[0]).toEqual({
+      ...{ kind: "sampled", before: 1, after: 6 },
+      space: { from: new Map([["ellps", "clrk80ign"]]), to: new Map([["ellps", "GRS80"]]), keepHeight: true },
+    });
+    const moving = space.replace("+step +inv", "+step +proj=helmert +x=1 +dx=0.1 +t_epoch=2010 +step +inv");
+    expect(() => parse(UTM, moving, CART)).toThrow(/xyzgridshift/);
+  });
+
   it.each([
-    ["tinshift", "+step +proj=tinshift +file=x.json"],
     ["deformation", "+step +proj=deformation +grids=x.tif +dt=1"],
     ["xyzgridshift", "+step +proj=xyzgridshift +grids=x.tif"],
-    ["gridshift", "+step +proj=gridshift +grids=x.tif"],
+    ["gridshift", "+step +proj=gridshift +grids=x.tif +t_epoch=2010"],
     ["molodensky", "+step +proj=molodensky +ellps=GRS80 +dx=1 +dy=1 +dz=1 +da=1 +df=1"],
     ["geogoffset", "+step +proj=geogoffset +dlat=much"],
-    ["vertoffset", "+step +proj=vertoffset +lat_0=50 +lon_0=10 +dh=0.1 +slope_lat=0.1"],
+    ["defmodel", "+step +proj=defmodel +model=x.json"],
     ["a later invention", "+step +proj=later_invention"],
     ["hgridshift", "+step +proj=hgridshift +grids=x.tif +t_epoch=2010"],
     ["vgridshift", "+step +proj=vgridshift +grids=x.tif +multiplier=much"],

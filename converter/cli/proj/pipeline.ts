@@ -1,6 +1,7 @@
 import { compose, helmertMap, IDENTITY, isIdentity, type LinearMap } from "./helmert.js";
 import type { EllipsoidText, GridName, Plan, PlannedStep } from "./plan.js";
 import { refuseStep } from "./refuse.js";
+import { sampledFrom } from "./sampled-steps.js";
 import { type StepText, splitPipeline } from "./step-text.js";
 import { angularUnit, linearUnit } from "./units.js";
 
@@ -44,6 +45,11 @@ function readProjection(pipeline: readonly StepText[]): { count: number; metresP
     } else if (name === "affine") {
       // A derived CRS: its plane is turned and moved into that of another one, which is part of what is sampled too.
       only(step, IN_PLANE);
+    } else if (name === "helmert") {
+      only(step, SIMILARITY);
+    } else if (name === "tinshift") {
+      // Triangles in the plane of a projection.
+      only(step, ["file"]);
     } else if (name === "unitconvert") {
       const units = readUnits(step);
       metresPerUnit *= units.height;
@@ -61,6 +67,8 @@ function readProjection(pipeline: readonly StepText[]): { count: number; metresP
   );
 }
 
+/** Parameters of `helmert` in the plane. */
+const SIMILARITY = ["x", "y", "s", "theta"];
 /** Parameters of `affine` that leave z and time alone. */
 const IN_PLANE = ["xoff", "yoff", "s11", "s12", "s21", "s22"];
 
@@ -141,7 +149,12 @@ class Walk {
   steps(): PlannedStep[] {
     for (let i = this.#start; i < this.#pipeline.length; i++) {
       const step = this.#pipeline[i];
-      if (this.#geocentric) this.#inSpace(step, this.#geocentric);
+      const plain = !this.#geocentric && this.#aside === undefined && !this.#swapped && this.#unit === 1;
+      const sampled = plain && sampledFrom(this.#pipeline, i);
+      if (sampled) {
+        this.#planned.push(sampled);
+        i = sampled.after - 1;
+      } else if (this.#geocentric) this.#inSpace(step, this.#geocentric);
       else this.#onEllipsoid(step, i);
     }
     const last = this.#pipeline[this.#pipeline.length - 1];
@@ -183,6 +196,9 @@ class Walk {
       only(step, []);
     } else if (name === "cart" && !inverse) {
       this.#geocentric = { from: ellipsoidOf(step), map: IDENTITY };
+    } else if (name === "geocent" && !inverse) {
+      // What PROJ writes for `cart` behind a projection that has no name in WKT.
+      this.#geocentric = { from: ellipsoidOf(inMetres(step)), map: IDENTITY };
     } else if (name === "hgridshift") {
       only(step, ["grids"]);
       const direction = inverse ? "inverse" : "forward";
@@ -259,6 +275,13 @@ function ellipsoidOf(step: StepText): EllipsoidText {
   only(step, []);
   if (step.parameters.size === 0) throw refuseStep(step, "no ellipsoid");
   return step.parameters;
+}
+
+/** A step without its unit, which is the metre. */
+function inMetres(step: StepText): StepText {
+  const { units = "m", ...others } = Object.fromEntries(step.parameters);
+  if (units !== "m") throw refuseStep(step, "these units");
+  return { ...step, parameters: new Map(Object.entries(others)) };
 }
 
 /** Forward: height plus multiplier times the grid's value. PROJ's default is −1, "for historical reasons". */

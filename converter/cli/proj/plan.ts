@@ -31,6 +31,21 @@ export type PlannedStep =
       readonly map: LinearMap;
       readonly keepHeight: boolean;
     }
+  /**
+   * Steps from `before` up to `after` that have no form of their own here: from longitude, latitude (radians) and height to
+   * the same, taken as PROJ gives them on a raster.
+   */
+  | {
+      readonly kind: "sampled";
+      readonly before: number;
+      readonly after: number;
+      /** Where they go through space: what they do at one place stands for most of what they do at all. */
+      readonly space?: {
+        readonly from: EllipsoidText;
+        readonly to: EllipsoidText;
+        readonly keepHeight: boolean;
+      };
+    }
   | { readonly kind: "geocentric"; readonly ellipsoid: EllipsoidText };
 
 /** One of the grids that a step names; PROJ goes on to the next where an optional one (`@name`) is missing. */

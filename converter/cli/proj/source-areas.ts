@@ -1,22 +1,12 @@
 import type { AreaOfUse, Rectangle } from "@groma/georef";
 import { runPipeline } from "./cct.js";
 import type { Proj } from "./program/find.js";
-import type { StepText } from "./step-text.js";
+import { type StepText, TO_RADIANS } from "./step-text.js";
 
 /** Points along each edge of an area, as many as PROJ takes (`reproject_bbox`). */
 const ALONG = 21;
 /** In place of no end: finite, as the numbers of a record are. */
 const FAR = 1e12;
-
-/** Degrees to radians, before the way back to source coordinates. */
-const TO_RADIANS: StepText = {
-  name: "unitconvert",
-  inverse: false,
-  parameters: new Map([
-    ["xy_in", "deg"],
-    ["xy_out", "rad"],
-  ]),
-};
 
 /**
  * The rectangles of source coordinates in which PROJ takes a point for one of an area of use: around the edge of the area,

@@ -9,6 +9,16 @@ export interface StepText {
   readonly parameters: ReadonlyMap<string, string>;
 }
 
+/** Degrees to radians, in the plane. */
+export const TO_RADIANS: StepText = {
+  name: "unitconvert",
+  inverse: false,
+  parameters: new Map([
+    ["xy_in", "deg"],
+    ["xy_out", "rad"],
+  ]),
+};
+
 /** Longer than any pipeline that PROJ writes. */
 const LENGTH_MAX = 20_000;
 const TOKEN = /^\+?([A-Za-z_][A-Za-z0-9_]*)(?:=([A-Za-z0-9_.,:@/+-]*))?$/;

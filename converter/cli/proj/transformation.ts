@@ -9,7 +9,8 @@ import {
   EGM96_NOTE,
   ecefToGeodetic,
   egm96Step,
-  type GromaError,
+  everyStep,
+  GromaError,
   isAboveGeoid,
   PATCHWORK_TOLERANCE,
   PlacementError,
@@ -18,8 +19,8 @@ import {
   type Transformation,
 } from "@groma/georef";
 import { degreeBox } from "./area.js";
-import { type AssembledWay, assemble, isSameGround } from "./assemble.js";
-import { type Choice, choose, cutWindows, type PassedOver } from "./candidate.js";
+import { type AssembledWay, assemble, CONSTANT, isSameGround } from "./assemble.js";
+import { type Choice, choose, type PassedOver, prepared } from "./candidate.js";
 import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
 import { egm96 } from "./egm96.js";
@@ -35,7 +36,6 @@ import {
 import { howToGet } from "./grids/current-names.js";
 import { type DegreeBox, listOperations, type Operation } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
-import { ProjError } from "./program/errors.js";
 import type { Proj } from "./program/find.js";
 import { OTHER_WAY } from "./refuse.js";
 import { type EngineOptions, type EngineResult, type Lacking, UNKNOWN_HEIGHT_NOTE } from "./report.js";
@@ -93,7 +93,7 @@ export async function projTransformation(
   const counted = far && (accuracy === null || far.worth > accuracy) ? far : undefined;
   const told = main && byPoint ? severalNote(byPoint.ways, main) : counted && elsewhereNote(counted);
   const notes = notesFor(crs, choice, substitute, told, main !== undefined);
-  const grids = [...new Set(ways.flatMap(({ windows }) => windows.map(({ grid }) => grid)))];
+  const grids = gridsIn(transformation);
   return {
     transformation: substitute ? await withEgm96(transformation, candidate.places) : transformation,
     report: {
@@ -119,24 +119,26 @@ export async function projTransformation(
  */
 async function waysOf(
   proj: Proj,
-  { candidate, windows }: Choice,
+  choice: Choice,
   { ways }: PointByPoint,
   domain: Domain,
   signal?: AbortSignal,
 ): Promise<readonly [AssembledWay, ...AssembledWay[]] | undefined> {
+  const { candidate } = choice;
   if (ways.length < 2 || !ways.every((way) => isSameGround(way.candidate, candidate))) return undefined;
   const found: AssembledWay[] = [];
   try {
     for (const { candidate: its, areas } of ways) {
-      const own = its === candidate ? windows : await cutWindows(proj, its, domain, signal);
-      found.push({ candidate: its, windows: own, areas: areas.filter((area) => meets(area, domain)) });
+      const own = its === candidate ? choice : await prepared(proj, its, domain, signal);
+      found.push({ ...own, areas: areas.filter((area) => meets(area, domain)) });
     }
   } catch (error) {
-    // A grid that cannot be read: what lies there is told, and counted.
-    if (error instanceof ProjError && error.code === "PROJ_GRID") return undefined;
+    // A grid that cannot be read, steps that cannot be followed: what lies there is told, and counted.
+    if (error instanceof GromaError && ["PROJ_GRID", "CRS_OPERATION_UNSUPPORTED"].includes(error.code))
+      return undefined;
     throw error;
   }
-  found.push({ candidate, windows, areas: [around(domain)] });
+  found.push({ ...choice, areas: [around(domain)] });
   return found as [AssembledWay, ...AssembledWay[]];
 }
 
@@ -154,6 +156,14 @@ function leastAccurate({ ways }: PointByPoint): number | null {
   return ways.reduce<number | null>((least, { candidate: { operation } }) => {
     return least === null || operation.accuracy === null ? null : Math.max(least, operation.accuracy);
   }, 0);
+}
+
+/** File names of the grids that a transformation has parts of. */
+function gridsIn(transformation: Transformation): string[] {
+  const names = everyStep(transformation).flatMap((step) =>
+    step.kind === "horizontalShift" || step.kind === "verticalShift" ? [step.window.grid] : [],
+  );
+  return [...new Set(names)].filter((name) => name !== CONSTANT);
 }
 
 /** Where the data are, by the projection alone, which is the same in all operations. */

@@ -84,7 +84,12 @@ it.each([
       const up = box[5]! + distance;
       const position = [0, 1, 2].map((axis) => origin[axis]! + r[axis + 6]! * up) as [number, number, number];
       const vertices = { box, bound: placement.bound, frame: placement.frame, toCube: new Float64Array(12) };
-      const selection = { nodes: [node], points: count, counts: [count], spacings: [REFINED] } as unknown as Selection;
+      const selection = {
+        nodes: [node],
+        points: count,
+        counts: [count],
+        spacings: [REFINED],
+      } as unknown as Selection;
       return sceneFacts(cameraAt(position), selection, () => vertices, layer).placingPixels!;
     };
     const there = stated(refined);

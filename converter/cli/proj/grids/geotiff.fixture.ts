@@ -1,26 +1,49 @@
+const BANDS = {
+  vertical: ["geoid_undulation"],
+  horizontal: ["longitude_offset", "latitude_offset"],
+  /** As `horizontal`, counted to the east, which alone `gridshift` takes. */
+  eastward: ["longitude_offset", "latitude_offset"],
+  geocentric: ["x_translation", "y_translation", "z_translation"],
+} as const;
+const UNITS = {
+  vertical: "metre",
+  horizontal: "degree",
+  eastward: "arc-second",
+  geocentric: "metre",
+} as const;
+const SCALES = { vertical: 0.01, horizontal: 1e-6, eastward: 3.6e-3, geocentric: 1e-4 } as const;
+const TYPES = {
+  vertical: "VERTICAL_OFFSET_GEOGRAPHIC_TO_VERTICAL",
+  horizontal: "HORIZONTAL_OFFSET",
+  eastward: "HORIZONTAL_OFFSET",
+  geocentric: "GEOCENTRIC_TRANSLATION",
+} as const;
+
 /**
  * A GeoTIFF of heights or shifts in int16 with scale and offset, pixels as areas, one strip: 0.9° by 0.35°.
  *
  * @param corner longitude and latitude of its north-west corner, degrees
  */
-export function geoTiff(kind: "vertical" | "horizontal", corner = [5, 52.4]): Buffer {
-  const [width, height, bands] = [9, 7, kind === "vertical" ? 1 : 2];
+export function geoTiff(kind: keyof typeof BANDS, corner = [5, 52.4]): Buffer {
+  const descriptions = BANDS[kind];
+  const [width, height, bands] = [9, 7, descriptions.length];
   const values = Int16Array.from({ length: width * height * bands }, (_, i) =>
     Math.round(900 * Math.sin(i * 1.7)),
   );
-  const descriptions = kind === "vertical" ? ["geoid_undulation"] : ["longitude_offset", "latitude_offset"];
   const items = descriptions.map((description, sample) => {
     const item = (name: string, role: string, value: string | number) =>
       `<Item name="${name}" sample="${sample}" role="${role}">${value}</Item>`;
     return [
       item("DESCRIPTION", "description", description),
-      item("UNITTYPE", "unittype", kind === "vertical" ? "metre" : "degree"),
-      item("SCALE", "scale", kind === "vertical" ? 0.01 : 1e-6),
-      item("OFFSET", "offset", kind === "vertical" ? 40 : 1e-4),
-      description === "longitude_offset" ? item("positive_value", "", "west").replace(' role=""', "") : "",
+      item("UNITTYPE", "unittype", UNITS[kind]),
+      item("SCALE", "scale", SCALES[kind]),
+      item("OFFSET", "offset", bands === 2 ? 1e-4 : 40),
+      kind === "horizontal" && description === "longitude_offset"
+        ? item("positive_value", "", "west").replace(' role=""', "")
+        : "",
     ].join("");
   });
-  const type = kind === "vertical" ? "VERTICAL_OFFSET_GEOGRAPHIC_TO_VERTICAL" : "HORIZONTAL_OFFSET";
+  const type = TYPES[kind];
   const metadata = `<GDALMetadata><Item name="TYPE">${type}</Item>${items.join("")}</GDALMetadata>\0`;
   const short = (...numbers: number[]) => ({ type: 3, bytes: Buffer.from(Uint16Array.from(numbers).buffer) });
   const double = (...numbers: number[]) => ({
