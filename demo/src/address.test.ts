@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { cloudAddress, PageError, readPageOptions } from "./address.js";
+import { cloudAddress, readPageOptions } from "./address.js";
+import { PageError } from "./panel/page-error.js";
 
 const page = "http://localhost:8080/globe/?x=1";
 

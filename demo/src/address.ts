@@ -1,9 +1,4 @@
-import { GromaError } from "@groma/georef";
-
-/** An address or an option in the page's own address cannot be used. Codes start with `PAGE_`. */
-export class PageError extends GromaError {
-  static override readonly kind = "PageError";
-}
+import { PageError } from "./panel/page-error.js";
 
 /** What the page's own address asks for. */
 export interface PageOptions {

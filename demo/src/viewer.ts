@@ -1,5 +1,5 @@
 import { buildModuleUrl, ImageryLayer, TileMapServiceImageryProvider, Viewer } from "cesium";
-import { PageError } from "./address.js";
+import { PageError } from "./panel/page-error.js";
 
 /**
  * A globe with nothing on it that another host would have to send: no ion, no geocoder, no terrain server.

@@ -1,9 +1,11 @@
 import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
 import { BadServer, type Misbehaviour } from "../faults/bad-server.js";
-import { data } from "../project.js";
+import { data, projectRoot } from "../project.js";
 import type {} from "./globe.js";
 import { launch, openPage, screenshot, type View, view, type Watch } from "./harness.js";
 
@@ -56,6 +58,12 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
     await message.waitFor({ timeout: 60_000 });
     return (await message.textContent()) ?? "";
   }
+
+  it("PAGE_FILE: the built page opened as a file", async () => {
+    await page.goto(pathToFileURL(join(projectRoot, "demo/dist/index.html")).href);
+    expect(await told()).toBe("PAGE_FILE");
+    expect(await page.textContent("#message")).toContain("groma view");
+  });
 
   /** The same page opens and draws a good cloud after all that; no exception went unhandled. */
   async function livesOn(): Promise<void> {

@@ -1,4 +1,5 @@
 import { type ByteSink, MemorySink } from "@groma/layer/export";
+import { PageError } from "./page-error.js";
 
 /** The part of the File System API that TypeScript's own types lack. */
 interface SavePicker {
@@ -27,6 +28,7 @@ class StreamSink implements ByteSink {
  * downloaded. Nothing is left of what fails.
  *
  * @returns false where the reader chose no place
+ * @throws PageError PAGE_STORAGE where there is no room, PAGE_SAVE where the browser may not write; what `fill` throws
  */
 export async function saveFile(name: string, fill: (sink: ByteSink) => Promise<unknown>): Promise<boolean> {
   const { showSaveFilePicker } = window as SavePicker;
@@ -43,15 +45,38 @@ export async function saveFile(name: string, fill: (sink: ByteSink) => Promise<u
     if (thrown instanceof Error && thrown.name === "AbortError") return false;
     throw thrown;
   }
-  const stream = await handle.createWritable();
   try {
-    await fill(new StreamSink(stream));
+    const stream = await handle.createWritable();
+    try {
+      await fill(new StreamSink(stream));
+    } catch (thrown) {
+      await stream.abort();
+      throw thrown;
+    }
+    await stream.close();
   } catch (thrown) {
-    await stream.abort();
-    throw thrown;
+    throw unsaved(name, thrown);
   }
-  await stream.close();
   return true;
+}
+
+/** What the browser says of a file that it cannot write, in words; anything else as it is. */
+function unsaved(name: string, thrown: unknown): unknown {
+  if (!(thrown instanceof DOMException)) return thrown;
+  if (thrown.name === "QuotaExceededError") {
+    const cause = "there is no room left for it";
+    return new PageError({
+      code: "PAGE_STORAGE",
+      file: name,
+      cause,
+      fix: "Free space, or take fewer points",
+    });
+  }
+  if (["NotAllowedError", "NoModificationAllowedError", "InvalidStateError"].includes(thrown.name)) {
+    const cause = `the browser may not write it (${thrown.message})`;
+    return new PageError({ code: "PAGE_SAVE", file: name, cause, fix: "Choose another name or folder" });
+  }
+  return thrown;
 }
 
 function download(name: string, blob: Blob): void {
