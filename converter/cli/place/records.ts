@@ -115,7 +115,7 @@ function operationReport(
   outsideOf: string | undefined,
 ): OperationReport {
   const passedOver = report.passedOver.map(
-    ({ operation, why }) => `PROJ would have taken "${operation}", which cannot be followed: ${why}`,
+    ({ operation, why }) => `PROJ would have taken "${operation}", which is not followed: ${why}`,
   );
   const notes = report.notes.map((note) => {
     if (note === UNKNOWN_HEIGHT_NOTE && guess !== undefined) return `height reference unknown: ${guess}`;

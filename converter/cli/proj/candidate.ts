@@ -9,6 +9,7 @@ import {
   spread,
 } from "@groma/georef";
 import { runPipeline, runToRadians } from "./cct.js";
+import { faultOf } from "./faulty.js";
 import { cutFrom } from "./grids/cut.js";
 import { type GridImage, type GridKind, unreadable } from "./grids/grid-image.js";
 import { locateGrid } from "./grids/locate.js";
@@ -176,6 +177,11 @@ export async function choose(
     for (const operation of operations) {
       if (operation.ballpark !== ballpark || operation.missingGrids.length > 0) continue;
       const { name, accuracy } = operation;
+      const fault = faultOf(name);
+      if (fault !== undefined) {
+        passedOver.push({ operation: name, accuracy, why: fault });
+        continue;
+      }
       if (operation.pipeline === undefined) {
         passedOver.push({ operation: name, accuracy, why: "PROJ cannot write it as a pipeline" });
         continue;

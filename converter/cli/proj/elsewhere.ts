@@ -1,5 +1,6 @@
 import { type AreaOfUse, type Domain, extentOf, GromaError, type Rectangle, spread } from "@groma/georef";
 import { type Candidate, tryOperation } from "./candidate.js";
+import { faultOf } from "./faulty.js";
 import { type DegreeBox, listOperations, type Operation, operationAreas } from "./operation.js";
 import type { Proj } from "./program/find.js";
 import type { CrsText } from "./source.js";
@@ -79,7 +80,8 @@ export async function pointByPoint(
   signal?: AbortSignal,
 ): Promise<PointByPoint | undefined> {
   const usable = operations.filter(
-    (one) => !one.ballpark && one.missingGrids.length === 0 && one.pipeline !== undefined,
+    (one) =>
+      !one.ballpark && one.missingGrids.length === 0 && one.pipeline !== undefined && !faultOf(one.name),
   );
   if (candidate.operation.ballpark || usable.length < 2) return undefined;
   let order: readonly Operation[] | undefined;

@@ -1,6 +1,7 @@
 import { length, paretoChart } from "./chart.mjs";
 import { EXACT, FORWARD, measurePlacing, SCHEMES, TOLERANCE } from "./placing.mjs";
 import { CREASED, EVALUATE, FALLBACK, measureWithGrids, RELIEF, REMAINDER } from "./placing-grids.mjs";
+import { measureBorder, measureOperations } from "./placing-operations.mjs";
 import { summarise } from "./summary.mjs";
 import { digits, markdownTable, span } from "./table.mjs";
 
@@ -13,11 +14,16 @@ const GRIDS = {
 export async function placingReport(root) {
   const plain = measurePlacing().map((row) => ({ panel: `node of ${length(row.edge)}`, ...row }));
   const grids = (await measureWithGrids(root)).map((row) => ({ panel: GRIDS[row.crs], ...row }));
-  const rows = [...plain, ...grids];
+  const named = (panel) => (row) => ({ panel, ...row });
+  const operations = (await measureOperations()).map(
+    named("1 km, operations of PROJ without a closed form in the page"),
+  );
+  const border = (await measureBorder()).map(named("1 km, where two operations of ED50 meet"));
+  const rows = [...plain, ...grids, ...operations, ...border];
   const summaries = summarise(rows);
   return {
     title: "Placing: error against time",
-    text: describe(plain, grids),
+    text: describe(plain, grids, operations, border),
     svg: paretoChart({
       summaries,
       methods: [
@@ -55,7 +61,7 @@ function tableRow(summary, rows) {
 }
 
 /** The bars: the default for nodes of 1 km at 1 mm. */
-function describe(rows, grids) {
+function describe(rows, grids, operations, border) {
   const kilometre = rows.filter(({ edge }) => edge === 1000);
   const bars = kilometre
     .filter(({ chosen }) => chosen)
@@ -74,7 +80,24 @@ function describe(rows, grids) {
     "RD New and NAP, LV95 and LN02: `transformation` is PROJ's steps one by one with windows of its grids; the default is a fit of those, " +
     `${shares(grids)}.\n\n` +
     `Nodes of 1 km at 1 mm: ${bars.join("; ")}. Forty times faster than Web Mercator's \`forward\`, ` +
-    "two functions of one variable, would be as fast as the affine scheme, which is off by centimetres there."
+    "two functions of one variable, would be as fast as the affine scheme, which is off by centimetres there." +
+    ofOperations(operations, border)
+  );
+}
+
+/** Nodes of operations that are carried as patchworks; nothing where PROJ is not there. */
+function ofOperations(operations, border) {
+  const fitted = operations.filter(({ chosen }) => chosen);
+  if (fitted.length === 0) return "";
+  const told = fitted.map(
+    ({ crs, what, method, ns, error }) =>
+      `${crs} (${what}) ${method} ${digits(ns)} ns, ${length(error)} from PROJ`,
+  );
+  const meeting = border.find(({ chosen }) => chosen);
+  return (
+    `\n\nOperations of PROJ whose projection the page has no closed form for are carried as certified patchworks, and nodes of 1 km ` +
+    `cost what others do: ${told.join("; ")}. A node in which two operations meet goes point by point (\`${meeting.method}\`): ` +
+    `${digits(meeting.ns)} ns.`
   );
 }
 
