@@ -122,10 +122,11 @@ module.exports = {
     layer("tools/measure", ["query", "options", "errors"]),
     layer("tools/draw", ["tools/measure", "errors"]),
     layer("tools/profile", ["tools/exact", "query", "clips", "options", "errors"]),
+    layer("tools/cut", ["tools/profile", "tools/sections", "tools/ellipsoid", "query", "clips"]),
     layer("tools/terrain", []),
     layer("tools/alignment", ["errors"]),
     layer("tools/ellipsoid", ["tools/profile", "tools/sections", "query"]),
-    layer("tools/plot", ["tools/profile", "tools/terrain"]),
+    layer("tools/plot", ["tools/cut", "tools/terrain"]),
     layer("export", [
       "tools/area",
       "tools/sections",

@@ -307,4 +307,26 @@ async function lineIsChangedAndKept(page: Page): Promise<void> {
   await page.click("#profile-remove");
   await expect.poll(line).toEqual([]);
   expect(await page.isVisible("#profile-list")).toBe(false);
+
+  // An alignment of the scan's own coordinates: its stations, as the command line has them.
+  const corners = await page.evaluate(() => {
+    const { min, max } = window.groma.layer.cloud.boundingBox;
+    const at = (u: number, v: number) => [min[0] + u * (max[0] - min[0]), min[1] + v * (max[1] - min[1])];
+    return [at(0.3, 0.4), at(0.6, 0.5)].map(([x, y]) => `${y} ${x}`);
+  });
+  const geometry = `<Line><Start>${corners[0]}</Start><End>${corners[1]}</End></Line>`;
+  const alignment = `<Alignment name="axis" length="0" staStart="1200"><CoordGeom>${geometry}</CoordGeom></Alignment>`;
+  const buffer = Buffer.from(
+    `<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2"><Alignments>${alignment}</Alignments></LandXML>`,
+  );
+  await page.setInputFiles("#profile-file", { name: "axis.xml", mimeType: "text/xml", buffer });
+  await expect.poll(async () => (await line()).length).toBe(2);
+  await complete();
+  expect(await page.inputValue("#profile-name")).toBe("axis");
+  expect((await page.evaluate(() => window.groma.profile.plot!.view.shown)).from).toBeGreaterThan(1100);
+  await screenshot(page, "profile-imported");
+  await page.click("#profile-undo");
+  await expect.poll(line).toEqual([]);
+  await page.click("#profile-redo");
+  await expect.poll(async () => page.locator("#profile-list option").count()).toBe(2);
 }

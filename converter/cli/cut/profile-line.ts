@@ -1,4 +1,4 @@
-import { GromaError, localPlane } from "@groma/georef";
+import { GromaError } from "@groma/georef";
 import type { CutFacts } from "@groma/layer/export";
 import type { RecordedPoints } from "@groma/layer/query";
 import {
@@ -8,6 +8,7 @@ import {
   CrossSectionsOnEllipsoid,
   type Geodetic,
   geodesicLengths,
+  lineOnEllipsoid,
 } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
 import type { GivenLine } from "./line-file.js";
@@ -81,20 +82,12 @@ export async function layLine(
     });
   }
   const radians = line.vertices.map(([x, y]) => [x * DEGREE, y * DEGREE] as const);
-  const [longitude, latitude] = [0, 1].map(
-    (axis) => radians.reduce((sum, vertex) => sum + vertex[axis]!, 0) / radians.length,
-  ) as [number, number];
-  const local = localPlane(longitude, latitude);
-  const place = new Float64Array(2);
-  const positions = radians.map(([long, lat]) => {
-    local.toPlane(long, lat, place);
-    return [place[0]!, place[1]!] as const;
-  });
+  const { plane: local, middle, vertices: positions } = lineOnEllipsoid(radians);
   const lengths = choices.stations === "geodesic" ? geodesicLengths(radians) : undefined;
   const strip = corridor({ positions, unit: 1 }, width, { lengths, start }, given);
   const geodetic: Geodetic = await radiansOf(origin);
   const { boundingBox } = origin.source;
-  const middle = [longitude, latitude].map((angle) => `${(angle / DEGREE).toFixed(4)}°`).join(", ");
+  const about = middle.map((angle) => `${(angle / DEGREE).toFixed(4)}°`).join(", ");
   return {
     strip,
     unit: 1,
@@ -103,7 +96,7 @@ export async function layLine(
       sections: (inner) => new CrossSectionsOnEllipsoid(inner, local, geodetic, boundingBox),
       facts: ({ epsg: _epsg, ...facts }) => ({
         ...facts,
-        crs: `transverse Mercator plane of WGS 84 about ${middle}`,
+        crs: `transverse Mercator plane of WGS 84 about ${about}`,
         unit: { text: "m", size: 1 },
       }),
     },

@@ -148,7 +148,7 @@ export class MeasurementList {
     const changed = () => {
       height.hidden = base.value !== "height";
       const settings = settingsOf(base.value, height.valueAsNumber, ground.checked);
-      if (settings) this.#tool.setVolume(id, settings);
+      if (settings) this.#tool.change(id, { volume: settings });
     };
     for (const field of [base, height, ground]) field.addEventListener("change", changed);
     const element = document.createElement("div");

@@ -67,7 +67,15 @@ export async function writeProfile(
   choices: FileChoices,
 ): Promise<void> {
   const { crs } = profile.origin as PointCloud;
-  await format.write(profile, sink, { ...choices, facts: cutFacts(choices.title, crs) });
+  await format.write(profile, sink, { ...choices, facts: factsOf(profile, cutFacts(choices.title, crs)) });
+}
+
+/** What documents say of the coordinates: those of the plane in which the line lies. */
+function factsOf({ middle }: Profile, { epsg, ...facts }: CutFacts): CutFacts {
+  if (!middle) return { ...facts, epsg };
+  const about = middle.map((angle) => `${((angle * 180) / Math.PI).toFixed(4)}°`).join(", ");
+  const crs = `transverse Mercator plane of WGS 84 about ${about}`;
+  return { ...facts, crs, unit: { text: "m", size: 1 } };
 }
 
 function picture(format: "pdf" | "svg"): Write {
@@ -104,13 +112,17 @@ function dotsOf({ naturalWidth, naturalHeight }: HTMLImageElement): [number, num
 }
 
 async function writeSections(...[profile, sink, options]: Parameters<Write>): Promise<void> {
-  const { along, origin } = profile;
-  const { size } = origin.crs.horizontalUnit;
+  const { strip, origin, unit } = profile;
+  const ends = [strip.chainages[0]!, strip.chainages[strip.chainages.length - 1]!] as const;
   const { interval, width, thickness } = options.sections;
-  const ends = [along.chainages[0]!, along.chainages[along.chainages.length - 1]!] as const;
-  const half = width / 2 / size;
-  const volume = new CrossSections(along, stations(...ends, { interval: interval / size }), {
-    ...{ left: half, right: half, thickness: thickness / size },
+  const half = width / 2 / unit;
+  const sections = new CrossSections(strip, stations(...ends, { interval: interval / unit }), {
+    ...{ left: half, right: half, thickness: thickness / unit },
   });
-  await exportSections([{ origin, volume }], sink, { ...options, line: along, files: ["las", "dxf", "svg"] });
+  const volume = profile.across(sections);
+  await exportSections([{ origin, volume }], sink, {
+    ...options,
+    line: profile.along,
+    files: ["las", "dxf", "svg"],
+  });
 }

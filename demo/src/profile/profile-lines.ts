@@ -1,6 +1,7 @@
 import { measureView, type PointCloudLayer } from "@groma/layer/cesium";
 import {
   type Measurement,
+  type MeasurementChange,
   MeasureTool,
   measurementsToGeoJson,
   readMeasurements,
@@ -8,6 +9,7 @@ import {
   type ViewAdapter,
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
+import { readLines } from "./line-file.js";
 
 /** A line on the globe: longitude and latitude of each vertex, radians. */
 export type DrawnLine = readonly (readonly [number, number])[];
@@ -74,7 +76,7 @@ export class ProfileLines {
   }
 
   /** Takes over the lines that were kept of a cloud, with their records. */
-  open(layer: PointCloudLayer): void {
+  attach(layer: PointCloudLayer): void {
     const { cloud } = layer;
     if (this.#cloud === cloud.name) {
       this.tool.attach([cloud]);
@@ -105,13 +107,29 @@ export class ProfileLines {
     this.#follow();
   }
 
+  /**
+   * Takes the lines of a file over, of which the last is chosen.
+   * @param begins hears of the chainage at its start, metres, before it is shown
+   * @throws as `readLines`
+   */
+  async open(file: File, begins: (start: number) => void): Promise<void> {
+    const layer = this.#layer();
+    if (!layer) return;
+    const lines = await readLines(file, layer.cloud);
+    begins(lines.at(-1)?.start ?? 0);
+    this.tool.add(
+      lines.map(({ name, vertices }) => ({ id: crypto.randomUUID(), kind: "polyline", name, vertices })),
+    );
+    if (lines.length > 0) this.choose(this.all.at(-1)?.id);
+  }
+
   rename(name: string): void {
-    this.#replace((line) => ({ ...line, name }));
+    this.#change(() => ({ name }));
   }
 
   /** Turns the line round: chainage begins at its other end. */
   reverse(): void {
-    this.#replace((line) => ({ ...line, vertices: line.vertices.toReversed() }));
+    this.#change(({ vertices }) => ({ vertices: vertices.toReversed() }));
   }
 
   remove(): void {
@@ -128,12 +146,9 @@ export class ProfileLines {
     for (const { id } of [...this.all]) this.tool.remove(id);
   }
 
-  #replace(change: (line: Measurement) => Measurement): void {
+  #change(change: (line: Measurement) => MeasurementChange): void {
     const { chosen } = this;
-    if (!chosen) return;
-    this.tool.remove(chosen.id);
-    this.tool.add([change(chosen)]);
-    this.choose(chosen.id);
+    if (chosen) this.tool.change(chosen.id, change(chosen));
   }
 
   #follow(): void {

@@ -14,6 +14,7 @@ import type { Viewer } from "cesium";
 import { byId, optionElement, setText } from "../panel/elements.js";
 import { ExportJob } from "../panel/export-job.js";
 import { groundTable } from "./ground-table.js";
+import { LineTools } from "./line-tools.js";
 import { ProfilePlot, placeOf } from "./plot.js";
 import type { PointColours } from "./point-colours.js";
 import { FORMATS, writeProfile } from "./profile-files.js";
@@ -42,6 +43,7 @@ export interface ProfileEvents {
 /** The profile of the page: lines, the picture of the points along one of them, what is measured in it, and its files. */
 export class ProfilePanel {
   readonly lines: ProfileLines;
+  readonly #lineTools: LineTools;
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #events: ProfileEvents;
   readonly #outline: StripOutline;
@@ -49,8 +51,6 @@ export class ProfilePanel {
   readonly #panel = byId("profile", HTMLElement);
   readonly #status = byId("profile-status", HTMLElement);
   readonly #readout = byId("profile-readout", HTMLElement);
-  readonly #list = byId("profile-list", HTMLSelectElement);
-  readonly #name = byId("profile-name", HTMLInputElement);
   readonly #width = byId("profile-width", HTMLInputElement);
   readonly #start = byId("profile-draw", HTMLButtonElement);
   readonly #format = byId("profile-format", HTMLSelectElement);
@@ -75,6 +75,7 @@ export class ProfilePanel {
     this.#layer = layer;
     this.#events = events;
     this.lines = new ProfileLines(viewer, layer, () => this.#follow(), events.failed);
+    this.#lineTools = new LineTools(this.lines, () => void this.#read(), events.failed);
     this.#mark = new PlaceMark(viewer);
     this.#outline = new StripOutline(viewer, layer, (width) => {
       this.#width.value = String(Number(width.toPrecision(3)));
@@ -113,7 +114,7 @@ export class ProfilePanel {
   open(layer: PointCloudLayer): void {
     this.#close();
     try {
-      this.lines.open(layer);
+      this.lines.attach(layer);
     } catch (thrown) {
       this.#events.failed(thrown);
     }
@@ -130,10 +131,6 @@ export class ProfilePanel {
     on(this.#start, "click", () => (this.drawing ? this.finish() : this.#begin()));
     on(this.#width, "change", () => void this.#read());
     on(byId("profile-close", HTMLButtonElement), "click", () => this.#close());
-    on(this.#list, "change", () => this.lines.choose(this.#list.value || undefined));
-    on(this.#name, "change", () => this.lines.rename(this.#name.value.trim() || "profile"));
-    on(byId("profile-reverse", HTMLButtonElement), "click", () => this.lines.reverse());
-    on(byId("profile-remove", HTMLButtonElement), "click", () => this.lines.remove());
     on(byId("profile-fit", HTMLButtonElement), "click", () => this.#plot?.fit());
     on(byId("profile-true", HTMLButtonElement), "click", () => this.#plot?.stretch(1));
     on(this.#stretch, "change", () => {
@@ -175,14 +172,8 @@ export class ProfilePanel {
 
   /** The lines have changed, or another one is shown. */
   #follow(): void {
-    const { all, chosen } = this.lines;
-    this.#list.replaceChildren(
-      optionElement({ value: "", label: "profiles…" }),
-      ...all.map(({ id, name }) => optionElement({ value: id, label: name })),
-    );
-    this.#list.hidden = all.length === 0;
-    this.#list.value = chosen?.id ?? "";
-    this.#name.value = chosen?.name ?? "";
+    const { chosen } = this.lines;
+    this.#lineTools.show();
     if (chosen) this.#panel.hidden = false;
     this.#tellState();
     if (this.lines.line.length > 1) void this.#read();
@@ -192,9 +183,6 @@ export class ProfilePanel {
   #tellState(): void {
     setText(this.#start, this.drawing ? "End the line" : "Draw a profile");
     this.#export.disabled = this.#profile === undefined;
-    for (const id of ["profile-reverse", "profile-remove"])
-      byId(id, HTMLButtonElement).disabled = this.lines.chosen === undefined;
-    this.#name.disabled = this.lines.chosen === undefined;
   }
 
   #picture(): ProfilePlot {
@@ -238,12 +226,13 @@ export class ProfilePanel {
   async #read(): Promise<void> {
     const layer = this.#layer();
     const { line, vertices } = this.lines;
+    const { start } = this.#lineTools;
     if (!layer || line.length < 2) return;
     this.#work?.abort();
     this.#work = new AbortController();
     const { signal } = this.#work;
     try {
-      const profile = new Profile(layer.cloud, { line, width: this.#width.valueAsNumber });
+      const profile = new Profile(layer.cloud, { line, width: this.#width.valueAsNumber, start });
       this.#profile = profile;
       this.#outline.show(profile, vertices);
       this.#tellState();
@@ -359,7 +348,7 @@ export class ProfilePanel {
     const format = FORMATS.get(this.#format.value);
     if (!profile || !format) return;
     const { statistic, classification } = this.#groundChoice();
-    const unit = profile.origin.crs.horizontalUnit.size;
+    const { unit } = profile;
     const classes = classification === undefined ? undefined : new Set([classification]);
     const chosen = this.#groundBy.value !== "";
     const stem = profile.origin.name.replace(/(\.copc)?\.laz$/i, "");

@@ -56,11 +56,12 @@ export class StripOutline {
     this.#viewer.scene.requestRender();
   }
 
-  #draw({ origin, along }: Profile, vertices: readonly Vertex[]): void {
+  #draw(profile: Profile, vertices: readonly Vertex[]): void {
+    const along = profile.strip;
     const place = new Float64Array(3);
     const heights = vertices.map(({ source }) => source?.[2] ?? 0);
     const at = (x: number, y: number, z: number) => {
-      origin.place(x, y, z, place);
+      profile.place(x, y, z, place);
       return new Cartesian3(place[0], place[1], place[2]);
     };
     for (const side of [along.reach, -along.reach]) {
@@ -92,8 +93,9 @@ export class StripOutline {
     const profile = this.#profile;
     const hit = await this.#layer()?.pick(new Cartesian2(clientX - left, clientY - top), { window: REACH });
     if (!hit || !profile) return;
-    const [x, y] = hit.source;
-    const width = 2 * distance(profile.along.vertices, x, y) * profile.origin.crs.horizontalUnit.size;
+    const place = new Float64Array(2);
+    profile.toPlane(...hit.source, place);
+    const width = 2 * distance(profile.strip.vertices, place[0]!, place[1]!) * profile.unit;
     if (width > 0) this.#widened(width);
   }
 
@@ -103,7 +105,7 @@ export class StripOutline {
     event.preventDefault();
     const profile = this.#profile;
     if (!profile) return;
-    const width = 2 * profile.along.reach * profile.origin.crs.horizontalUnit.size;
+    const width = 2 * profile.strip.reach * profile.unit;
     this.#widened(width * (wider ? STEP : 1 / STEP));
   }
 }

@@ -43,8 +43,17 @@ export { BoxVolume } from "./area/box-volume.js";
 export { ClippedVolume } from "./area/clipped-volume.js";
 export { PolygonVolume } from "./area/polygon-volume.js";
 export { SliceVolume } from "./area/slice-volume.js";
+export {
+  geodesicLengths,
+  Profile,
+  type ProfiledCloud,
+  type ProfileOptions,
+  type ProfilePoints,
+} from "./cut/profile.js";
+export type { MeasurementChange } from "./draw/history.js";
 export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
+export { type LineOnEllipsoid, lineOnEllipsoid } from "./ellipsoid/line-on-ellipsoid.js";
 export {
   CorridorOnEllipsoid,
   CrossSectionsOnEllipsoid,
@@ -68,13 +77,6 @@ export {
 } from "./plot/plot-measures.js";
 export { type PlotAxes, type PlotExtent, PlotView } from "./plot/plot-view.js";
 export { Corridor, type LinePlace, type Stationing } from "./profile/corridor.js";
-export {
-  geodesicLengths,
-  Profile,
-  type ProfiledCloud,
-  type ProfileOptions,
-  type ProfilePoints,
-} from "./profile/profile.js";
 export { sourceLine } from "./profile/source-line.js";
 export { type CrossSection, CrossSections, type SectionWidths } from "./sections/cross-sections.js";
 export { type StationOptions, stations, stationText } from "./sections/station.js";

@@ -71,11 +71,14 @@ export class History {
   }
 }
 
+/** What of a measurement may become another. */
+export type MeasurementChange = Partial<Pick<Measurement, "name" | "vertices" | "volume">>;
+
 /** Measurements of which one is changed. */
 export function withChange(
   measurements: readonly Measurement[],
   id: string,
-  change: Partial<Pick<Measurement, "vertices" | "volume">>,
+  change: MeasurementChange,
 ): readonly Measurement[] {
   return measurements.map((one) => (one.id === id ? { ...one, ...change } : one));
 }

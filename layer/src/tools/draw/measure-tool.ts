@@ -12,12 +12,11 @@ import {
   Readings,
   readsPoints,
   type Vertex,
-  type VolumeSettings,
   valuesOf,
   type WorthOptions,
 } from "../measure/index.js";
 import { figuresOf } from "./figures.js";
-import { freshName, History, withChange } from "./history.js";
+import { freshName, History, type MeasurementChange, withChange } from "./history.js";
 import { isSame } from "./placing.js";
 import { Surface } from "./surface.js";
 import type { ViewAdapter } from "./view-adapter.js";
@@ -86,7 +85,7 @@ export class MeasureTool {
       draft: () => this.#history.present.draft,
       placed: (vertex) => this.#add(vertex),
       ahead: (vertex, from) => this.#ahead(vertex, from),
-      reshape: (id, vertices) => this.#alter(id, { vertices }),
+      reshape: (id, vertices) => this.change(id, { vertices }),
       chosen: (id) => this.edit(id),
       used: (one) => {
         this.#used = one;
@@ -275,9 +274,11 @@ export class MeasureTool {
     this.#changed();
   }
 
-  /** Says how a volume is measured; one step of undo. */
-  setVolume(id: string, volume: VolumeSettings): void {
-    this.#alter(id, { volume });
+  /** Gives a measurement another name, other vertices, or says how its volume is measured; one step of undo. */
+  change(id: string, change: MeasurementChange): void {
+    const { measurements, draft } = this.#history.present;
+    this.#history.go({ measurements: withChange(measurements, id, change), draft });
+    this.#changed();
   }
 
   /** Takes a measurement out; `undo` brings it back. */
@@ -389,12 +390,6 @@ export class MeasureTool {
     else if (this.drawing && (name === "Backspace" || name === "Delete")) this.undo();
     else return false;
     return true;
-  }
-
-  #alter(id: string, change: Parameters<typeof withChange>[2]): void {
-    const { measurements, draft } = this.#history.present;
-    this.#history.go({ measurements: withChange(measurements, id, change), draft });
-    this.#changed();
   }
 
   /** Has failures told; what was given up is none. */

@@ -40,6 +40,13 @@ export abstract class OnEllipsoid<T extends InPlane> implements QueryVolume {
     this.#plane.toPlane(this.place[0], this.place[1], this.place);
   }
 
+  /** Where source coordinates are in the plane: x and y, metres, written to `out`. */
+  toPlane(x: number, y: number, z: number, out: Float64Array): void {
+    this.bring(x, y, z);
+    out[0] = this.place[0];
+    out[1] = this.place[1];
+  }
+
   contains(x: number, y: number, z: number): boolean {
     this.bring(x, y, z);
     return this.inner.contains(this.place[0], this.place[1]);

@@ -1,4 +1,4 @@
-import type { ProfilePoints } from "../profile/profile.js";
+import type { ProfilePoints } from "../cut/profile.js";
 import type { PlotView } from "./plot-view.js";
 
 /** A point of a plot. */

@@ -1,6 +1,7 @@
-import { PlacementError } from "@groma/georef";
+import { geodeticToEcef, PlacementError } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import type { PointBatch } from "../../query/index.js";
+import { CrossSections } from "../sections/cross-sections.js";
 import { geodesicLengths, Profile, type ProfiledCloud } from "./profile.js";
 
 const FOOT = 0.3048;
@@ -47,7 +48,7 @@ describe("a profile", () => {
       width: 10 * FOOT,
     });
     expect(profile.length).toBeCloseTo(100 * FOOT, 6);
-    expect(profile.volume.reach).toBeCloseTo(5, 9);
+    expect(profile.strip.reach).toBeCloseTo(5, 9);
     const { value: points } = await profile.points().next();
     if (!points) throw new Error("the profile has no points");
     expect([...points.batch.inside]).toEqual([0, 1]);
@@ -75,7 +76,70 @@ describe("a profile", () => {
     expect(geodesicLengths(north)[0]).toBeCloseTo(4984944.378, 2);
   });
 
-  it("refuses coordinates that are angles, and lines without length", () => {
+  it("is decided in metres on the ellipsoid where coordinates are angles, sections too", async () => {
+    const DEGREE = Math.PI / 180;
+    const east = (metres: number) => metres / (111_320 * Math.cos(47 * DEGREE));
+    // Points 10 m apart along the parallel, every second one 3 m to the north.
+    const count = 40;
+    const scale = 1e-8;
+    const xyz = new Int32Array(3 * count);
+    for (let point = 0; point < count; point++) {
+      const north = point % 2 === 0 ? 0 : 3 / 111_170;
+      xyz.set([Math.round(east(10 * point) / scale), Math.round(north / scale), 100 + point], 3 * point);
+    }
+    const cloud: ProfiledCloud = {
+      ...cloudOf("angular"),
+      ...{ scale: [scale, scale, 1], offset: [7, 47, 0] },
+      crs: { horizontalUnit: { kind: "angular", size: DEGREE }, verticalUnit: { size: 1 } } as never,
+      boundingBox: { min: [6.99, 46.99, 0], max: [7.02, 47.01, 1000] },
+      place: (x, y, z, out) => {
+        geodeticToEcef(x * DEGREE, y * DEGREE, z, out);
+        return out;
+      },
+      query: ({ volume } = {}) =>
+        ({
+          async *batches() {
+            const inside = Array.from({ length: count }, (_, point) => point).filter((point) =>
+              volume!.contains(
+                xyz[3 * point] * scale + 7,
+                xyz[3 * point + 1] * scale + 47,
+                xyz[3 * point + 2],
+              ),
+            );
+            const records = { count, xyz, attributes: [] };
+            yield { node: "0-0-0-0", records, inside: Uint32Array.from(inside) } as unknown as PointBatch;
+          },
+        }) as never,
+    };
+    const line = [
+      [(7 - east(1)) * DEGREE, 47 * DEGREE],
+      [(7 + east(201)) * DEGREE, 47 * DEGREE],
+    ] as const;
+    const profile = new Profile(cloud, { line, width: 4, start: 49 });
+    expect(profile.unit).toBe(1);
+    expect(profile.length).toBeCloseTo(202, 0);
+    const { value: points } = await profile.points().next();
+    // Those on the line alone: 0, 20, … 200 m.
+    expect([...points!.batch.inside]).toEqual(Array.from({ length: 11 }, (_, index) => 2 * index));
+    for (const [index, chainage] of points!.chainage.entries())
+      expect(Math.abs(chainage - 50 - 20 * index)).toBeLessThan(0.5);
+    const wider = await new Profile(cloud, { line, width: 7 }).points().next();
+    expect([...wider.value!.offset].filter((offset) => offset > 2.9)).toHaveLength(10);
+    const sections = profile.across(
+      new CrossSections(profile.strip, [100], { left: 5, right: 5, thickness: 1 }),
+    );
+    // 50 m from the start: the sixth point, 3 m to the north, and so to the left.
+    const place = new Float64Array(2);
+    sections.sections[0].strip.locate(7 + east(50), 47 + 3 / 111_170, place, 105);
+    expect(place[0]).toBeCloseTo(-3, 1);
+    const [ecef, there] = [new Float64Array(3), new Float64Array(3)];
+    profile.toPlane(7.001, 47.0001, 10, place);
+    profile.place(place[0], place[1], 10, ecef);
+    cloud.place(7.001, 47.0001, 10, there);
+    for (const axis of [0, 1, 2]) expect(ecef[axis]).toBeCloseTo(there[axis], 5);
+  });
+
+  it("refuses the plane of coordinates that are angles, and lines without length", () => {
     const line = [
       [0, 0],
       [radians(50), 0],
@@ -89,7 +153,8 @@ describe("a profile", () => {
       }
       return undefined;
     };
-    expect(codeOf(() => new Profile(cloudOf("angular"), { line, width: 1 }))).toBe("PLACE_ANGLES");
+    const source = { line, width: 1, plane: "source" } as const;
+    expect(codeOf(() => new Profile(cloudOf("angular"), source))).toBe("PLACE_ANGLES");
     expect(codeOf(() => new Profile(cloudOf(), { line: [line[0], line[0]], width: 1 }))).toBe("PLACE_LINE");
     expect(codeOf(() => new Profile(cloudOf(), { line, width: 0 }))).toBe("PLACE_LINE");
     expect(codeOf(() => new Profile(cloudOf(), { line, width: 1 }))).toBeUndefined();

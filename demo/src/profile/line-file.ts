@@ -1,0 +1,104 @@
+import { PlacementError } from "@groma/georef";
+import type { PointCloud } from "@groma/layer/cesium";
+import { Pace } from "@groma/layer/query";
+import {
+  type Alignment,
+  readDxfLine,
+  readLandXml,
+  readMeasurements,
+  sourceLine,
+  sourceVertex,
+  type Vertex,
+} from "@groma/layer/tools";
+
+/** A line of a file, as it lies in a cloud. */
+export interface FileLine {
+  readonly name: string;
+  readonly vertices: readonly Vertex[];
+  /** Chainage at its start, metres. */
+  readonly start: number;
+}
+
+type Places = readonly (readonly [number, number])[];
+
+/** Distance of the chords that stand for arcs from them, metres: fine for the eye, and few enough to be dragged. */
+const TOLERANCE = 0.01;
+
+/**
+ * Reads the lines of a file: GeoJSON in longitude and latitude; DXF (its polyline) and LandXML (its alignment) in the cloud's own
+ * coordinates. Vertices stand at the height of the recorded point that is nearest in the coarsest level.
+ * @throws FormatError FORMAT_ALIGNMENT; MeasureError MEASURE_FILE; PlacementError
+ */
+export async function readLines(file: File, cloud: PointCloud): Promise<FileLine[]> {
+  const text = (await file.text()).replace(/^\uFEFF/, "");
+  const ending = /\.(dxf|xml|landxml)$/i.exec(file.name)?.[1]?.toLowerCase();
+  if (!ending) {
+    const lines = linesOfGeoJson(text, cloud, file.name);
+    return Promise.all(
+      lines.map(async ({ name, places }) => ({ name, start: 0, vertices: await onPoints(places, cloud) })),
+    );
+  }
+  const alignment = (ending === "dxf" ? readDxfLine : readLandXml)(text, undefined, file.name);
+  const { places, start } = await inCloud(alignment, cloud, file.name);
+  return [{ name: alignment.name || file.name, start, vertices: await onPoints(places, cloud) }];
+}
+
+function linesOfGeoJson(text: string, cloud: PointCloud, file: string) {
+  const { measurements } = readMeasurements(asFeature(text), [], file);
+  return measurements
+    .filter(({ vertices, kind }) => vertices.length > 1 && (kind === "polyline" || kind === "distance"))
+    .map(({ name, vertices }) => {
+      const line = vertices.map(({ longitude, latitude }) => [longitude, latitude] as const);
+      return { name, places: sourceLine(cloud, line, file) };
+    });
+}
+
+/** A bare geometry as the feature that readers of measurements know; anything else as it is. */
+function asFeature(text: string): string {
+  try {
+    const value = JSON.parse(text);
+    if (value?.type === "LineString")
+      return JSON.stringify({ type: "Feature", properties: {}, geometry: value });
+  } catch {
+    // Whoever reads it says what is wrong with it.
+  }
+  return text;
+}
+
+/** An alignment in the unit of the cloud, arcs as fewer chords. */
+async function inCloud({ vertices, unit, start }: Alignment, { crs }: PointCloud, file: string) {
+  const { kind, size } = crs.horizontalUnit;
+  if (kind === "angular") {
+    throw new PlacementError({
+      ...{ code: "PLACE_ANGLES", file, cause: "the cloud's coordinates are angles, and its own are lengths" },
+      fix: "Give the line as GeoJSON, in longitude and latitude",
+    });
+  }
+  const factor = unit === undefined ? 1 : unit / size;
+  const { default: LineString } = await import("ol/geom/LineString.js");
+  const line = new LineString(vertices.map(([x, y]) => [x * factor, y * factor]));
+  const simple = line.simplify(TOLERANCE / size) as typeof line;
+  const places = simple.getCoordinates().map(([x, y]) => [x!, y!] as const);
+  return { places, start: start * factor * size };
+}
+
+/** Vertices at places, each as high as the point that is nearest to it. */
+async function onPoints(places: Places, cloud: PointCloud): Promise<Vertex[]> {
+  const heights = new Float64Array(places.length);
+  const nearest = new Float64Array(places.length).fill(Number.POSITIVE_INFINITY);
+  const pace = new Pace(undefined);
+  const { scale, offset } = cloud;
+  for await (const { records } of cloud.query({ spacing: Number.POSITIVE_INFINITY }).batches()) {
+    const { xyz, count } = records;
+    for (const [index, [x, y]] of places.entries()) {
+      for (let at = 0; at < 3 * count; at += 3) {
+        const away = Math.hypot(xyz[at]! * scale[0] + offset[0] - x, xyz[at + 1]! * scale[1] + offset[1] - y);
+        if (away >= nearest[index]!) continue;
+        nearest[index] = away;
+        heights[index] = xyz[at + 2]! * scale[2] + offset[2];
+      }
+      await pace.rest();
+    }
+  }
+  return places.map(([x, y], index) => sourceVertex(cloud, [x, y, heights[index]!]));
+}
