@@ -74,6 +74,7 @@ export { areaOfDomain, boundsOfPlaces, spread, withWorthThere } from "./georefer
 export { aroundPoints } from "./georeference/around-points.js";
 export { type DerivedOptions, deriveTransformation } from "./georeference/derive.js";
 export { fitPlacement } from "./georeference/fit.js";
+export { greatestBound } from "./georeference/greatest-bound.js";
 export { place } from "./georeference/place.js";
 export { placeIntegers } from "./georeference/place-integers.js";
 export type { Placement, Scheme } from "./georeference/placement.js";

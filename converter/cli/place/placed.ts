@@ -6,6 +6,7 @@ import {
   ENGINE,
   type ExactTransform,
   type GeoreferenceRecord,
+  greatestBound,
   type OperationReport,
   truthOf,
   withWorthThere,
@@ -44,7 +45,7 @@ export async function placed(scan: Named & Pick<Scan, "min" | "max" | "scale">):
   if (!record) {
     const { crs, basis, notes } = await georeference(scan, { engine: "proj4js" });
     const truth = truthOf({ crs }, middle, scan.file);
-    const accuracy = accuracyParts(withWorthThere(crs, truth, domainOf(scan)), scan.scale, TOLERANCE);
+    const accuracy = partsOf(crs, truth, scan);
     return { crs, basis, notes, truth, ...noReport, accuracy };
   }
   const { crs, similarity, engine, operation, accuracy } = record;
@@ -53,7 +54,7 @@ export async function placed(scan: Named & Pick<Scan, "min" | "max" | "scale">):
   const transformation = bytes === undefined ? undefined : Buffer.from(bytes, "base64");
   const truth = truthOf({ crs, similarity, transformation }, middle, scan.file);
   if (operation && !transformation) {
-    const accuracy = accuracyParts(withWorthThere(crs, truth, domainOf(scan)), scan.scale, TOLERANCE);
+    const accuracy = partsOf(crs, truth, scan);
     return { crs, basis, notes: [], truth, ...noReport, accuracy };
   }
   return {
@@ -67,6 +68,19 @@ export async function placed(scan: Named & Pick<Scan, "min" | "max" | "scale">):
     fitBound: fitBoundOf(truth),
     accuracy,
   };
+}
+
+function partsOf(
+  crs: Crs,
+  truth: Placed["truth"],
+  scan: Pick<Scan, "min" | "max" | "scale">,
+): AccuracyPart[] {
+  const domain = domainOf(scan);
+  return accuracyParts(
+    withWorthThere(crs, truth, domain),
+    scan.scale,
+    greatestBound(truth, domain, TOLERANCE),
+  );
 }
 
 /** Of a place that no conversion has settled. */

@@ -10,6 +10,7 @@ import {
   encodeRecord,
   encodeTransformation,
   type GeoreferenceRecord,
+  greatestBound,
   guessHeight,
   type OperationReport,
   ownLevel,
@@ -77,7 +78,8 @@ export async function makeRecords(
   const guess = await guessFor(crs, truth, domain);
   const outsideOf = heightSystemAbroad(crs, truth, { min, max });
   const operation = operationReport(report, guess, notes, outsideOf);
-  const accuracy = accuracyParts(crs, scale, TOLERANCE + report.fitBound, {
+  const fit = Math.max(TOLERANCE + report.fitBound, greatestBound(truth, domain, TOLERANCE));
+  const accuracy = accuracyParts(crs, scale, fit, {
     ...{ operation, geoids: geoidsOf(truth), guess, outsideOf },
   });
   const georeference = { version: 1, crs, engine: report.engine, operation, accuracy } as const;

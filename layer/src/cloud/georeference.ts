@@ -10,12 +10,11 @@ import {
   type EpsgLookup,
   encodeRecord,
   everyStep,
-  fitPlacement,
   type GeoreferenceRecord,
   GromaError,
+  greatestBound,
   type OperationReport,
   type PackedEpsg,
-  PlacementError,
   RECORD_FILE_MOST,
   RecordError,
   requireSame,
@@ -163,7 +162,7 @@ async function withOtherHeights(
   const report = operation && operationRegiven(operation, own, crs);
   const outsideOf = await systemAbroad(map.truth, crs, source, heightData);
   const placing = { operation: report ?? UNSTATED, geoids: map.geoids, outsideOf };
-  const bound = greatestBound(map.truth, source, tolerance);
+  const bound = boundOf(map.truth, source, tolerance);
   const parts = accuracyParts(crs, source.scale, bound, placing);
   return {
     ...map,
@@ -201,7 +200,7 @@ async function fromCrs(
     },
     geoids: map.geoids,
   };
-  const parts = accuracyParts(there, source.scale, greatestBound(map.truth, source, tolerance), placing);
+  const parts = accuracyParts(there, source.scale, boundOf(map.truth, source, tolerance), placing);
   const remarks = [whose, ...notes.map(({ text }) => text), ...(overruled ? [OVERRULED] : [])];
   const told = remarked(parts, "datum operation", remarks.join("; "));
   return {
@@ -240,7 +239,7 @@ function recorded(
   if (engine.name === "similarity" && !similarity) throw withoutSimilarity(source.name);
   const map = derived({ crs, similarity, transformation }, source);
   const common = { ...map, crs, basis: "record", tolerance } as const;
-  const bound = greatestBound(map.truth, source, tolerance);
+  const bound = boundOf(map.truth, source, tolerance);
   const lost = !transformation && !similarity && (engine.name === "PROJ" || operation !== undefined);
   if (lost) {
     const there = withWorthThere(crs, map.truth, domainOf(source));
@@ -252,21 +251,11 @@ function recorded(
   return { ...common, engine, operation, accuracy: statedAccuracy(parts) };
 }
 
-/**
- * How far a drawn point may be from its exact place, metres: the tolerance, but for data sets so wide that float32
- * alone costs more in their greatest nodes.
- */
-function greatestBound(truth: Truth, { name, boundingBox }: Declared, tolerance: number): number {
+/** What is stated of the drawn position, metres. */
+function boundOf(truth: Truth, { name, boundingBox }: Declared, tolerance: number): number {
   const [minX, minY, minZ] = boundingBox.min;
   const [maxX, maxY, maxZ] = boundingBox.max;
-  try {
-    const whole = fitPlacement(truth, { minX, minY, minZ, maxX, maxY, maxZ }, tolerance, name);
-    return Math.max(tolerance, whole.bound);
-  } catch (thrown) {
-    // Whoever looks for the sphere around the points finds the same, and says it better.
-    if (thrown instanceof PlacementError && thrown.code === "PLACE_DOMAIN") return tolerance;
-    throw thrown;
-  }
+  return greatestBound(truth, { minX, minY, minZ, maxX, maxY, maxZ }, tolerance, name);
 }
 
 /** The map, and what follows from it. */

@@ -15,10 +15,8 @@ export async function placingReport(root) {
   const plain = measurePlacing().map((row) => ({ panel: `node of ${length(row.edge)}`, ...row }));
   const grids = (await measureWithGrids(root)).map((row) => ({ panel: GRIDS[row.crs], ...row }));
   const named = (panel) => (row) => ({ panel, ...row });
-  const operations = (await measureOperations()).map(
-    named("1 km, operations of PROJ without a closed form in the page"),
-  );
-  const border = (await measureBorder()).map(named("1 km, where two operations of ED50 meet"));
+  const operations = (await measureOperations()).map(named("1 km, projections of PROJ alone"));
+  const border = (await measureBorder()).map(named("1 km, where two operations meet"));
   const rows = [...plain, ...grids, ...operations, ...border];
   const summaries = summarise(rows);
   return {
