@@ -120,9 +120,12 @@ export class MapView {
   /** Shows places in the middle, WGS 84, radians. */
   goTo(places: readonly { readonly longitude: number; readonly latitude: number }[]): void {
     const view = this.map.getView();
-    const degrees = places.map(({ longitude, latitude }) =>
-      [longitude, latitude].map((one) => one * (180 / Math.PI)),
-    );
+    const first = places[0]?.longitude ?? 0;
+    const degrees = places.map(({ longitude, latitude }) => {
+      // The shorter way around from the first: a line across the antimeridian is not the world.
+      const turns = Math.round((first - longitude) / (2 * Math.PI));
+      return [longitude + 2 * Math.PI * turns, latitude].map((one) => one * (180 / Math.PI));
+    });
     const extent = boundingExtent(degrees.map((one) => fromLonLat(one, view.getProjection())));
     if (extent.every(Number.isFinite)) view.fit(extent, { padding: AROUND, minResolution: FINEST });
   }

@@ -27,6 +27,9 @@ const SYSTEMS = new Map<string, MeasureUnitsOptions>([
 const HINT =
   "Click points, or move the crosshair with the arrow keys and press Enter. Twice in one place ends; Escape gives up.";
 
+/** Elements of the page that lie over globe and map. */
+const COVERING = ["panel", "picked", "profile"];
+
 /** The tool bar of measuring, and the list of what was measured. */
 export class Measuring {
   readonly tool: MeasureTool;
@@ -52,7 +55,10 @@ export class Measuring {
     this.#layer = layer;
     this.#told = told;
     const layers = () => [layer()].flatMap((one) => one ?? []);
-    this.tool = new MeasureTool(measureView(scene, layers), { onError: told });
+    this.tool = new MeasureTool(measureView(scene, layers), {
+      onError: told,
+      covering: () => COVERING.map((id) => byId(id, HTMLElement)),
+    });
     this.#list = new MeasurementList(this.tool, fly);
     this.tool.onChange(() => this.#show());
     this.#connectTools();

@@ -27,10 +27,17 @@ export function measureView(map: OlMap, layers: () => readonly PointCloudLayer[]
       }
       return highest;
     },
-    project({ longitude, latitude }) {
-      const lonLat = [longitude / DEGREE, latitude / DEGREE];
-      const pixel = map.getPixelFromCoordinate(fromLonLat(lonLat, map.getView().getProjection()));
-      const [x, y] = pixel ?? [];
+    project({ longitude, latitude }, near) {
+      const view = map.getView();
+      const projection = view.getProjection();
+      const at = fromLonLat([longitude / DEGREE, latitude / DEGREE], projection);
+      const world = projection.canWrapX() ? projection.getExtent() : undefined;
+      const about = near ? map.getCoordinateFromPixel([near.x, near.y]) : view.getCenter();
+      if (world && about) {
+        const width = world[2] - world[0];
+        at[0] += width * Math.round((about[0] - at[0]) / width);
+      }
+      const [x, y] = map.getPixelFromCoordinate(at) ?? [];
       return Number.isFinite(x) && Number.isFinite(y) ? { x, y } : undefined;
     },
     onFrame(listener) {

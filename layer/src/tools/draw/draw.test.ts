@@ -5,8 +5,7 @@ import { cloudOf, UTM } from "../measure/cloud.fixture.js";
 import { type Measurement, MeasureUnits, placeVertex, sourceVertex, type Vertex } from "../measure/index.js";
 import { courseOf, wayOf } from "./course.js";
 import { figuresOf } from "./figures.js";
-import { freshName, History, withChange } from "./history.js";
-import { placeLabels } from "./labels.js";
+import { freshName, grown, History, withChange } from "./history.js";
 import { isSame, Placing } from "./placing.js";
 import { snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
@@ -62,39 +61,18 @@ describe("the way back and forth", () => {
     expect(history.present.draft?.vertices).toEqual([b]);
   });
 
+  it("ends a figure in one place twice, at the beginning of an area, and with its last vertex", () => {
+    const [p, q, r] = [a, b, c].map((vertex, index) => ({ ...vertex, record: { ...vertex.record!, index } }));
+    expect(grown({ kind: "polyline", vertices: [p, q] }, q)).toEqual({ vertices: [p, q], ends: true });
+    expect(grown({ kind: "area", vertices: [p, q, r] }, p)).toEqual({ vertices: [p, q, r], ends: true });
+    expect(grown({ kind: "polyline", vertices: [p, q, r] }, p).vertices.length).toBe(4);
+    expect(grown({ kind: "area", vertices: [p, q] }, r)).toEqual({ vertices: [p, q, r], ends: false });
+    expect(grown({ kind: "distance", vertices: [p] }, q)).toEqual({ vertices: [p, q], ends: true });
+  });
+
   it("gives names that are free", () => {
     expect(freshName([line], "Line")).toBe("Line 2");
     expect(freshName([line], "Area")).toBe("Area 1");
-  });
-});
-
-describe("labels", () => {
-  const size = { width: 800, height: 600 };
-  const place = fc.record({ x: fc.integer({ min: 150, max: 650 }), y: fc.integer({ min: 100, max: 500 }) });
-
-  it("overlap neither each other nor what is measured, and stay in the view", () => {
-    fc.assert(
-      fc.property(fc.array(place, { maxLength: 6 }), (anchors) => {
-        const wishes = anchors.map((anchor) => ({ anchor, width: 80, height: 24 }));
-        const boxes = placeLabels(wishes, anchors, size);
-        for (const [i, one] of boxes.entries()) {
-          expect(one.x >= 0 && one.y >= 0 && one.x <= 720 && one.y <= 576).toBe(true);
-          for (const { x, y } of anchors) {
-            expect(x > one.x && x < one.x + 80 && y > one.y && y < one.y + 24).toBe(false);
-          }
-          for (const other of boxes.slice(0, i)) {
-            const overlap = Math.abs(one.x - other.x) < 80 && Math.abs(one.y - other.y) < 24;
-            expect(overlap).toBe(false);
-          }
-        }
-      }),
-    );
-  });
-
-  it("stand above what they belong to where nothing is in the way", () => {
-    expect(placeLabels([{ anchor: { x: 400, y: 300 }, width: 80, height: 24 }], [], size)).toEqual([
-      { x: 360, y: 262 },
-    ]);
   });
 });
 

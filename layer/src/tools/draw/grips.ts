@@ -82,7 +82,7 @@ export class Grips {
       told(placing.place(place, NOTHING, (vertex) => this.#put({ grip: into, vertex })));
     if (step && at) put({ x: at.x + step.x, y: at.y + step.y }, grip);
     else if (event.key === "Insert" && count < most && at) {
-      const next = view.project(of.vertices[(grip.vertex + 1) % count]) ?? at;
+      const next = view.project(of.vertices[(grip.vertex + 1) % count], at) ?? at;
       put({ x: (at.x + next.x) / 2, y: (at.y + next.y) / 2 }, { ...grip, between: true });
     } else if (event.key === "Delete" || event.key === "Backspace") {
       if (count > least) this.#host.reshape(of.id, of.vertices.toSpliced(grip.vertex, 1));

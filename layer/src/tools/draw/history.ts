@@ -1,4 +1,5 @@
-import type { Measurement, MeasurementKind, Vertex } from "../measure/index.js";
+import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind, type Vertex } from "../measure/index.js";
+import { isSame } from "./placing.js";
 
 /** A figure that is being drawn. */
 export interface Draft {
@@ -73,6 +74,21 @@ export class History {
 
 /** What of a measurement may become another. */
 export type MeasurementChange = Partial<Pick<Measurement, "name" | "vertices" | "volume">>;
+
+/**
+ * The vertices of a figure with a further one, and whether that ends it: once more in one place, or back at the beginning of
+ * an area, does and adds nothing.
+ */
+export function grown(
+  { kind, vertices }: Draft,
+  vertex: Vertex,
+): { readonly vertices: readonly Vertex[]; readonly ends: boolean } {
+  const { shape, most } = MEASUREMENT_KINDS[kind];
+  const last = vertices[vertices.length - 1];
+  const closes = shape === "ring" && vertices.length > 2 && isSame(vertices[0], vertex);
+  if (closes || (last && isSame(last, vertex))) return { vertices, ends: true };
+  return { vertices: [...vertices, vertex], ends: vertices.length + 1 === most };
+}
 
 /** Measurements of which one is changed. */
 export function withChange(

@@ -16,14 +16,15 @@ import {
   type WorthOptions,
 } from "../measure/index.js";
 import { figuresOf } from "./figures.js";
-import { freshName, History, type MeasurementChange, withChange } from "./history.js";
-import { isSame } from "./placing.js";
+import { freshName, grown, History, type MeasurementChange, withChange } from "./history.js";
 import { Surface } from "./surface.js";
 import type { ViewAdapter } from "./view-adapter.js";
 
 export interface MeasureToolOptions extends WorthOptions, Pick<ReadingOptions, "terrain" | "createWorker"> {
   /** How labels are written. Default: metres and degrees, in the reader's language. */
   readonly units?: MeasureUnits | undefined;
+  /** Elements of the page that lie over the views, panels say: labels stand beside them. */
+  readonly covering?: (() => readonly Element[]) | undefined;
   /** Hears what kept a record from being read. Default: `reportError`. */
   readonly onError?: ((thrown: unknown) => void) | undefined;
 }
@@ -91,6 +92,7 @@ export class MeasureTool {
         this.#used = one;
       },
       key: (event) => this.#key(event),
+      covering: () => this.#options.covering?.() ?? [],
       show: () => this.#show(),
       told: (work) => this.#told(work),
     });
@@ -357,17 +359,12 @@ export class MeasureTool {
       this.#show();
       return;
     }
-    const { kind, vertices } = draft;
-    const { shape, most } = MEASUREMENT_KINDS[kind];
-    const last = vertices[vertices.length - 1];
-    const closes = shape === "ring" && vertices.length > 2 && isSame(vertices[0], vertex);
-    if (closes || (last && isSame(last, vertex))) {
-      this.finish();
-      return;
+    const { vertices, ends } = grown(draft, vertex);
+    if (vertices !== draft.vertices) {
+      this.#hover = undefined;
+      this.#history.go({ measurements, draft: { kind: draft.kind, vertices } });
     }
-    this.#hover = undefined;
-    this.#history.go({ measurements, draft: { kind, vertices: [...vertices, vertex] } });
-    if (vertices.length + 1 === most) this.finish();
+    if (ends) this.finish();
     else this.#changed();
   }
 

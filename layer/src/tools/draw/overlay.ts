@@ -1,7 +1,7 @@
 import type { Vertex } from "../measure/index.js";
-import { courseOf, wayOf } from "./course.js";
+import { courseOf } from "./course.js";
 import type { Grip } from "./grip.js";
-import { placeLabels } from "./labels.js";
+import { placeLabels, type ScreenBox, seenAnchor } from "./labels.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 
 /** A figure as it is shown. */
@@ -35,6 +35,17 @@ interface Elements {
   readonly grips: { readonly element: SVGElement; readonly grip: Grip }[];
   readonly dots: SVGCircleElement[];
   readonly label: HTMLElement;
+  /** Where the label stood last. */
+  slot?: number;
+}
+
+/** Where a figure is seen. */
+interface Seen {
+  readonly places: readonly (ScreenPoint | undefined)[];
+  /** Where it leads on to, while it is drawn. */
+  readonly ahead: ScreenPoint | undefined;
+  /** The way through all of it, long edges along the earth; a ring is closed. */
+  readonly way: readonly (ScreenPoint | undefined)[];
 }
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -61,6 +72,7 @@ export class Overlay {
 
   readonly #view: ViewAdapter;
   readonly #events: OverlayEvents;
+  readonly #covering: () => readonly Element[];
   readonly #svg = svgElement("svg");
   readonly #cross = svgElement("path");
   readonly #elements = new Map<string, Elements>();
@@ -69,9 +81,11 @@ export class Overlay {
   /** What was laid out last; a frame in which nothing has moved changes nothing. */
   #last = "";
 
-  constructor(view: ViewAdapter, events: OverlayEvents) {
+  /** @param covering elements that lie over the view, asked for anew each time */
+  constructor(view: ViewAdapter, events: OverlayEvents, covering: () => readonly Element[]) {
     this.#view = view;
     this.#events = events;
+    this.#covering = covering;
     this.root.className = "groma-measure";
     this.root.style.cssText = "position:absolute;inset:0;overflow:hidden;pointer-events:none";
     this.#svg.style.cssText = "position:absolute;inset:0;width:100%;height:100%";
@@ -185,55 +199,81 @@ export class Overlay {
 
   /** Puts everything where the view shows it now. */
   layout(): void {
-    const places = this.#figures.map(({ vertices }) => vertices.map((vertex) => this.#view.project(vertex)));
+    const seen = this.#figures.map((figure) => this.#see(figure));
     const { clientWidth: width, clientHeight: height } = this.root;
-    const ahead = this.#figures.map((figure) => this.#aheadOf(figure));
-    const ways = this.#figures.map((figure, i) => this.#way(figure, ahead[i]));
-    const state = JSON.stringify([ways, places, ahead, this.crosshair, width, height]);
+    const covered = this.#figures.length > 0 ? this.#covered() : [];
+    const state = JSON.stringify([seen, this.crosshair, width, height, covered]);
     if (state === this.#last) return;
     this.#last = state;
-    const labels: { element: HTMLElement; anchor: ScreenPoint }[] = [];
+    const labels: { elements: Elements; anchor: ScreenPoint }[] = [];
     for (const [i, figure] of this.#figures.entries()) {
       const elements = this.#elements.get(keyOf(figure))!;
-      const anchor = this.#place(figure, elements, places[i], ways[i], ahead[i]);
-      elements.label.hidden = anchor === undefined || figure.label === "";
-      if (anchor && figure.label !== "") labels.push({ element: elements.label, anchor });
+      const wished = this.#place(figure, elements, seen[i]);
+      elements.label.hidden = wished === undefined || figure.label === "";
+      if (!wished || figure.label === "") continue;
+      const way = seen[i].way.length > 0 ? seen[i].way : seen[i].places;
+      labels.push({ elements, anchor: seenAnchor(wished, way, covered, { width, height }) });
     }
-    const wishes = labels.map(({ element, anchor }) => ({
-      ...{ anchor, width: element.offsetWidth, height: element.offsetHeight },
+    const wishes = labels.map(({ elements: { label, slot }, anchor }) => ({
+      ...{ anchor, slot, width: label.offsetWidth, height: label.offsetHeight },
     }));
-    const kept = [...places.flat(), ...ahead, this.crosshair].filter((place) => place !== undefined);
-    for (const [i, { x, y }] of placeLabels(wishes, kept, { width, height }).entries()) {
-      labels[i].element.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
+    const points = [...seen.flatMap(({ places, ahead }) => [...places, ahead]), this.crosshair].filter(
+      (place) => place !== undefined,
+    );
+    const obstacles = { points, lines: seen.map(({ way }) => way), covered };
+    for (const [i, { x, y, slot }] of placeLabels(wishes, obstacles, { width, height }).entries()) {
+      const { elements } = labels[i];
+      elements.slot = slot;
+      elements.label.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
     }
     const { crosshair: at } = this;
     this.#cross.setAttribute("d", at ? `M${at.x - 12} ${at.y}h24M${at.x} ${at.y - 12}v24` : "");
   }
 
-  /** Where the figure being drawn leads on to: the pointer, or what is pointed at on another view. */
-  #aheadOf({ id, ahead }: ShownFigure): ScreenPoint | undefined {
-    if (id !== undefined) return undefined;
-    return this.pointer ?? (ahead && this.#view.project(ahead));
+  /** What lies over the view, in its own pixels. */
+  #covered(): ScreenBox[] {
+    const { left, top } = this.root.getBoundingClientRect();
+    return this.#covering().flatMap((element) => {
+      const box = element.getBoundingClientRect();
+      if (box.width === 0 || box.height === 0) return [];
+      return { left: box.left - left, top: box.top - top, right: box.right - left, bottom: box.bottom - top };
+    });
   }
 
-  /** The line of a figure, long edges along the earth; a ring is closed. */
-  #way({ vertices, shape }: ShownFigure, ahead: ScreenPoint | undefined): (ScreenPoint | undefined)[] {
+  /** Each place beside the one before: a map may show the earth more than once. */
+  #see({ id, vertices, shape, ahead }: ShownFigure): Seen {
+    let near: ScreenPoint | undefined;
+    const see = (vertex: Vertex) => {
+      const at = this.#view.project(vertex, near);
+      near = at ?? near;
+      return at;
+    };
+    const way: (ScreenPoint | undefined)[] = [];
+    const places = vertices.map((vertex, i) => {
+      const before = vertices[i - 1];
+      if (before) way.push(...courseOf(before, vertex).map(see));
+      const place = see(vertex);
+      way.push(place);
+      return place;
+    });
+    // The pointer, or what is pointed at on another view.
+    const next = id === undefined ? (this.pointer ?? (ahead && see(ahead))) : undefined;
     const [first] = vertices;
-    if (shape === "points" || !first) return [];
-    const way = wayOf(vertices).map((vertex) => this.#view.project(vertex));
-    if (ahead) way.push(ahead);
-    if (shape !== "ring" || vertices.length + Number(ahead !== undefined) < 3) return way;
-    const back = ahead ? [] : courseOf(vertices[vertices.length - 1], first);
-    return [...way, ...[...back, first].map((vertex) => this.#view.project(vertex))];
+    if (shape === "points" || !first) return { places, ahead: next, way: [] };
+    if (next) way.push(next);
+    if (shape !== "ring" || vertices.length + Number(next !== undefined) < 3) {
+      return { places, ahead: next, way };
+    }
+    if (next) way.push(places[0]);
+    else way.push(...[...courseOf(vertices[vertices.length - 1], first), first].map(see));
+    return { places, ahead: next, way };
   }
 
   /** @returns where its label belongs; undefined where nothing of it is in the view */
   #place(
     { id, shape }: ShownFigure,
     { line, dots, grips }: Elements,
-    places: readonly (ScreenPoint | undefined)[],
-    way: readonly (ScreenPoint | undefined)[],
-    ahead: ScreenPoint | undefined,
+    { places, way, ahead }: Seen,
   ): ScreenPoint | undefined {
     line.setAttribute("d", pathOf(way));
     for (const [i, place] of places.entries()) move(dots[i], place);

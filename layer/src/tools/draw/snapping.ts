@@ -60,7 +60,8 @@ export function nearestOnEdge(view: ViewAdapter, at: ScreenPoint, { edges }: Sna
   let nearest: Vertex | undefined;
   let least = SNAP;
   for (const [a, b] of edges) {
-    const [from, to] = [view.project(a), view.project(b)];
+    const from = view.project(a, at);
+    const to = view.project(b, from);
     // As far as both are seen, an edge is drawn straight.
     if (!from || !to || toSegment(at, from, to) > least) continue;
     const vertex = between(a, b, shareOf(view, a, b, at));
@@ -94,7 +95,7 @@ function spatial(a: Vertex, b: Vertex, share: number): Vertex {
 }
 
 function away(view: ViewAdapter, vertex: Vertex, at: ScreenPoint): number {
-  const place = view.project(vertex);
+  const place = view.project(vertex, at);
   return place ? Math.hypot(place.x - at.x, place.y - at.y) : Number.POSITIVE_INFINITY;
 }
 

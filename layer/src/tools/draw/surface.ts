@@ -1,4 +1,5 @@
 import type { Measurement, Vertex } from "../measure/index.js";
+import type { Grip } from "./grip.js";
 import { Grips } from "./grips.js";
 import type { Draft } from "./history.js";
 import { Overlay, type ShownFigure } from "./overlay.js";
@@ -23,6 +24,8 @@ export interface SurfaceHost {
   used(surface: Surface): void;
   /** A key that this view has no use for. @returns whether it meant anything */
   key(event: KeyboardEvent): boolean;
+  /** Elements that lie over the views. */
+  covering(): readonly Element[];
   /** Has every view show what is drawn. */
   show(): void;
   /** Has failures told. */
@@ -44,11 +47,12 @@ export class Surface {
     this.#host = host;
     const { signal } = this.#end;
     this.#placing = new Placing(view, host.turns, signal);
-    this.#overlay = new Overlay(view, {
-      grabbed: (grip, event) => this.grips.grab(grip, event),
-      key: (grip, event) => this.grips.key(grip, event),
-      chosen: (id) => host.chosen(id),
-    });
+    const events = {
+      grabbed: (grip: Grip, event: PointerEvent) => this.grips.grab(grip, event),
+      key: (grip: Grip, event: KeyboardEvent) => this.grips.key(grip, event),
+      chosen: (id: string) => host.chosen(id),
+    };
+    this.#overlay = new Overlay(view, events, () => host.covering());
     this.grips = new Grips({
       ...{ view, placing: this.#placing, overlay: this.#overlay },
       measurements: () => host.measurements(),

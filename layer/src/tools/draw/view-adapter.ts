@@ -16,8 +16,12 @@ export interface ViewAdapter {
    * @returns undefined where there is none
    */
   pick(at: ScreenPoint, reach: number, signal: AbortSignal): Promise<Vertex | undefined>;
-  /** Where the view shows a vertex; undefined where it does not. */
-  project(vertex: Vertex): ScreenPoint | undefined;
+  /**
+   * Where the view shows a vertex; undefined where it does not.
+   * @param near which of several places, on a map that shows the earth more than once: the one nearest to this, else to
+   *   the middle of the view
+   */
+  project(vertex: Vertex, near?: ScreenPoint): ScreenPoint | undefined;
   /** Calls back after each frame in which figures may have moved. @returns what ends that */
   onFrame(listener: () => void): () => void;
   /** Has the view drawn again, where it draws on demand only. */
