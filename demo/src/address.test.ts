@@ -97,6 +97,11 @@ describe("the options of the page", () => {
     expect(codeOf(() => read(query))).toBe("PAGE_OPTION");
   });
 
+  it("name a terrain, relative to the page or not", () => {
+    expect(read("terrain=/terrain/").terrain).toBe("http://localhost:8080/terrain/");
+    expect(codeOf(() => read("terrain=javascript:alert(1)"))).toBe("PAGE_ADDRESS");
+  });
+
   it("do not open what is no address of a cloud", () => {
     expect(codeOf(() => read("cloud=javascript:alert(1)"))).toBe("PAGE_ADDRESS");
     expect(codeOf(() => read("cloud="))).toBe("PAGE_ADDRESS");

@@ -16,6 +16,8 @@ export interface PageOptions {
   readonly vertical?: string;
   /** Absolute address of the georeference that `groma georef` made for the cloud. */
   readonly georef?: string;
+  /** Absolute address of a terrain of Cesium's, the folder with its `layer.json`. */
+  readonly terrain?: string;
   /** Whether the camera flies to the cloud rather than being there at once. */
   readonly fly: boolean;
   /** What is shown from the beginning, where it is not the globe alone. */
@@ -27,8 +29,8 @@ export interface PageOptions {
 const MOST_POINTS = 100_000_000;
 
 /**
- * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `georef`, `fly`, `map`,
- * `link`. Others are left alone.
+ * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `georef`, `terrain`,
+ * `fly`, `map`, `link`. Others are left alone.
  * @param page the page's whole address
  * @throws PageError PAGE_ADDRESS, PAGE_OPTION
  */
@@ -41,6 +43,7 @@ export function readPageOptions(page: string): PageOptions {
   const crs = query.get("crs");
   const vertical = query.get("vertical");
   const georef = query.get("georef");
+  const terrain = query.get("terrain");
   const map = word(query, "map", ["0", "1", "only"]) ?? "0";
   return {
     ...(cloud !== null && { cloud: cloudAddress(cloud, page) }),
@@ -50,6 +53,7 @@ export function readPageOptions(page: string): PageOptions {
     ...(crs && { crs }),
     ...(vertical && { vertical }),
     ...(georef && { georef: cloudAddress(georef, page) }),
+    ...(terrain && { terrain: cloudAddress(terrain, page) }),
     ...(map !== "0" && { shown: map === "1" ? "both" : "map" }),
     ...(word(query, "link", ["0", "1"]) === "0" && { linked: false }),
     fly: word(query, "fly", ["0", "1"]) !== "0",

@@ -30,7 +30,7 @@ import { ProfilePanel } from "./profile/profile-panel.js";
 import { type Flight, goToCloud, goToPlaces } from "./scene/camera.js";
 import { ClipBox } from "./scene/clip-box.js";
 import { Picking } from "./scene/picking.js";
-import { addBaseMap, createViewer } from "./viewer.js";
+import { addBaseMap, addTerrain, createViewer } from "./viewer.js";
 
 const message = new Message();
 
@@ -57,6 +57,7 @@ function start(viewer: Viewer): void {
       if (!beside.linked) void beside.view?.then((view) => view.goTo(vertices));
     },
     (thrown) => message.show(thrown),
+    (text) => cloudAddress(text, location.href),
   );
   const beside = new Beside(
     viewer,
@@ -126,6 +127,9 @@ function start(viewer: Viewer): void {
   } catch (thrown) {
     message.show(thrown);
     return;
+  }
+  if (options.terrain) {
+    addTerrain(viewer, options.terrain).catch((thrown: unknown) => message.show(thrown));
   }
   if (options.shown) beside.show(options.shown, options.linked);
   openNamed();
@@ -253,7 +257,7 @@ function start(viewer: Viewer): void {
     exporting.attach(layer);
     ledger.attach(layer);
     picking.clear();
-    measuring.tool.attach([layer.cloud]);
+    measuring.attach();
     beside.attach(layer);
     profile.open(layer);
     progress.follow(layer);

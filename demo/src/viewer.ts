@@ -1,4 +1,10 @@
-import { buildModuleUrl, ImageryLayer, TileMapServiceImageryProvider, Viewer } from "cesium";
+import {
+  buildModuleUrl,
+  CesiumTerrainProvider,
+  ImageryLayer,
+  TileMapServiceImageryProvider,
+  Viewer,
+} from "cesium";
 import { PageError } from "./panel/page-error.js";
 
 /**
@@ -60,6 +66,24 @@ export async function addBaseMap(viewer: Viewer): Promise<void> {
       file: url,
       cause: "the base map cannot be loaded; the globe stays plain",
       fix: "Serve the folder cesium beside the page",
+    });
+  }
+}
+
+/**
+ * Gives the globe a terrain, which heights are measured above too.
+ * @param address of the folder with its `layer.json`
+ * @throws PageError PAGE_TERRAIN where there is none that Cesium reads
+ */
+export async function addTerrain(viewer: Viewer, address: string): Promise<void> {
+  try {
+    viewer.terrainProvider = await CesiumTerrainProvider.fromUrl(address);
+  } catch {
+    throw new PageError({
+      code: "PAGE_TERRAIN",
+      file: address,
+      cause: "there is no terrain that can be read; the globe stays smooth",
+      fix: "Give the folder with the terrain's layer.json (quantized-mesh or heightmap), from a server that lets this page read it",
     });
   }
 }

@@ -17,6 +17,9 @@ const BASES = new Map<string, string>([
   ["height", "a height"],
 ]);
 
+/** Begins the choices that are scans; their names follow. */
+const CLOUD = "cloud:";
+
 /** ASPRS class of the ground. */
 const GROUND = 2;
 
@@ -32,6 +35,8 @@ interface Entry {
 
 interface Settings {
   readonly element: HTMLElement;
+  /** Lets the volume be measured against further scans. */
+  offer(names: readonly string[]): void;
   fill(volume: VolumeSettings | undefined): void;
 }
 
@@ -39,12 +44,21 @@ interface Settings {
 export class MeasurementList {
   readonly #tool: MeasureTool;
   readonly #fly: (measurement: Measurement) => void;
+  readonly #others: () => readonly { readonly name: string }[];
   readonly #list = byId("measurements", HTMLOListElement);
   #entries: readonly Entry[] = [];
 
-  /** @param fly takes the views to a measurement */
-  constructor(tool: MeasureTool, fly: (measurement: Measurement) => void) {
+  /**
+   * @param others scans that volumes can be measured against
+   * @param fly takes the views to a measurement
+   */
+  constructor(
+    tool: MeasureTool,
+    others: () => readonly { readonly name: string }[],
+    fly: (measurement: Measurement) => void,
+  ) {
     this.#tool = tool;
+    this.#others = others;
     this.#fly = fly;
   }
 
@@ -54,6 +68,7 @@ export class MeasurementList {
     this.#entries = this.#tool.measurements.map((measurement) => {
       const there = kept.get(measurement.id);
       const entry = there ? { ...there, measurement } : this.#entry(measurement);
+      entry.settings?.offer(this.#others().map(({ name }) => name));
       // Not while it is read: who types a height is not disturbed.
       if (there?.measurement !== measurement) entry.settings?.fill(measurement.volume);
       this.#fill(entry);
@@ -154,13 +169,23 @@ export class MeasurementList {
     const element = document.createElement("div");
     element.className = "row";
     element.append(base, height, only);
+    const offer = (names: readonly string[]) => {
+      for (const name of names) {
+        const value = CLOUD + name;
+        const there = Array.from(base.options).some((option) => option.value === value);
+        if (!there) base.append(optionElement({ value, label: `the scan ${name}` }));
+      }
+    };
     const fill = (volume: VolumeSettings | undefined) => {
-      base.value = volume?.base?.kind ?? "lowest";
+      const against = volume?.base;
+      // A scan that is not open is what the volume was measured against all the same.
+      if (against?.kind === "cloud") offer([against.dataset]);
+      base.value = against?.kind === "cloud" ? CLOUD + against.dataset : (against?.kind ?? "lowest");
       height.hidden = base.value !== "height";
       if (volume?.base?.kind === "height") height.valueAsNumber = volume.base.height;
       ground.checked = volume?.classes?.length === 1 && volume.classes[0] === GROUND;
     };
-    return { element, fill };
+    return { element, offer, fill };
   }
 }
 
@@ -169,6 +194,9 @@ function settingsOf(base: string, height: number, groundOnly: boolean): VolumeSe
   const classes = groundOnly ? { classes: [GROUND] } : {};
   if (base === "height") {
     return Number.isFinite(height) ? { base: { kind: "height", height }, ...classes } : undefined;
+  }
+  if (base.startsWith(CLOUD)) {
+    return { base: { kind: "cloud", dataset: base.slice(CLOUD.length) }, ...classes };
   }
   const kind = (["highest", "plane", "ring"] as const).find((one) => one === base) ?? "lowest";
   return { base: { kind }, ...classes };

@@ -1,9 +1,8 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
-import { measureView } from "@groma/layer/cesium";
+import { measureView, terrainOf } from "@groma/layer/cesium";
 import {
-  MEASUREMENT_KINDS,
+  MeasureControl,
   type Measurement,
-  type MeasurementKind,
   MeasureTool,
   MeasureUnits,
   type MeasureUnitsOptions,
@@ -13,82 +12,104 @@ import {
   valuesToCsv,
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
-import { byId, optionElement, setText, textElement } from "./elements.js";
+import { Compared } from "./compared.js";
+import { byId, optionElement, setText } from "./elements.js";
 import { MeasurementList } from "./measurement-list.js";
 
 /** Units that go together, by what the reader chooses. */
 const SYSTEMS = new Map<string, MeasureUnitsOptions>([
   ["metres", {}],
-  ["feet", { length: "feet", area: "squareFeet" }],
-  ["US survey feet", { length: "usSurveyFeet", area: "squareUsSurveyFeet" }],
+  ["kilometres, hectares", { length: "kilometres", area: "hectares" }],
+  ["feet", { length: "feet", area: "squareFeet", volume: "cubicFeet" }],
+  ["feet, acres, cubic yards", { length: "feet", area: "acres", volume: "cubicYards" }],
+  ["US survey feet", { length: "usSurveyFeet", area: "squareUsSurveyFeet", volume: "cubicUsSurveyFeet" }],
+  ["yards", { length: "yards", area: "squareYards", volume: "cubicYards" }],
+  ["miles", { length: "miles", area: "squareMiles", volume: "acreFeet" }],
+  ["nautical miles", { length: "nauticalMiles" }],
 ]);
+
+const SLOPES = new Map<string, MeasureUnitsOptions>([
+  ["degrees", {}],
+  ["percent", { slope: "percent" }],
+  ["ratio, as 1 : 20", { slope: "ratio" }],
+  ["grade, rise over run", { slope: "grade" }],
+]);
+
+const ANGLES = new Map<string, MeasureUnitsOptions>([
+  ["degrees", {}],
+  ["degrees, minutes, seconds", { angle: "dms", coordinates: "dms" }],
+  ["gon", { angle: "gon" }],
+]);
+
+/** Elements of the page that lie over globe and map. */
+const COVERING = ["panel", "picked", "profile"];
 
 /** What the tool bar says while a figure is drawn. */
 const HINT =
   "Click points, or move the crosshair with the arrow keys and press Enter. Twice in one place ends; Escape gives up.";
-
-/** Elements of the page that lie over globe and map. */
-const COVERING = ["panel", "picked", "profile"];
 
 /** The tool bar of measuring, and the list of what was measured. */
 export class Measuring {
   readonly tool: MeasureTool;
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #told: (thrown: unknown) => void;
-  readonly #buttons = new Map<MeasurementKind, HTMLButtonElement>();
   readonly #list: MeasurementList;
+  readonly #compared: Compared;
   readonly #hint = byId("measure-hint", HTMLParagraphElement);
-  readonly #undo = byId("measure-undo", HTMLButtonElement);
-  readonly #redo = byId("measure-redo", HTMLButtonElement);
 
   /**
    * @param layer what is measured
    * @param fly takes the camera to a measurement
    * @param told hears of what could not be read
+   * @param address of a cloud, by what the reader typed; throws where that is none
    */
   constructor(
-    { scene }: Viewer,
+    viewer: Viewer,
     layer: () => PointCloudLayer | undefined,
     fly: (measurement: Measurement) => void,
     told: (thrown: unknown) => void,
+    address: (text: string) => string,
   ) {
     this.#layer = layer;
     this.#told = told;
     const layers = () => [layer()].flatMap((one) => one ?? []);
-    this.tool = new MeasureTool(measureView(scene, layers), {
+    this.tool = new MeasureTool(measureView(viewer.scene, layers), {
+      terrain: terrainOf(() => viewer.terrainProvider),
       onError: told,
       covering: () => COVERING.map((id) => byId(id, HTMLElement)),
     });
-    this.#list = new MeasurementList(this.tool, fly);
+    this.#compared = new Compared(address, () => this.attach(), told);
+    this.#list = new MeasurementList(this.tool, () => this.#compared.clouds, fly);
     this.tool.onChange(() => this.#show());
-    this.#connectTools();
+    byId("measure-tools", HTMLDivElement).append(new MeasureControl(this.tool).element);
     this.#connectFields();
     this.#connectFiles();
     this.#show();
   }
 
-  #connectTools(): void {
-    const place = byId("measure-tools", HTMLDivElement);
-    for (const [kind, { title }] of Object.entries(MEASUREMENT_KINDS)) {
-      const button = textElement("button", title);
-      button.type = "button";
-      button.addEventListener("click", () => {
-        if (this.tool.drawing === kind) this.tool.cancel();
-        else this.tool.draw(kind as MeasurementKind).catch(this.#told);
-      });
-      this.#buttons.set(kind as MeasurementKind, button);
-      place.append(button);
-    }
-    this.#undo.addEventListener("click", () => this.tool.undo());
-    this.#redo.addEventListener("click", () => this.tool.redo());
+  /** Puts vertices on the cloud that is shown, and lets volumes be measured against those opened beside it. */
+  attach(): void {
+    const shown = this.#layer()?.cloud;
+    this.tool.attach([...(shown ? [shown] : []), ...this.#compared.clouds]);
   }
 
   #connectFields(): void {
-    const system = byId("measure-units", HTMLSelectElement);
-    for (const value of SYSTEMS.keys()) system.append(optionElement({ value, label: value }));
-    system.addEventListener("change", () => {
-      this.tool.units = new MeasureUnits(SYSTEMS.get(system.value));
+    const choices = [
+      ["measure-units", SYSTEMS],
+      ["measure-slopes", SLOPES],
+      ["measure-angles", ANGLES],
+    ] as const;
+    const fields = choices.map(([id, values]) => {
+      const field = byId(id, HTMLSelectElement);
+      for (const value of values.keys()) field.append(optionElement({ value, label: value }));
+      return [field, values] as const;
     });
+    for (const [field] of fields) {
+      field.addEventListener("change", () => {
+        const chosen = fields.map(([one, values]) => values.get(one.value));
+        this.tool.units = new MeasureUnits(Object.assign({}, ...chosen));
+      });
+    }
     const precision = byId("measure-precision", HTMLInputElement);
     precision.addEventListener("change", () => {
       const given = precision.value === "" ? undefined : precision.valueAsNumber / 1000;
@@ -118,7 +139,8 @@ export class Measuring {
   }
 
   async #open(file: File): Promise<void> {
-    const clouds = [this.#layer()].flatMap((layer) => layer?.cloud ?? []);
+    const shown = this.#layer()?.cloud;
+    const clouds = [...(shown ? [shown] : []), ...this.#compared.clouds];
     const { measurements, notes } = readMeasurements(await file.text(), clouds, file.name);
     this.tool.add(measurements);
     setText(this.#hint, notes.join("; "));
@@ -126,11 +148,6 @@ export class Measuring {
 
   #show(): void {
     const { tool } = this;
-    for (const [kind, button] of this.#buttons) {
-      button.setAttribute("aria-pressed", String(tool.drawing === kind));
-    }
-    this.#undo.disabled = !tool.canUndo;
-    this.#redo.disabled = !tool.canRedo;
     setText(this.#hint, tool.drawing ? HINT : "");
     this.#list.show();
   }

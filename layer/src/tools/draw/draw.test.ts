@@ -5,8 +5,8 @@ import { cloudOf, UTM } from "../measure/cloud.fixture.js";
 import { type Measurement, MeasureUnits, placeVertex, sourceVertex, type Vertex } from "../measure/index.js";
 import { courseOf, wayOf } from "./course.js";
 import { figuresOf } from "./figures.js";
-import { freshName, grown, History, withChange } from "./history.js";
-import { isSame, Placing } from "./placing.js";
+import { freshName, grown, History, isSame, withChange } from "./history.js";
+import { Placing } from "./placing.js";
 import { snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 

@@ -1,5 +1,4 @@
 import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind, type Vertex } from "../measure/index.js";
-import { isSame } from "./placing.js";
 
 /** A figure that is being drawn. */
 export interface Draft {
@@ -105,4 +104,13 @@ export function freshName(measurements: readonly Measurement[], title: string): 
   let number = 1;
   while (names.has(`${title} ${number}`)) number++;
   return `${title} ${number}`;
+}
+
+/** Whether two vertices are one: the same record, or the same place where they are none. */
+export function isSame(a: Vertex, b: Vertex): boolean {
+  if (a.record && b.record) {
+    const [one, other] = [a.record, b.record];
+    return one.dataset === other.dataset && one.node === other.node && one.index === other.index;
+  }
+  return a.ecef.every((value, axis) => value === b.ecef[axis]);
 }

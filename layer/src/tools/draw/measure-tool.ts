@@ -220,8 +220,9 @@ export class MeasureTool {
       };
       this.#waiting = { resolve: settled, id };
     });
-    this.#used?.focus();
     this.#changed();
+    // The view that was used last may be hidden now.
+    if (!this.#used?.focus()) this.#surfaces.find((surface) => surface.focus());
     return done;
   }
 

@@ -112,6 +112,9 @@ export class Overlay {
       this.#elements.delete(key);
     }
     for (const figure of figures) this.#fill(figure);
+    // While a figure is drawn, clicks are its own: a label may lie where a vertex belongs.
+    const hears = keys.has("") ? "none" : "auto";
+    for (const { label } of this.#elements.values()) label.style.pointerEvents = hears;
     this.#last = "";
     this.layout();
   }
@@ -170,10 +173,7 @@ export class Overlay {
     label.className = "groma-label";
     label.style.cssText = "position:absolute;left:0;top:0;white-space:pre";
     const { id } = figure;
-    if (id !== undefined) {
-      label.style.pointerEvents = "auto";
-      label.addEventListener("click", () => this.#events.chosen(id));
-    }
+    if (id !== undefined) label.addEventListener("click", () => this.#events.chosen(id));
     this.root.append(label);
     return { group, line, grips: [], dots: [], label };
   }

@@ -57,12 +57,3 @@ export class Placing {
     );
   }
 }
-
-/** Whether two vertices are one: the same record, or the same place where they are none. */
-export function isSame(a: Vertex, b: Vertex): boolean {
-  if (a.record && b.record) {
-    const [one, other] = [a.record, b.record];
-    return one.dataset === other.dataset && one.node === other.node && one.index === other.index;
-  }
-  return a.ecef.every((value, axis) => value === b.ecef[axis]);
-}

@@ -74,16 +74,24 @@ export class Surface {
     }
   }
 
-  /** Gives the keyboard to the view. */
-  focus(): void {
+  /** Gives the keyboard to the view. @returns whether it took it: one that is hidden or inert does not */
+  focus(): boolean {
+    const { element } = this.view;
+    this.#reachable();
+    element.focus({ preventScroll: true });
+    return document.activeElement === element;
+  }
+
+  /** Lets the keyboard come to the view, from another one too. */
+  #reachable(): void {
     const { element } = this.view;
     if (element.tabIndex < 0) element.tabIndex = 0;
-    element.focus({ preventScroll: true });
   }
 
   show(figures: readonly ShownFigure[]): void {
     const drawing = this.#host.draft() !== undefined;
     if (drawing !== this.#drawing) this.view.drawing?.(drawing);
+    if (drawing) this.#reachable();
     this.#drawing = drawing;
     this.#overlay.show(figures);
   }

@@ -1,0 +1,53 @@
+import { PointCloud } from "@groma/layer/cesium";
+import { byId, setText } from "./elements.js";
+
+/** Scans that volumes are measured against: opened beside the one that is shown, and not drawn. */
+export class Compared {
+  readonly #clouds = new Map<string, PointCloud>();
+  readonly #changed: () => void;
+  readonly #failed: (thrown: unknown) => void;
+  readonly #note = byId("compare-note", HTMLParagraphElement);
+
+  /**
+   * @param address of what the reader typed; throws where that is none
+   * @param changed told when there is a further one
+   * @param failed told of what cannot be opened
+   */
+  constructor(address: (text: string) => string, changed: () => void, failed: (thrown: unknown) => void) {
+    this.#changed = changed;
+    this.#failed = failed;
+    const file = byId("compare-file", HTMLInputElement);
+    file.addEventListener("change", () => {
+      const [chosen] = file.files ?? [];
+      file.value = "";
+      if (chosen) void this.#open(() => chosen);
+    });
+    byId("compare", HTMLFormElement).addEventListener("submit", (event) => {
+      event.preventDefault();
+      const { value } = byId("compare-address", HTMLInputElement);
+      void this.#open(() => address(value));
+    });
+  }
+
+  /** Those that are open; the one opened last of each name. */
+  get clouds(): readonly PointCloud[] {
+    return [...this.#clouds.values()];
+  }
+
+  async #open(from: () => string | File): Promise<void> {
+    setText(this.#note, "Opening…");
+    try {
+      const cloud = await PointCloud.fromUrl(from());
+      this.#clouds.get(cloud.name)?.destroy();
+      this.#clouds.set(cloud.name, cloud);
+      setText(
+        this.#note,
+        `${cloud.name} is open: choose it where a volume says what it is measured against.`,
+      );
+      this.#changed();
+    } catch (thrown) {
+      setText(this.#note, "");
+      this.#failed(thrown);
+    }
+  }
+}
