@@ -167,4 +167,76 @@ describe.skipIf(pythonMissing)(`map and globe${pythonMissing ? ` (skipped: ${pyt
     for (const [globe, map] of found) expect(map).toEqual(globe);
     expect(new Set(found.map(([globe]) => String(globe))).size).toBe(found.length);
   });
+
+  it.each([false, true])(
+    "keep one budget, whichever of them moves; the globe draws on demand: %s",
+    {
+      timeout: 120_000,
+    },
+    async (requestRenderMode) => {
+      const seen = await stage.page.evaluate(
+        async ([requestRenderMode, width, center]) => {
+          const { stage, SharedBudget } = window.linked;
+          const { globe } = stage;
+          const map = stage.maps[0]!;
+          const budget = new SharedBudget({ points: 20_000 });
+          const view = map.map.getView();
+          const look = () => {
+            globe.look({ at: [...center, 502], range: 200 });
+            globe.orthographic(width);
+          };
+          for (const layer of [map.layer, globe.layer]) {
+            Object.assign(layer, { budget, maximumScreenSpaceError: 1 });
+          }
+          globe.scene.requestRender();
+          Object.assign(globe.scene, {
+            requestRenderMode,
+            maximumRenderTimeChange: Number.POSITIVE_INFINITY,
+          });
+          view.setResolution(0.05);
+          const drawn: number[][] = [];
+          const note = async () => {
+            // Frames of the globe come as the scene asks for them.
+            const end = performance.now() + 20_000;
+            let complete = false;
+            map.complete().then(() => {
+              complete = true;
+            });
+            while (!(complete && globe.layer.settled && budget.balanced) && performance.now() < end) {
+              globe.frame();
+              globe.wait();
+              await stage.frames(1);
+            }
+            const points = [globe, map].map(({ layer }) => layer.statistics.pointsDrawn);
+            drawn.push([...points, Number(complete && globe.layer.settled)]);
+          };
+          look();
+          await note();
+          globe.scene.camera.moveRight(5000);
+          await note();
+          look();
+          await note();
+          // The map alone moves: to where it has no points, and back.
+          view.setCenter([center[0] + 5000, center[1]]);
+          await note();
+          view.setCenter([...center]);
+          await note();
+          globe.scene.requestRenderMode = false;
+          for (const layer of [map.layer, globe.layer])
+            Object.assign(layer, { budget: undefined, maximumScreenSpaceError: 2 });
+          return drawn;
+        },
+        [requestRenderMode, widthAt(0.05), CENTER] as const,
+      );
+      const [both, , again, , last] = seen;
+      const [, mapAlone, , globeAlone] = seen;
+      expect(seen.map(([, , done]) => done)).toEqual([1, 1, 1, 1, 1]);
+      for (const [onGlobe, onMap] of seen) expect(onGlobe! + onMap!).toBeLessThanOrEqual(20_000);
+      for (const shared of [both, again, last]) {
+        expect(Math.min(shared![0]!, shared![1]!)).toBeGreaterThan(9_000);
+      }
+      expect([mapAlone![0], globeAlone![1]]).toEqual([0, 0]);
+      expect(Math.min(mapAlone![1]!, globeAlone![0]!)).toBeGreaterThan(19_000);
+    },
+  );
 });

@@ -2,6 +2,7 @@ import type { Event } from "cesium";
 import type { StreamProgress } from "../cloud/index.js";
 import type { FrameReport } from "../drawing/frame.js";
 import { FrameFailures } from "../drawing/frame-failures.js";
+import type { SharedBudget } from "../octree/index.js";
 import type { FrameState } from "./engine/cesium-private.js";
 
 /** The events of a layer that tell of its frames. */
@@ -12,13 +13,22 @@ interface EventSource {
   readonly allNodesLoaded: Event<() => void>;
 }
 
-/** Tells of frames, each time after the frame, where a listener may change the scene. */
+/** Tells of frames, each time after the frame, where a listener may change the scene, and asks for further ones. */
 export class FrameEvents {
   readonly #layer: EventSource;
   readonly #failures = new FrameFailures();
+  #scene: FrameState["camera"]["_scene"] | undefined;
+  /** Stops listening to the budget. */
+  #unwatch: () => void = () => undefined;
 
   constructor(layer: EventSource) {
     this.#layer = layer;
+  }
+
+  /** Has the scene draw a frame whenever another view has changed the parts of a budget, in place of the one before. */
+  watch(budget: SharedBudget | undefined): void {
+    this.#unwatch();
+    this.#unwatch = budget?.onChange(() => this.#scene?.requestRender()) ?? (() => undefined);
   }
 
   /** Raises what failed, unless it is known; undefined: nothing did. */
@@ -33,7 +43,8 @@ export class FrameEvents {
   }
 
   /** Raises what a frame that was drawn came to, and asks for a further one where that would show more. */
-  drawn({ progress, changed, finished, done }: FrameReport, { afterRender }: FrameState): void {
+  drawn({ progress, changed, finished, done }: FrameReport, { afterRender, camera }: FrameState): void {
+    this.#scene = camera._scene;
     if (done) this.#failures.clear();
     const { loadProgress, allNodesLoaded } = this.#layer;
     afterRender.push(() => {

@@ -174,6 +174,7 @@ export class PointCloudLayer {
   set budget(budget: SharedBudget | undefined) {
     this.#mustExist();
     this.#budget = budget === undefined ? undefined : this.#checked("budget", budget);
+    this.#events.watch(this.#budget);
   }
 
   /** How points are drawn. Assigning some of the properties leaves the others as they are. @throws StyleError */
@@ -325,6 +326,7 @@ export class PointCloudLayer {
     this.#destroyed = true;
     this.#rest();
     this.#unsubscribe();
+    this.#events.watch(undefined);
     this.#release();
     this.#watch.destroy();
     if (this.#ownsCloud) this.cloud.destroy();

@@ -143,6 +143,30 @@ describe("SharedBudget", () => {
     expect([budget.balanced, budget.granted]).toEqual([true, 2000]);
   });
 
+  it("tells when a view has to ask again, and no more once each has its part", () => {
+    const budget = new SharedBudget({ points: 1000 });
+    const [one, two] = [{}, {}];
+    let told = 0;
+    const end = budget.onChange(() => told++);
+    const ask = (view: object, wanted: number) => {
+      const before = told;
+      budget.grant(view, demand(wanted, 40), Number.POSITIVE_INFINITY);
+      return told - before;
+    };
+    expect(ask(one, 100)).toBe(0);
+    expect(ask(two, 100)).toBe(1);
+    while (!budget.balanced) for (const view of [one, two]) ask(view, 100);
+    expect([ask(one, 100), ask(two, 100)]).toEqual([0, 0]);
+    budget.release(two);
+    expect(told).toBeGreaterThan(1);
+    const before = told;
+    budget.points = 500;
+    expect(told).toBe(before + 1);
+    end();
+    budget.points = 700;
+    expect(told).toBe(before + 1);
+  });
+
   it("adds up bytes by owner, and asks for some back beyond the limit", () => {
     const { gpu } = new SharedBudget({ gpuBytes: 100 });
     const [one, two] = [{}, {}];

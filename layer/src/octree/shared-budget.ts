@@ -48,6 +48,7 @@ export class SharedBudget {
   /** Bytes on the GPU of all layers; whoever uploads tells it. @internal */
   readonly gpu: ByteLedger;
   readonly #shares = new Map<object, Share>();
+  readonly #listeners = new Set<() => void>();
   #points: number;
   #threshold = 0;
 
@@ -66,6 +67,7 @@ export class SharedBudget {
 
   set points(points: number) {
     this.#points = amount.read(points, optionPlace("points", "SharedBudget"));
+    this.#tell();
   }
 
   /** Points given out, never above {@link points} as it was when they were given. */
@@ -81,6 +83,17 @@ export class SharedBudget {
       if (Math.abs(threshold - this.#threshold) > 1e-3 * this.#threshold) return false;
     }
     return true;
+  }
+
+  /**
+   * Calls back when the parts that are due are others than before: a view that draws no frame of itself then has to ask
+   * again, so that the others get theirs.
+   * @returns what ends that
+   * @internal
+   */
+  onChange(listener: () => void): () => void {
+    this.#listeners.add(listener);
+    return () => this.#listeners.delete(listener);
   }
 
   /**
@@ -103,6 +116,7 @@ export class SharedBudget {
     // A view held back by its own limit is not waiting for the others, nor is one short of what rounding took.
     const waits = most === left && most < due - demands.length;
     this.#shares.set(viewer, { demand, points, threshold: waits ? threshold : this.#threshold });
+    if (!this.balanced) this.#tell();
     return { counts, threshold };
   }
 
@@ -111,6 +125,11 @@ export class SharedBudget {
     this.#shares.delete(viewer);
     const demands = [...this.#shares.values()].map((share) => share.demand);
     this.#threshold = thresholdFor(demands, this.points);
+    if (!this.balanced) this.#tell();
+  }
+
+  #tell(): void {
+    for (const listener of this.#listeners) listener();
   }
 }
 

@@ -34,8 +34,10 @@ export class LayerDrawing {
   #maximumScreenSpaceError = 2;
   #pointBudget: number;
   #budget: SharedBudget | undefined;
+  /** Stops listening to the budget. */
+  #leaveBudget: () => void = () => undefined;
 
-  /** @param changed called when a volume comes, goes or is another */
+  /** @param changed called when a volume comes, goes or is another, and when another view has changed the budget's parts */
   constructor(options: DrawingOptions, changed: () => void) {
     this.#changed = changed;
     const { style, filter, forced, clips, maximumScreenSpaceError = 2, pointBudget, budget } = options;
@@ -44,7 +46,7 @@ export class LayerDrawing {
     this.#forced = forced ?? {};
     this.clips = clips;
     this.#maximumScreenSpaceError = maximumScreenSpaceError;
-    this.#budget = budget;
+    this.budget = budget;
     this.#pointBudget = pointBudget ?? (budget ? Number.POSITIVE_INFINITY : 1_000_000);
   }
 
@@ -140,11 +142,18 @@ export class LayerDrawing {
 
   set budget(budget: SharedBudget | undefined) {
     this.#budget = budget === undefined ? undefined : checkDrawingOption("budget", budget);
+    this.#leaveBudget();
+    const changed = () => {
+      this.revision++;
+      this.#changed();
+    };
+    this.#leaveBudget = this.#budget?.onChange(changed) ?? (() => undefined);
     this.revision++;
   }
 
-  /** Listens to volumes no more. */
+  /** Listens to volumes and budget no more. */
   destroy(): void {
     this.#unwatch();
+    this.#leaveBudget();
   }
 }

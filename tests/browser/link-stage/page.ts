@@ -1,4 +1,4 @@
-import { Clip, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import { Clip, PointCloud, PointCloudLayer, SharedBudget } from "@groma/layer/cesium";
 import { type Link, synchronize } from "@groma/layer/link";
 import { PointCloudLayer as MapLayer, PointCloudSource } from "@groma/layer/openlayers";
 import * as Cesium from "cesium";
@@ -94,6 +94,7 @@ declare global {
       readonly MapLayer: typeof MapLayer;
       readonly PointCloudSource: typeof PointCloudSource;
       readonly Clip: typeof Clip;
+      readonly SharedBudget: typeof SharedBudget;
       readonly LinkStage: typeof LinkStage;
       readonly Stage: typeof Stage;
       readonly countListeners: typeof countListeners;
@@ -117,6 +118,7 @@ window.linked = {
     MapLayer,
     PointCloudSource,
     Clip,
+    SharedBudget,
     LinkStage,
     Stage,
     countListeners,

@@ -65,6 +65,7 @@ describe(`undocumented parts of Cesium ${exported.VERSION}`, () => {
       "Renderer/DrawCommand.js",
       ["modelMatrix", "boundingVolume", "pickId", "shaderProgram", "uniformMap", "primitiveType"],
     ],
+    ["Scene/Camera.js", ["this._scene = scene"]],
     [
       "Scene/FrameState.js",
       [

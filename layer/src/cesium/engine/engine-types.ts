@@ -63,7 +63,7 @@ export interface FrameState {
   readonly commandList: Command[];
   readonly mode: number;
   readonly frameNumber: number;
-  readonly camera: Camera;
+  readonly camera: Camera & { readonly _scene: { requestRender(): void } };
   readonly cullingVolume: CullingVolume;
   readonly pixelRatio: number;
   readonly useLogDepth: boolean;
