@@ -5,6 +5,7 @@ import {
   type Crs,
   compileTransformation,
   type Domain,
+  decodeTransformation,
   ecefToGeodetic,
   encodeTransformation,
 } from "@groma/georef";
@@ -91,6 +92,43 @@ describe.skipIf(!proj)(`PROJ with grids${without}`, () => {
     const domain = { minX: 30_000, minY: 600_000, minZ: 0, maxX: 130_000, maxY: 660_000, maxZ: 10 };
     const { report } = await projTransformation(proj!, crsOf("EPSG:7415", GEOID), domain);
     expect(report.worstDifference).toBeLessThan(1e-4);
+  });
+
+  it("goes on by EGM96 where the grid of the heights ends", async () => {
+    const domain = { minX: 2_820_000, minY: 1_180_000, minZ: 0, maxX: 2_880_000, maxY: 1_240_000, maxZ: 100 };
+    const { report, transformation } = await projTransformation(
+      proj!,
+      crsOf("EPSG:2056+5728", GEOID),
+      domain,
+    );
+    expect(report.grids).toEqual(["ch_swisstopo_chgeo2004_ETRS89_LN02.tif", "EGM96"]);
+    expect(report.notes.join()).toMatch(
+      /in 7\d % of .*, beyond the grids, .* height by the geoid model EGM96/,
+    );
+    const { evaluate } = compileTransformation(
+      decodeTransformation(encodeTransformation(transformation), ""),
+    );
+    const out = new Float64Array(3);
+    const heightAt = (x: number, y: number) => {
+      evaluate(x, y, 50, out, 0);
+      ecefToGeodetic(out[0], out[1], out[2], out);
+      return out[2];
+    };
+    for (let x = domain.minX; x <= domain.maxX; x += 5000) {
+      for (let y = domain.minY; y <= domain.maxY; y += 5000) {
+        expect(heightAt(x, y)).toBeGreaterThan(95);
+        expect(heightAt(x, y)).toBeLessThan(105);
+      }
+    }
+    // Within the grid it is PROJ's, with the geoid of Switzerland.
+    const within = { ...domain, minX: 2_819_000, minY: 1_185_000, maxX: 2_820_000, maxY: 1_186_000 };
+    const inside = await projTransformation(proj!, crsOf("EPSG:2056+5728", GEOID), within);
+    expect(inside.report.grids).toEqual(["ch_swisstopo_chgeo2004_ETRS89_LN02.tif"]);
+    const alone = compileTransformation(inside.transformation);
+    const there = new Float64Array(3);
+    alone.evaluate(2_820_000, 1_185_500, 50, there, 0);
+    evaluate(2_820_000, 1_185_500, 50, out, 0);
+    expect(Math.hypot(...there.map((value, axis) => value - out[axis]))).toBeLessThan(1e-4);
   });
 
   it("takes heights that the user declares apart from the CRS, or against it", async () => {

@@ -20,6 +20,7 @@ import {
 } from "@groma/georef";
 import { degreeBox } from "./area.js";
 import { type AssembledWay, assemble, CONSTANT, isSameGround } from "./assemble.js";
+import { type Beyond, beyondNote, goingOn } from "./beyond.js";
 import { type Choice, choose, type PassedOver, prepared } from "./candidate.js";
 import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
@@ -86,22 +87,31 @@ export async function projTransformation(
     ...([transformation, domain, candidate.zScale, file, signal] as const),
   );
 
+  const beyond =
+    substitute || candidate.covers || !isAboveGeoid(crs)
+      ? undefined
+      : await beyondGrids(proj, source, { crs, domain, box, file, tolerance, signal });
+  const whole = beyond && goingOn(transformation, beyond, domain);
   const main = several && byPoint ? widest(byPoint) : undefined;
   const { operation } = (main ?? choice).candidate;
   const accuracy = main && byPoint ? leastAccurate(byPoint) : operation.accuracy;
   const far = main ? undefined : byPoint?.farthest;
   const counted = far && (accuracy === null || far.worth > accuracy) ? far : undefined;
   const told = main && byPoint ? severalNote(byPoint.ways, main) : counted && elsewhereNote(counted);
-  const notes = notesFor(crs, choice, substitute, told, main !== undefined);
+  const notes = notesFor(crs, choice, substitute, told, main !== undefined || whole !== undefined);
+  if (beyond && whole) notes.push(beyondNote(beyond, candidate.places));
   const grids = gridsIn(transformation);
+  const worst = beyond && whole ? [accuracy, beyond.accuracy] : [accuracy];
   return {
-    transformation: substitute ? await withEgm96(transformation, candidate.places) : transformation,
+    transformation: substitute
+      ? await withEgm96(transformation, candidate.places)
+      : (whole ?? transformation),
     report: {
       engine: { name: "PROJ", version: proj.version },
       operation: operation.name,
-      accuracy: accuracy === null ? null : Math.max(accuracy, counted?.worth ?? 0),
+      accuracy: worst.includes(null) ? null : Math.max(...(worst as number[]), counted?.worth ?? 0),
       ballpark: operation.ballpark,
-      grids: substitute ? [...grids, EGM96] : grids,
+      grids: substitute || whole ? [...grids, EGM96] : grids,
       lacking: lackingIn(operations, operation, substitute),
       passedOver,
       fitBound: patchwork.bound,
@@ -144,6 +154,33 @@ async function waysOf(
 
 function meets(area: Rectangle, { minX, minY, maxX, maxY }: Domain): boolean {
   return area.minX <= maxX && area.maxX >= minX && area.minY <= maxY && area.maxY >= minY;
+}
+
+interface Place {
+  readonly crs: Crs;
+  readonly domain: Domain;
+  readonly box: DegreeBox | undefined;
+  readonly file: string;
+  readonly tolerance: number;
+  readonly signal?: AbortSignal | undefined;
+}
+
+/** The way in plane for points beyond the grids of a height system, and EGM96; nothing where there is none for all of them. */
+async function beyondGrids(
+  proj: Proj,
+  source: SourceTexts,
+  { crs, domain, box, file, tolerance, signal }: Place,
+): Promise<Beyond | undefined> {
+  const operations = await listOperations(proj, source.horizontal, { box, signal });
+  const { choice } = await choose(proj, operations, domain, crs.verticalUnit.size, signal);
+  if (!choice?.candidate.covers || choice.candidate.operation.ballpark) return undefined;
+  const { operation, plan, zScale, places } = choice.candidate;
+  const ways = [{ ...choice, areas: [] }] as const;
+  const { transformation } = await assemble(proj, ways, { domain, tolerance, file, signal });
+  const checked = [{ pipeline: plan.pipeline, areas: [] }];
+  await checkTransformation(proj, checked, transformation, domain, zScale, file, signal);
+  const geoid = egm96Step(await egm96(), geodeticBounds(places));
+  return { operation: operation.name, accuracy: operation.accuracy, transformation, geoid };
 }
 
 /** The operation that PROJ takes for most of the bounds. */
