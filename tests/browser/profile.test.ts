@@ -68,7 +68,6 @@ describe.skipIf(scan.missing)(
       await page.click("#above");
       await settle(page);
       await page.click("#profile-draw");
-      await screenshot(page, "profile-drawing");
       await page.fill("#profile-width", "4");
       for (const { x, y } of await pixelsOfPoints(page)) {
         const before = await page.evaluate(() => window.groma.profile.line.length);
@@ -123,7 +122,7 @@ describe.skipIf(scan.missing)(
 
       await clippedPointsAreExported(page, folder);
       await plotIsMovedAndMeasured(page);
-      await lineIsChangedAndKept(page);
+      await lineIsChangedAndKept(page, folder);
       await page.click("#profile-close");
       expect(await page.isVisible("#profile")).toBe(false);
       expect(watch.errors).toEqual([]);
@@ -180,13 +179,18 @@ async function clippedPointsAreExported(page: Page, folder: string): Promise<voi
   await page.evaluate(() => (window as unknown as { go: () => void }).go());
   await expect.poll(() => page.textContent("#export-status")).toBe("Nothing was written.");
   expect(await page.evaluate(() => (window as unknown as { told: string[] }).told)).toEqual(["abort"]);
-  await screenshot(page, "export-points");
   await page.evaluate(() => {
     (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;
     window.groma.layer.clips.clear();
     window.groma.layer.filter = undefined;
   });
   await page.click("#export summary");
+}
+
+/** A COPC file with all heights a metre greater: its offset (LAS 1.4 R15, table 3), bounds, and the middle of its octree. */
+function raised(file: Buffer): Buffer {
+  for (const at of [171, 211, 219, 375 + 54 + 16]) file.writeDoubleLE(file.readDoubleLE(at) + 1, at);
+  return file;
 }
 
 /** Text of the line below the picture. */
@@ -269,7 +273,7 @@ async function plotIsMovedAndMeasured(page: Page): Promise<void> {
 }
 
 /** Names, reverses and widens the line, moves a vertex by keys, and finds all that again after the page is loaded anew. */
-async function lineIsChangedAndKept(page: Page): Promise<void> {
+async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
   const complete = () =>
     page.waitForFunction(
       () => /complete$/.test(document.querySelector("#profile-status")!.textContent!),
@@ -324,7 +328,23 @@ async function lineIsChangedAndKept(page: Page): Promise<void> {
   await complete();
   expect(await page.inputValue("#profile-name")).toBe("axis");
   expect((await page.evaluate(() => window.groma.profile.plot!.view.shown)).from).toBeGreaterThan(1100);
+  await page.selectOption("#profile-cut", "inside");
+  await settle(page);
+  expect(await page.evaluate(() => window.groma.layer.clips.size)).toBe(1);
   await screenshot(page, "profile-imported");
+  await page.selectOption("#profile-cut", "");
+  expect(await page.evaluate(() => window.groma.layer.clips.size)).toBe(0);
+
+  // Another survey of the place, all of it a metre higher.
+  const other = join(folder, "raised.copc.laz");
+  writeFileSync(other, raised(readFileSync(converted(scan.path))));
+  await page.setInputFiles("#profile-other", other);
+  const compared = () => page.textContent("#profile-compared");
+  await expect.poll(compared, { timeout: 120_000 }).toMatch(/^raised.copc.laz: .* 1\.000 m in the mean/);
+  expect(await compared()).toContain(" 0.00 m² below it");
+  await screenshot(page, "profile-compared");
+  await page.click("#profile-alone");
+  await expect.poll(compared).toBe("");
   await page.click("#profile-undo");
   await expect.poll(line).toEqual([]);
   await page.click("#profile-redo");

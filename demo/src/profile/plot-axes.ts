@@ -13,6 +13,7 @@ export interface PlotOverlay {
   readonly up: string;
   /** The ground, with a band from the least to the greatest of its heights. */
   readonly ground: readonly TerrainStation[];
+  readonly secondGround: readonly TerrainStation[];
   /** The line that is measured, and the words beside it. */
   readonly measured: readonly PlotPlace[];
   readonly measuredWords: string;
@@ -52,7 +53,8 @@ export function drawAxes(root: SVGSVGElement, view: PlotView, overlay: PlotOverl
   words(overlay.along, width, height + 32, "end");
   words(overlay.up, -height / 2, -52, "middle").attr("transform", "rotate(-90)");
   const inner = plot.append("svg").attr("width", width).attr("height", height);
-  drawGround(inner.node()!, view, overlay.ground);
+  drawGround(inner.node()!, view, overlay.secondGround, "ground second");
+  drawGround(inner.node()!, view, overlay.ground, "ground");
   const pixels = overlay.measured.map(([along, up]) => view.pixelOf(along, up));
   if (pixels.length > 0) {
     inner.append("polyline").attr("class", "measured").attr("points", pixels.map(String).join(" "));
@@ -82,7 +84,12 @@ export function drawAxes(root: SVGSVGElement, view: PlotView, overlay: PlotOverl
 }
 
 /** The ground as a line, and its band; both end at gaps. */
-function drawGround(root: SVGSVGElement, view: PlotView, stations: readonly TerrainStation[]): void {
+function drawGround(
+  root: SVGSVGElement,
+  view: PlotView,
+  stations: readonly TerrainStation[],
+  className: string,
+): void {
   const { from, to } = view.shown;
   const inner = select(root);
   let run: TerrainStation[] = [];
@@ -94,7 +101,7 @@ function drawGround(root: SVGSVGElement, view: PlotView, stations: readonly Terr
       inner.append("polygon").attr("class", "band").attr("points", band.join(" "));
       inner
         .append("polyline")
-        .attr("class", "ground")
+        .attr("class", className)
         .attr("points", at(({ height }) => height).join(" "));
     }
     run = [];

@@ -15,6 +15,9 @@ import { coloursOf, type PointColours } from "./point-colours.js";
 /** Pixels around the pointer in which a point counts as hit. */
 const REACH = 10;
 
+/** Colour of the points of a second cloud. */
+const SECOND: PointColours = { by: "second", bits: 16 };
+
 /** Words of the axes. */
 export interface AxisWords {
   readonly along: string;
@@ -40,6 +43,8 @@ export class ProfilePlot {
   readonly #events: PlotEvents;
   readonly #index = new PlotIndex<ProfilePoints>();
   readonly #parts: ProfilePoints[] = [];
+  /** Points in the order in which they came; of a second cloud those without colours of their own. */
+  readonly #drawn: { readonly points: ProfilePoints; readonly second: boolean }[] = [];
   #colours: PointColours = { by: "rgb", bits: 16 };
   #words: AxisWords = { along: "chainage (m)", up: "height (m)" };
   #from = 0;
@@ -47,6 +52,7 @@ export class ProfilePlot {
   #least = Number.POSITIVE_INFINITY;
   #greatest = Number.NEGATIVE_INFINITY;
   #ground: readonly TerrainStation[] = [];
+  #secondGround: readonly TerrainStation[] = [];
   #measured: readonly PlotPlace[] = [];
   #measuredWords = "";
   #hover: PlottedPoint<ProfilePoints> | undefined;
@@ -79,7 +85,7 @@ export class ProfilePlot {
 
   /** Points that are in the picture. */
   get count(): number {
-    return this.#canvas.count;
+    return this.#parts.reduce((sum, { chainage }) => sum + chainage.length, 0);
   }
 
   /** Points of the picture, node by node. */
@@ -92,31 +98,43 @@ export class ProfilePlot {
     this.#canvas.clear();
     this.#index.clear();
     this.#parts.length = 0;
+    this.#drawn.length = 0;
     [this.#from, this.#length, this.#words, this.#colours] = [from, length, words, colours];
     this.#least = Number.POSITIVE_INFINITY;
     this.#greatest = Number.NEGATIVE_INFINITY;
     this.#ground = [];
+    this.#secondGround = [];
     this.#measured = [];
     this.#hover = undefined;
     this.fit();
   }
 
-  add(points: ProfilePoints): void {
+  /** @param second whether they are those of a second cloud, which have one colour and are not pointed at */
+  add(points: ProfilePoints, second = false): void {
     for (const height of points.height) {
       if (height < this.#least) this.#least = height;
       if (height > this.#greatest) this.#greatest = height;
     }
-    this.#canvas.add(points, coloursOf(points, this.#colours));
-    this.#index.add(points);
-    this.#parts.push(points);
+    this.#canvas.add(points, coloursOf(points, second ? SECOND : this.#colours));
+    this.#drawn.push({ points, second });
+    if (!second) {
+      this.#index.add(points);
+      this.#parts.push(points);
+    }
     if (this.view.isFitted) this.fit();
     this.#ask();
   }
 
   set colours(colours: PointColours) {
     this.#colours = colours;
-    for (const [part, points] of this.#parts.entries())
-      this.#canvas.recolour(part, coloursOf(points, colours));
+    for (const [part, { points, second }] of this.#drawn.entries())
+      if (!second) this.#canvas.recolour(part, coloursOf(points, colours));
+    this.#ask();
+  }
+
+  /** The ground of a second cloud. */
+  set secondGround(stations: readonly TerrainStation[]) {
+    this.#secondGround = stations;
     this.#ask();
   }
 
@@ -189,7 +207,8 @@ export class ProfilePlot {
     this.#canvas.draw(this.view, MARGIN.left, MARGIN.bottom);
     drawAxes(this.#axes, this.view, {
       along: `${this.#words.along}, heights × ${this.view.exaggeration.toPrecision(3)}`,
-      ...{ up: this.#words.up, ground: this.#ground, crosshair: this.#crosshair },
+      ...{ up: this.#words.up, ground: this.#ground, secondGround: this.#secondGround },
+      crosshair: this.#crosshair,
       ...{ measured: this.#measured, measuredWords: this.#measuredWords },
       hover: this.#hover && placeOf(this.#hover),
     });

@@ -2,7 +2,7 @@ import type { ProfilePoints } from "@groma/layer/tools";
 
 /** What points are coloured by. */
 export interface PointColours {
-  readonly by: "rgb" | "classification" | "intensity" | "offset" | "plain";
+  readonly by: "rgb" | "classification" | "intensity" | "offset" | "plain" | "second";
   /** Bits that the scan's own colours have. */
   readonly bits: 8 | 16;
   /** Colours of the classes, sRGB from 0 to 1, as the layer has them. */
@@ -11,6 +11,9 @@ export interface PointColours {
 
 /** Colour of points without colours of their own. */
 const PLAIN = [173, 188, 203] as const;
+
+/** Colour of the points of a second cloud. */
+const SECOND = [90, 209, 230] as const;
 
 /** Colours at the edges of the strip. */
 const LEFT = [60, 140, 245] as const;
@@ -39,6 +42,7 @@ function painter(
   bits: 8 | 16,
   classes: PointColours["classes"],
 ): (record: number, index: number) => readonly [number, number, number] {
+  if (by === "second") return () => SECOND;
   if (by === "rgb") {
     const [red, green, blue] = ["red", "green", "blue"].map((name) => reader(points, name, 2));
     const shift = bits === 16 ? 8 : 0;

@@ -13,6 +13,8 @@ import {
 import type { Viewer } from "cesium";
 import { byId, optionElement, setText } from "../panel/elements.js";
 import { ExportJob } from "../panel/export-job.js";
+import { Comparison } from "./comparison.js";
+import { CutClips } from "./cut-clips.js";
 import { groundTable } from "./ground-table.js";
 import { LineTools } from "./line-tools.js";
 import { ProfilePlot, placeOf } from "./plot.js";
@@ -44,6 +46,8 @@ export interface ProfileEvents {
 export class ProfilePanel {
   readonly lines: ProfileLines;
   readonly #lineTools: LineTools;
+  readonly #comparison: Comparison;
+  readonly #cut: CutClips;
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #events: ProfileEvents;
   readonly #outline: StripOutline;
@@ -76,6 +80,8 @@ export class ProfilePanel {
     this.#events = events;
     this.lines = new ProfileLines(viewer, layer, () => this.#follow(), events.failed);
     this.#lineTools = new LineTools(this.lines, () => void this.#read(), events.failed);
+    this.#comparison = new Comparison(() => void this.#read(), events.failed);
+    this.#cut = new CutClips(layer);
     this.#mark = new PlaceMark(viewer);
     this.#outline = new StripOutline(viewer, layer, (width) => {
       this.#width.value = String(Number(width.toPrecision(3)));
@@ -113,6 +119,7 @@ export class ProfilePanel {
   /** Forgets what is shown, and takes over the lines that were kept of a cloud. */
   open(layer: PointCloudLayer): void {
     this.#close();
+    this.#comparison.clear();
     try {
       this.lines.attach(layer);
     } catch (thrown) {
@@ -153,6 +160,7 @@ export class ProfilePanel {
     this.#work?.abort();
     this.#profile = undefined;
     this.#panel.hidden = false;
+    this.#cut.show(undefined);
     this.#clearPicture(0, 1);
     setText(this.#status, HINT);
     this.lines.draw().catch(this.#events.failed);
@@ -165,6 +173,7 @@ export class ProfilePanel {
     this.#profile = undefined;
     this.lines.choose(undefined);
     this.#outline.show(undefined, []);
+    this.#cut.show(undefined);
     this.#point(undefined);
     this.#panel.hidden = true;
     this.#tellState();
@@ -177,7 +186,10 @@ export class ProfilePanel {
     if (chosen) this.#panel.hidden = false;
     this.#tellState();
     if (this.lines.line.length > 1) void this.#read();
-    else if (!chosen && !this.drawing) this.#outline.show(undefined, []);
+    else if (!chosen && !this.drawing) {
+      this.#outline.show(undefined, []);
+      this.#cut.show(undefined);
+    }
   }
 
   #tellState(): void {
@@ -232,9 +244,12 @@ export class ProfilePanel {
     this.#work = new AbortController();
     const { signal } = this.#work;
     try {
-      const profile = new Profile(layer.cloud, { line, width: this.#width.valueAsNumber, start });
+      const plane = this.#comparison.planeWith(layer.cloud);
+      const cut = { line, width: this.#width.valueAsNumber, start, plane };
+      const profile = new Profile(layer.cloud, cut);
       this.#profile = profile;
       this.#outline.show(profile, vertices);
+      this.#cut.show(profile);
       this.#tellState();
       const plot = this.#clearPicture(profile.from, profile.length);
       let complete = true;
@@ -246,6 +261,7 @@ export class ProfilePanel {
       }
       const whole = complete ? "complete" : "the coarser levels; the export has all points";
       setText(this.#status, `${told(profile, plot.count)}, ${whole}`);
+      await this.#comparison.read(cut, (points) => plot.add(points, true), signal);
       await this.#groundAnew();
     } catch (thrown) {
       if (!signal.aborted) this.#events.failed(thrown);
@@ -265,13 +281,16 @@ export class ProfilePanel {
     if (!profile || !plot) return;
     this.#grounding = new AbortController();
     const { signal } = this.#grounding;
-    const wanted = this.#groundBy.value !== "" || this.#tableShown.checked;
+    const wanted = this.#groundBy.value !== "" || this.#tableShown.checked || this.#comparison.active;
     const choice = this.#groundChoice();
     const statistic = this.#groundBy.value === "" ? 50 : choice.statistic;
     try {
       const found = await groundOf(profile, wanted ? plot.parts : [], { ...choice, statistic }, signal);
       this.#ground = found;
-      plot.ground = this.#groundBy.value === "" ? [] : found;
+      plot.ground = this.#groundBy.value === "" && !this.#comparison.active ? [] : found;
+      const second = await groundOf(profile, this.#comparison.parts, { ...choice, statistic }, signal);
+      plot.secondGround = this.#comparison.active ? second : [];
+      this.#comparison.tell(found, second, profile.origin as PointCloud);
       this.#showTable(statistic);
     } catch (thrown) {
       if (!signal.aborted) this.#events.failed(thrown);

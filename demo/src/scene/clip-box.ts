@@ -13,6 +13,8 @@ export class ClipBox {
   #wish: ClipWish = "off";
   #edge = 0;
   #middle: ClipPlace | undefined;
+  /** The box as it stands among the volumes. */
+  #own: Clip | undefined;
 
   /** What the layers of the page are to be cut by. */
   get clips(): ClipSet {
@@ -56,22 +58,25 @@ export class ClipBox {
   /** Takes volumes over: one upright cube as the box of the page, others as they are. */
   take(clips: readonly Clip[]): void {
     const [first] = clips;
+    this.#clips.clear();
     if (clips.length === 1 && first?.kind === "box" && isCube(first) && "longitude" in first.center) {
       this.#middle = first.center;
       this.#edge = first.size[0];
       this.wish = first.mode;
       return;
     }
-    this.#wish = "off";
-    this.#clips.clear();
+    this.wish = "off";
     for (const clip of clips) this.#clips.add(clip);
   }
 
   #write(): void {
-    this.#clips.clear();
+    if (this.#own) this.#clips.remove(this.#own);
+    this.#own = undefined;
     if (this.#wish === "off" || !this.#middle) return;
     const edge = this.#edge;
-    this.#clips.add(Clip.box({ center: this.#middle, size: [edge, edge, edge], mode: this.#wish }));
+    this.#own = this.#clips.add(
+      Clip.box({ center: this.#middle, size: [edge, edge, edge], mode: this.#wish }),
+    );
   }
 }
 

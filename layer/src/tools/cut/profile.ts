@@ -1,11 +1,12 @@
 import { type Crs, ecefToGeodetic, geodesicBetween, PlacementError } from "@groma/georef";
-import type { SourceSpace } from "../../clips/index.js";
+import { Clip, type ClipMode, type SourceSpace } from "../../clips/index.js";
 import type { PointBatch, PointOrigin } from "../../query/index.js";
 import { type LineOnEllipsoid, lineOnEllipsoid } from "../ellipsoid/line-on-ellipsoid.js";
 import { CorridorOnEllipsoid, CrossSectionsOnEllipsoid, type Geodetic } from "../ellipsoid/on-ellipsoid.js";
 import { Corridor } from "../profile/corridor.js";
 import { sourceLine } from "../profile/source-line.js";
 import type { CrossSections } from "../sections/cross-sections.js";
+import { stripRings } from "./strip-rings.js";
 
 /** What a profile is cut from; a `PointCloud` is one. */
 export interface ProfiledCloud extends PointOrigin, SourceSpace {
@@ -127,6 +128,23 @@ export class Profile {
     return this.#ellipsoid
       ? new CrossSectionsOnEllipsoid(sections, ...this.#around(this.#ellipsoid))
       : sections;
+  }
+
+  /**
+   * The strip as clips, to highlight it in a scene or to show it alone. They are for the eye: corners are mitred.
+   * @param mode of all of them; `inside` keeps their union
+   */
+  clips(mode: ClipMode): Clip[] {
+    const ellipsoid = this.#ellipsoid;
+    const out = new Float64Array(2);
+    return stripRings(this.strip).map((ring) => {
+      if (!ellipsoid) return Clip.polygon(ring, { mode, coordinates: "source" });
+      const geodetic = ring.map(([x, y]) => {
+        ellipsoid.plane.toGeodetic(x, y, out);
+        return [out[0], out[1]] as const;
+      });
+      return Clip.polygon(geodetic, { mode });
+    });
   }
 
   /** Where source coordinates are in the plane: x and y in its units, written to `out`. */

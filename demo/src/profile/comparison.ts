@@ -1,0 +1,95 @@
+import { samePlane } from "@groma/georef";
+import { PointCloud } from "@groma/layer/cesium";
+import {
+  areaBetween,
+  Profile,
+  type ProfileOptions,
+  type ProfilePoints,
+  type TerrainStation,
+} from "@groma/layer/tools";
+import { byId, setText } from "../panel/elements.js";
+
+/** A second cloud along the same line, another survey of the place say: its points, and the areas between both grounds. */
+export class Comparison {
+  readonly #changed: () => void;
+  readonly #words = byId("profile-compared", HTMLElement);
+  readonly #end = byId("profile-alone", HTMLButtonElement);
+  #cloud: PointCloud | undefined;
+  #parts: ProfilePoints[] = [];
+
+  /**
+   * @param changed hears that there is another cloud, or none any more
+   * @param failed hears why a file could not be opened
+   */
+  constructor(changed: () => void, failed: (thrown: unknown) => void) {
+    this.#changed = changed;
+    const file = byId("profile-other", HTMLInputElement);
+    file.addEventListener("change", () => {
+      const [chosen] = file.files ?? [];
+      file.value = "";
+      if (chosen) this.#open(chosen).catch(failed);
+    });
+    this.#end.addEventListener("click", () => {
+      this.clear();
+      changed();
+    });
+  }
+
+  get active(): boolean {
+    return this.#cloud !== undefined;
+  }
+
+  /** Points of the second cloud, node by node. */
+  get parts(): readonly ProfilePoints[] {
+    return this.#parts;
+  }
+
+  /** Forgets the second cloud. */
+  clear(): void {
+    this.#cloud?.destroy();
+    this.#cloud = undefined;
+    this.#parts = [];
+    this.#end.hidden = true;
+    setText(this.#words, "");
+  }
+
+  /** In which plane both clouds are cut: undefined, their own, where it is the same. */
+  planeWith({ crs }: PointCloud): ProfileOptions["plane"] {
+    return this.#cloud && !samePlane(this.#cloud.crs, crs) ? "ellipsoid" : undefined;
+  }
+
+  /** Reads the second cloud along a line. @throws as `Profile` and its points do */
+  async read(
+    options: ProfileOptions,
+    add: (points: ProfilePoints) => void,
+    signal: AbortSignal,
+  ): Promise<void> {
+    this.#parts = [];
+    if (!this.#cloud) return;
+    setText(this.#words, `reading ${this.#cloud.name}…`);
+    for await (const points of new Profile(this.#cloud, options).points({ signal })) {
+      this.#parts.push(points);
+      add(points);
+    }
+  }
+
+  /** Tells the areas between the ground of the first cloud and that of the second, stations alike. */
+  tell(first: readonly TerrainStation[], second: readonly TerrainStation[], { crs }: PointCloud): void {
+    if (!this.#cloud || second.length === 0) return;
+    const { above, below, length } = areaBetween(first, second);
+    const { name, crs: other } = this.#cloud;
+    const mean = length > 0 ? `, ${((above - below) / length).toFixed(3)} m in the mean` : "";
+    const areas = `${above.toFixed(2)} m² above the first ground, ${below.toFixed(2)} m² below it, over ${length.toFixed(1)} m${mean}`;
+    const [a, b] = [crs, other].map(({ height }) => (height.kind === "geoid" ? height.model : height.kind));
+    const heights = a === b && a !== "unknown" ? "" : `; heights: ${a} against ${b}`;
+    setText(this.#words, `${name}: ${areas}${heights}`);
+  }
+
+  async #open(file: File): Promise<void> {
+    const cloud = await PointCloud.fromUrl(file);
+    this.clear();
+    this.#cloud = cloud;
+    this.#end.hidden = false;
+    this.#changed();
+  }
+}
