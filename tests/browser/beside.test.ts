@@ -85,7 +85,7 @@ describe.skipIf(scan.missing)(
           // Let what rests be read, and the frames after it be drawn, until neither moves the other any more.
           const pose = () => `${map.getView().getCenter()} ${viewer.camera.positionWC}`;
           for (let last = "", resting = 0; resting < 4; last = pose()) {
-            await new Promise((done) => setTimeout(done, 250));
+            await new Promise((done) => setTimeout(done, 500));
             resting = pose() === last && layer.settled ? resting + 1 : 0;
           }
           // The panel lies over the left part of the globe.

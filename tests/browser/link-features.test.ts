@@ -1,6 +1,6 @@
 import type { DrawEvent } from "ol/interaction/Draw.js";
 import { describe, expect, it } from "vitest";
-import { screenshot } from "./harness.js";
+import { colourDifference, meanColour, screenshot } from "./harness.js";
 import { type Boxes, LinkedPage, missing, unless } from "./linked.js";
 
 /** A shared feature as both sides have it: coordinates of the map, those of the globe with heights. */
@@ -204,7 +204,15 @@ describe.skipIf(missing)(`features that map and globe share${unless}`, () => {
     const put = await both(3);
     expectAlike(put, 3);
     expect([put.onMap[0], put.onMap[2]]).toEqual(before.onMap);
-    await screenshot(linked.page, "link-features-inserted");
+    // Both sides lie on the points, which do not hide them.
+    const picture = await screenshot(linked.page, "link-features-inserted");
+    for (const vertex of [0, 1]) {
+      const [x, y] = await pixelOf(vertex, 0.5);
+      const seen = [-1, 0, 1].map((step) =>
+        colourDifference(meanColour(picture, globe[0] + x, globe[1] + y + step, 0), [242, 184, 75]),
+      );
+      expect(Math.min(...seen)).toBeLessThan(40);
+    }
     await mouse.up();
     expect(await camera()).toEqual(pose);
     const [atX, atY] = await pixelOf(1);

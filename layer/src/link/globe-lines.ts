@@ -1,12 +1,16 @@
 import type { Vector } from "@groma/georef";
 import {
+  ArcType,
   Cartesian3,
   Color,
+  GeometryInstance,
   Material,
   type PointPrimitive,
   PointPrimitiveCollection,
-  type Polyline,
-  PolylineCollection,
+  PolylineGeometry,
+  PolylineMaterialAppearance,
+  Primitive,
+  PrimitiveCollection,
   type Scene,
 } from "cesium";
 import { ACCENT } from "./looks.js";
@@ -23,20 +27,24 @@ export interface GlobeLine {
 
 /** What is drawn of one feature. */
 interface Drawn {
-  readonly lines: Polyline[];
+  readonly lines: Primitive[];
+  readonly ways: readonly (readonly Vector[])[];
   readonly points: PointPrimitive[];
 }
 
-/** Lines and vertices on a globe, by the feature that they belong to. */
+/**
+ * Lines and vertices on a globe, by the feature that they belong to. They lie on points of the cloud, and would be half
+ * hidden by them: nothing hides them.
+ */
 export class GlobeLines<Feature extends object> {
   readonly #scene: Scene;
-  readonly #lines: PolylineCollection;
+  readonly #lines: PrimitiveCollection;
   readonly #points: PointPrimitiveCollection;
   readonly #drawn = new Map<Feature, Drawn>();
 
   constructor(scene: Scene) {
     this.#scene = scene;
-    this.#lines = scene.primitives.add(new PolylineCollection());
+    this.#lines = scene.primitives.add(new PrimitiveCollection());
     this.#points = scene.primitives.add(new PointPrimitiveCollection());
   }
 
@@ -52,8 +60,10 @@ export class GlobeLines<Feature extends object> {
     for (const point of before?.points ?? []) this.#points.remove(point);
     this.#drawn.delete(feature);
     if (lines.length > 0) {
+      const ways = lines.map(({ way }) => way).filter((way) => way.length > 1);
       this.#drawn.set(feature, {
-        lines: lines.filter(({ way }) => way.length > 1).map(({ way }) => this.#line(way)),
+        ways,
+        lines: ways.filter(hasLength).map((way) => this.#line(way)),
         points: lines.flatMap(({ vertices }) => vertices.map((place) => this.#point(place))),
       });
     }
@@ -62,11 +72,11 @@ export class GlobeLines<Feature extends object> {
 
   /** Places that are drawn of a feature, ECEF. */
   placesOf(feature: Feature): { readonly vertices: Vector[]; readonly ways: Vector[][] } {
-    const { lines = [], points = [] } = this.#drawn.get(feature) ?? {};
+    const { ways = [], points = [] } = this.#drawn.get(feature) ?? {};
     const vector = ({ x, y, z }: Cartesian3): Vector => [x, y, z];
     return {
       vertices: points.map(({ position }) => vector(position)),
-      ways: lines.map(({ positions }) => positions.map(vector)),
+      ways: ways.map((way) => [...way]),
     };
   }
 
@@ -76,14 +86,24 @@ export class GlobeLines<Feature extends object> {
     this.#scene.requestRender();
   }
 
-  #line(way: readonly Vector[]): Polyline {
+  #line(way: readonly Vector[]): Primitive {
+    const positions = way.map((place) => new Cartesian3(...place));
+    const { VERTEX_FORMAT: vertexFormat } = PolylineMaterialAppearance;
+    const width = WIDTHS.line + 2;
+    const geometry = new PolylineGeometry({ positions, width, vertexFormat, arcType: ArcType.NONE });
     const material = Material.fromType("PolylineOutline", {
       color: Color.fromCssColorString(ACCENT),
       outlineColor: Color.BLACK,
       outlineWidth: 1,
     });
-    const positions = way.map((place) => new Cartesian3(...place));
-    return this.#lines.add({ positions, width: WIDTHS.line + 2, material });
+    const appearance = new PolylineMaterialAppearance({
+      material,
+      renderState: { depthTest: { enabled: false }, depthMask: false },
+    });
+    const geometryInstances = new GeometryInstance({ geometry });
+    return this.#lines.add(
+      new Primitive({ geometryInstances, appearance, asynchronous: false, allowPicking: false }),
+    );
   }
 
   #point(place: Vector): PointPrimitive {
@@ -96,4 +116,9 @@ export class GlobeLines<Feature extends object> {
       disableDepthTestDistance: Number.POSITIVE_INFINITY,
     });
   }
+}
+
+/** Whether a way goes anywhere: two vertices in one place make no line. */
+function hasLength([first, ...others]: readonly Vector[]): boolean {
+  return others.some((place) => place.some((value, axis) => value !== first[axis]));
 }

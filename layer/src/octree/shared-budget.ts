@@ -26,7 +26,7 @@ interface Share {
 }
 
 /** Name of the class, and version of what is internal here (see {@link SHARED}). */
-const MARK = "SharedBudget 1";
+const MARK = "SharedBudget 2";
 
 const amount = number(0);
 const OPTIONS = some<SharedBudgetOptions>({ points: amount, cpuBytes: amount, gpuBytes: amount });
