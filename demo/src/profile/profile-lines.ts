@@ -9,6 +9,7 @@ import {
   type ViewAdapter,
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
+import { PageError } from "../panel/page-error.js";
 import { readLines } from "./line-file.js";
 
 /** A line on the globe: longitude and latitude of each vertex, radians. */
@@ -25,11 +26,14 @@ export class ProfileLines {
   readonly tool: MeasureTool;
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #changed: () => void;
+  readonly #failed: (thrown: unknown) => void;
   /** Vertices that the picture was told of. */
   #told = "";
   #chosen: string | undefined;
   /** Name of the cloud whose lines these are. */
   #cloud: string | undefined;
+  /** Whether the browser keeps them; false where it cannot, or has some that this program cannot read. */
+  #keeps = true;
 
   /**
    * @param changed hears of another line, and of each change of it
@@ -43,6 +47,7 @@ export class ProfileLines {
   ) {
     this.#layer = layer;
     this.#changed = changed;
+    this.#failed = failed;
     const layers = () => [layer()].flatMap((one) => one ?? []);
     this.tool = new MeasureTool(measureView(scene, layers), { onError: failed });
     this.tool.onChange(() => this.#follow());
@@ -84,8 +89,13 @@ export class ProfileLines {
     }
     this.#clear();
     this.#cloud = cloud.name;
-    const kept = localStorage.getItem(KEY + cloud.name);
-    if (kept) this.tool.add(readMeasurements(kept, [cloud], cloud.name).measurements);
+    this.#keeps = true;
+    try {
+      const kept = localStorage.getItem(KEY + cloud.name);
+      if (kept) this.tool.add(readMeasurements(kept, [cloud], cloud.name).measurements);
+    } catch (thrown) {
+      this.#keepsNone(thrown);
+    }
   }
 
   /** Has the reader draw a line, which is then chosen. */
@@ -162,9 +172,28 @@ export class ProfileLines {
   }
 
   #keep(): void {
-    if (this.#cloud === undefined || this.#layer()?.cloud.name !== this.#cloud) return;
+    if (!this.#keeps || this.#cloud === undefined || this.#layer()?.cloud.name !== this.#cloud) return;
     const key = KEY + this.#cloud;
-    if (this.all.length === 0) localStorage.removeItem(key);
-    else localStorage.setItem(key, JSON.stringify(measurementsToGeoJson(this.all)));
+    try {
+      if (this.all.length === 0) localStorage.removeItem(key);
+      else localStorage.setItem(key, JSON.stringify(measurementsToGeoJson(this.all)));
+    } catch (thrown) {
+      this.#keepsNone(thrown);
+    }
   }
+
+  /** Tells once why lines are not kept; those that were stay as they are. */
+  #keepsNone(thrown: unknown): void {
+    this.#keeps = false;
+    const refused = thrown instanceof DOMException;
+    this.#failed(refused ? unkept(thrown) : thrown);
+  }
+}
+
+function unkept({ message }: DOMException): PageError {
+  return new PageError({
+    ...{ code: "PAGE_STORAGE", file: "profiles" },
+    cause: `the browser does not keep them for the next visit (${message})`,
+    fix: "Export those that are needed, and allow this site to store data or free some",
+  });
 }

@@ -89,6 +89,9 @@ export class Overlay {
     this.root.className = "groma-measure";
     this.root.style.cssText = "position:absolute;inset:0;overflow:hidden;pointer-events:none";
     this.#svg.style.cssText = "position:absolute;inset:0;width:100%;height:100%";
+    // As a picture it would hide the vertices in it from screen readers.
+    this.#svg.setAttribute("role", "group");
+    this.#svg.setAttribute("aria-label", "Measurements");
     this.#cross.classList.add("groma-crosshair");
     this.#svg.append(this.#cross);
     const look = document.createElement("style");

@@ -1,0 +1,109 @@
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, expect, it } from "vitest";
+import { lasOf } from "../faults/las-bytes.js";
+import { projectRoot } from "../project.js";
+import { settle } from "./globe.js";
+import { launch, openPage, screenshot, type View, view } from "./harness.js";
+
+let browser: Browser;
+let server: View;
+let folder: string;
+
+beforeAll(async () => {
+  const scans = join(projectRoot, "tests/artifacts/keyboard");
+  mkdirSync(scans, { recursive: true });
+  const scan = join(scans, "box.las");
+  writeFileSync(scan, lasOf(20_000));
+  server = await view(scan, ["--crs", "EPSG:32632", "--vertical", "ellipsoidal"]);
+  browser = await launch();
+  folder = mkdtempSync(join(tmpdir(), "groma-keyboard-"));
+}, 180_000);
+
+afterAll(async () => {
+  await browser?.close();
+  await server?.stop();
+  rmSync(folder, { recursive: true });
+});
+
+/** Goes to an element by the Tab key alone. */
+async function tabTo(page: Page, selector: string): Promise<void> {
+  for (let steps = 0; steps < 120; steps++) {
+    if (await page.evaluate((wanted) => document.activeElement?.matches(wanted), selector)) return;
+    await page.keyboard.press("Tab");
+  }
+  throw new Error(`the Tab key does not lead to ${selector}`);
+}
+
+/** What a screen reader is told of the page, numbers left out. */
+async function told(page: Page): Promise<string> {
+  return `${(await page.locator("body").ariaSnapshot()).replace(/\d[\d.,]*/g, "#")}\n`;
+}
+
+const expected = (name: string) => join(import.meta.dirname, "expected", `${name}.aria.yml`);
+
+it("from an empty page to an exported profile, by keyboard alone", { timeout: 300_000 }, async () => {
+  const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
+  page.setDefaultTimeout(120_000);
+  await page.addInitScript(() => {
+    (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;
+  });
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  const { origin, searchParams } = new URL(server.address);
+  await page.goto(origin);
+  await page.waitForSelector("#address");
+  await expect(await told(page)).toMatchFileSnapshot(expected("empty"));
+  await tabTo(page, "#address");
+  await page.keyboard.type(new URL(searchParams.get("cloud")!, origin).href);
+  await page.keyboard.press("Enter");
+  await settle(page);
+  await page.waitForFunction(
+    () => document.querySelector("#stage")!.textContent === "This view is complete.",
+  );
+  await expect(await told(page)).toMatchFileSnapshot(expected("cloud"));
+  await tabTo(page, "#above");
+  await page.keyboard.press("Enter");
+  await settle(page);
+  await tabTo(page, "#profile-draw");
+  await page.keyboard.press("Enter");
+  // The crosshair starts in the middle of the view.
+  const vertices = () => page.evaluate(() => window.groma.profile.line.length);
+  for (const arrows of [0, 12]) {
+    for (let step = 0; step < arrows; step++) await page.keyboard.press("ArrowRight");
+    const before = await vertices();
+    await page.keyboard.press("Enter");
+    await page.waitForFunction((count) => window.groma.profile.line.length > count, before);
+  }
+  await screenshot(page, "keyboard-drawn");
+  await tabTo(page, "#profile-draw");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => /complete$/.test(document.querySelector("#profile-status")!.textContent!));
+  const downloading = page.waitForEvent("download");
+  await tabTo(page, "#profile-export");
+  await page.keyboard.press("Enter");
+  const out = join(folder, "cut.las");
+  await (await downloading).saveAs(out);
+  const shown = await page.evaluate(() => window.groma.profile.shown);
+  expect(shown).toBeGreaterThan(5);
+  expect(Number(readFileSync(out).readBigUInt64LE(247))).toBe(shown);
+  await page.waitForFunction(() =>
+    /is written/.test(document.querySelector("#profile-status")!.textContent!),
+  );
+  await expect(await told(page)).toMatchFileSnapshot(expected("profile"));
+  await screenshot(page, "keyboard");
+  expect(watch.errors).toEqual([]);
+
+  // A browser that has no room keeps the line on the page, and says so.
+  await page.evaluate(() => {
+    Storage.prototype.setItem = () => {
+      throw new DOMException("no room", "QuotaExceededError");
+    };
+  });
+  await tabTo(page, "#profile-reverse");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#message .code");
+  expect(await page.textContent("#message .code")).toBe("PAGE_STORAGE");
+  expect(await page.evaluate(() => window.groma.profile.line.length)).toBe(2);
+});
