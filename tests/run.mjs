@@ -81,6 +81,9 @@ const checks = {
   "format and lint (TypeScript)": holds(() => npx("@biomejs/biome/bin/biome", "ci", ".")),
   "types of the tests": holds(() => npx("typescript/bin/tsc", "-p", "tests")),
   "format (Rust)": holds(() => cargo("fmt", "--check")),
+  "format (Rust for the page)": holds(() =>
+    run("cargo", ["fmt", "--check", "--manifest-path", "converter/wasm/Cargo.toml"]),
+  ),
   "lint (Rust)": holds(() =>
     cargo("clippy", "--release", "--all-targets", "--locked", "--quiet", "--", "-D", "warnings"),
   ),
