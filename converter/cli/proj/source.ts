@@ -21,7 +21,9 @@ export interface SourceTexts {
   readonly compound?: CrsText;
 }
 
-const CODE = /^[A-Za-z]{2,10}:\d{1,9}(\+([A-Za-z]{2,10}:)?\d{1,9})?$/;
+/** A code of an authority, such as `EPSG:2154+5720` or `IGNF:RGF93LAMB93.IGN69`, or the URN of one. */
+const CODE =
+  /^([A-Za-z][A-Za-z0-9]{1,15}:[A-Za-z0-9_.]{1,60}(\+([A-Za-z][A-Za-z0-9]{1,15}:)?[A-Za-z0-9_.]{1,60})?|urn:ogc:def:crs:[A-Za-z0-9]{2,15}:[0-9.]*:[A-Za-z0-9_.]{1,60})$/;
 
 /**
  * Calls with an argument that `projinfo` takes for the CRS: a code or PROJ string as it is, anything else as a file of

@@ -150,6 +150,13 @@ describe.skipIf(!plain)(`PROJ alone${absent}`, () => {
     ["polar axes", crsOf("EPSG:32661", UNKNOWN), box(2_100_000, 2_100_000)],
     ["Krovak", crsOf("EPSG:5514", UNKNOWN), box(-750_000, -1_050_000)],
     ["a code of ESRI's", crsOf("EPSG:102634", UNKNOWN, FOOT_US), box(1_500_000, 1_500_000)],
+    ["a code of IGN's", crsOf("IGNF:RGF93LAMB93", UNKNOWN), box(650_000, 6_860_000)],
+    ["a URN", crsOf("urn:ogc:def:crs:EPSG::2154", UNKNOWN), box(650_000, 6_860_000)],
+    [
+      "a projection without a name in WKT",
+      crsOf("+proj=lsat +lsat=5 +path=220 +ellps=WGS84", UNKNOWN),
+      box(17_742_000, -3_119_000),
+    ],
     ["an ellipsoid by numbers", crsOf("EPSG:20135", UNKNOWN), box(500_000, 1_100_000)],
     ["Paris and grads", crsOf("EPSG:4807", UNKNOWN), box(0, 54, 0.1)],
     ["degrees across the antimeridian", crsOf("EPSG:4326", UNKNOWN), box(179.95, 54, 0.1)],
