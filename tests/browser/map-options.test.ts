@@ -163,6 +163,56 @@ describe.skipIf(pythonMissing)(
       expect(stage.watch.errors).toEqual([]);
     });
 
+    it("shows a scan on 180° in one piece, whichever world the map shows", { timeout: 120_000 }, async () => {
+      const errors: string[] = [];
+      for (const [world, projection] of [
+        [0, "EPSG:3857"],
+        [-1, "EPSG:3857"],
+        [1, "EPSG:4326"],
+      ] as const) {
+        await stage.page.evaluate(() => window.map.stage?.destroy());
+        const seen = await stage.page.evaluate(
+          async ([turn, code]) => {
+            const { MapStage } = window.map;
+            const metres = code === "EPSG:3857";
+            // The middle of the scan lies 20 m west of 180°; at 47° Mercator's metre is 0.68 m of ground.
+            const [edge, y] = metres ? [20037508.342789244, 5_935_000] : [180, 46.95];
+            const view = {
+              projection: code as string,
+              center: [edge * (1 + 2 * (turn as number)), y as number],
+            };
+            const resolution = metres ? 0.1 : 0.1 / 111_000;
+            const crs =
+              "+proj=tmerc +lat_0=0 +lon_0=180 +k=0.9996 +x_0=500000 +y_0=0 +datum=WGS84 +units=m +no_defs";
+            const source = { url: "/clouds/stripes.copc.laz", crs };
+            const options = { view: { ...view, resolution }, layer: { style: { pointSize: 3 } }, source };
+            window.map.stage = new MapStage(options) as typeof window.map.stage;
+            const { stage } = window.map;
+            await stage.source.opened();
+            const [minX, minY, maxX, maxY] = stage.source.getExtent(code as string)!;
+            const middle = [edge * (1 + 2 * (turn as number)), (minY + maxY) / 2];
+            await stage.show({ ...view, center: middle, resolution });
+            const columns = stage.lit().map(([x]) => x);
+            return {
+              ...{ lit: columns.length, left: Math.min(...columns), right: Math.max(...columns) },
+              ...{ errors: stage.errors, width: (maxX - minX) * (metres ? 1 : 111_320) },
+            };
+          },
+          [world, projection] as const,
+        );
+        errors.push(...seen.errors);
+        // 20 m, as long as a map at 47° shows them.
+        expect(seen.width).toBeGreaterThan(28);
+        expect(seen.width).toBeLessThan(31);
+        // Both halves, and the middle of the scan in the middle of the map.
+        expect(seen.lit).toBeGreaterThan(20_000);
+        expect(Math.abs(seen.left + seen.right - 600)).toBeLessThan(8);
+        expect(seen.right - seen.left).toBeGreaterThan(180);
+      }
+      await screenshot(stage.page, "map-antimeridian");
+      expect(errors).toEqual([]);
+    });
+
     it("is printed in as many pixels as are asked for, all of it, and only within its extent", {
       timeout: 120_000,
     }, async () => {
