@@ -7,7 +7,7 @@ import { screenshot } from "./harness.js";
 import type { MapStage } from "./map-stage/map-stage.js";
 import { openStage, type StagePage } from "./stage.js";
 
-const scan = data("autzen.laz");
+const scan = data("las-variants/las__autzen_trim.las");
 // Pages of tests lie beside clouds that a script makes.
 const missing = scan.missing ?? pythonMissing;
 
@@ -19,7 +19,7 @@ describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})`
       const { MapStage, layer, tools } = window.map;
       const made = new MapStage({
         view: { projection: "EPSG:3857", center: [0, 0], resolution: 1 },
-        source: { url: "/scans/autzen.copc.laz" },
+        source: { url: "/scans/las__autzen_trim.copc.laz" },
         layer: { style: { pointSize: 4 } },
       }) as MapStage;
       window.map.stage = made;
@@ -88,7 +88,7 @@ describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})`
     expect(await records()).toEqual([[a!.integers, b!.integers]]);
   });
 
-  it("by touch", { timeout: 120_000 }, async () => {
+  it("by touch, heights above the ground too", { timeout: 120_000 }, async () => {
     const { page } = stage;
     const [a, b, c] = await hits();
     const session = await page.context().newCDPSession(page);
@@ -101,8 +101,75 @@ describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})`
     }
     await until(2);
     expect((await records())[1]).toEqual([a!.integers, b!.integers, c!.integers]);
+    await page.evaluate(() => void window.map.measure.draw("aboveGround"));
+    await session.send("Input.dispatchTouchEvent", {
+      type: "touchStart",
+      touchPoints: [{ x: a!.x, y: a!.y }],
+    });
+    await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    await until(3);
+    await page.waitForFunction(() => {
+      const { measure } = window.map;
+      return measure.readingOf(measure.measurements[2]!)?.state === "done";
+    });
+    const [above] = await page.evaluate(() => {
+      const { measure } = window.map;
+      return measure.valuesOf(measure.measurements[2]!).map(({ name, quantity }) => [name, quantity.value]);
+    });
+    expect(above![0]).toBe("aboveGround");
+    expect(above![1]).toBeGreaterThan(-3);
+    expect(above![1]).toBeLessThan(60);
     expect(await page.evaluate(() => window.map.stage.errors)).toEqual([]);
     expect(stage.watch.errors).toEqual([]);
+  });
+
+  it("across the antimeridian, drawn where it is and not across the map", { timeout: 120_000 }, async () => {
+    const { page } = stage;
+    const shown = await page.evaluate(async () => {
+      const { measure, stage, tools } = window.map;
+      const place = (longitude: number, latitude: number) =>
+        tools.placeVertex((longitude * Math.PI) / 180, (latitude * Math.PI) / 180, 0);
+      const figure = (kind: "distance" | "area", ...vertices: ReturnType<typeof place>[]) => ({
+        ...{ id: kind, kind, name: kind, vertices },
+      });
+      const before = measure.measurements.length;
+      measure.add([
+        figure("distance", place(179, 10), place(-178, 12)),
+        figure("area", place(178, -10), place(-177, -10), place(-177, -4), place(178, -4)),
+      ]);
+      const [line, area] = measure.measurements
+        .slice(before)
+        .map((one) => tools.valuesOf(one).find(({ name }) => name === "geodesic")!.quantity.value);
+      // From either side of 180°, and from the middle of the earth, where both edges of the map show.
+      const seen: number[][] = [];
+      for (const [east, wanted] of [
+        [179.5, 2_000],
+        [-179.5, 2_000],
+        [0, 80_000],
+      ] as const) {
+        await stage.show({
+          projection: "EPSG:3857",
+          center: [(east * 20037508.34) / 180, 0],
+          resolution: wanted,
+        });
+        const resolution = stage.map.getView().getResolution()!;
+        const ways = Array.from(document.querySelectorAll("path.groma-line")).slice(before);
+        seen.push(ways.map((way) => (way as SVGPathElement).getBBox().width * resolution));
+      }
+      return { line, area, seen };
+    });
+    await screenshot(page, "measuring-antimeridian");
+    expect(shown.line).toBeCloseTo(396_000, -4);
+    // Five degrees by six: the band between the parallels, edges along geodesics nearly as the parallels.
+    expect(shown.area! / 1e9).toBeCloseTo(368, -1);
+    const degrees = 20037508.34 / 180;
+    for (const [line, area] of shown.seen) {
+      expect(line! / degrees).toBeCloseTo(3, 0);
+      expect(area! / degrees).toBeCloseTo(5, 0);
+    }
+    await page.evaluate(() => {
+      for (const id of ["distance", "area"]) window.map.measure.remove(id);
+    });
   });
 
   it("works volumes out in a worker that ends with them, or with the signal", {
@@ -114,9 +181,9 @@ describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})`
       const { min, max } = cloud.boundingBox;
       const [x, y, z] = [0, 1, 2].map((axis) => (min[axis]! + max[axis]!) / 2);
       const ring = [
-        [-300, -300],
-        [300, -200],
-        [200, 300],
+        [-250, -250],
+        [250, -200],
+        [200, 250],
       ].map(([east, north]) => tools.sourceVertex(cloud, [x! + east!, y! + north!, z!]));
       let [made, ended] = [0, 0];
       const { Worker: Real } = window;

@@ -28,6 +28,24 @@ describe("the height above the ground", () => {
     expect(height.uncertainty).toBeGreaterThan(0.25);
   });
 
+  it("is that above the ground farther away where a roof hides what is near", async () => {
+    // A long roof, with rough ground on three sides of it.
+    const yard: Points = Array.from({ length: 1600 }, (_, i) => {
+      const [x, y] = [(i % 40) - 20, Math.floor(i / 40) - 20];
+      const roof = x > -6 && Math.abs(y) < 6;
+      return roof ? ([x, y, 12, 6] as const) : ([x, y, 5 + 0.05 * ((i % 3) - 1), 2] as const);
+    });
+    const cloud = withPoints(cloudOf(UTM), yard);
+    const near = (count: number) => yard.filter(([x, y, , kind]) => kind === 2 && Math.hypot(x, y) < count);
+    expect([near(5.9).length, near(9).length > 0]).toEqual([0, true]);
+    const height = await measureHeightAboveGround(cloud, cloud.vertex(X, Y, 12), { precision: 0.01 });
+    expect(Math.abs(height.value - 7)).toBeLessThan(height.uncertainty!);
+    expect(height.parts[0]).toMatchObject({ name: "ground", note: expect.stringContaining("within 9 m") });
+    await expect(
+      measureHeightAboveGround(cloud, cloud.vertex(X, Y, 12), { radius: 3 }),
+    ).rejects.toMatchObject({ code: "MEASURE_GROUND" });
+  });
+
   it("is none where there is no ground, or another data set", async () => {
     const cloud = withPoints(cloudOf(UTM), slope);
     const top = cloud.vertex(X, Y, 17);
@@ -40,6 +58,32 @@ describe("the height above the ground", () => {
     await expect(measureHeightAboveGround(cloud, cloudOf(UTM).vertex(X, Y, 1))).rejects.toThrow(
       "MEASURE_DATASET",
     );
+  });
+});
+
+/** A data set with no place beside its points, as one whose grid of shifts ends there. */
+function fenced(points: Points) {
+  const cloud = withPoints(cloudOf(UTM), points);
+  const place = cloud.place.bind(cloud);
+  return Object.assign(cloud, {
+    place(x: number, y: number, z: number) {
+      if (Math.max(Math.abs(x - X), Math.abs(y - Y)) > 10.2) throw new Error("no place");
+      return place(x, y, z);
+    },
+  });
+}
+
+describe("at the edge of a data set", () => {
+  it("heights and volumes ask for no place beside it", async () => {
+    const cloud = fenced(slope);
+    const height = await measureHeightAboveGround(cloud, cloud.vertex(X + 10, Y + 9, 17));
+    expect(height.value).toBeCloseTo(17 - 4, 3);
+    const ring = [
+      [-10, -10],
+      [10, -10],
+      [10, 10],
+    ].map(([x, y]) => cloud.vertex(X + x!, Y + y!, 0));
+    expect((await measureVolume(cloud, ring)).area).toBeCloseTo(200 / 0.9996 ** 2, 3);
   });
 });
 

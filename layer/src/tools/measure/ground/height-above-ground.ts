@@ -1,3 +1,4 @@
+import type { Vector } from "@groma/georef";
 import { MeasureError } from "../../../errors/index.js";
 import type { PointOrigin } from "../../../query/index.js";
 import { Plan } from "../points/local-plan.js";
@@ -8,7 +9,7 @@ import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity } from "../worth/quantity.js";
 
 export interface GroundOptions extends WorthOptions {
-  /** Metres around the vertex in which points of the ground count. Default: 3. */
+  /** Metres around the vertex in which points of the ground count. Default: 3, and where a roof hides these 9, then 27. */
   readonly radius?: number | undefined;
   /** Default: 2, ground. */
   readonly classes?: ReadonlySet<number> | undefined;
@@ -16,6 +17,12 @@ export interface GroundOptions extends WorthOptions {
 }
 
 const GROUND: ReadonlySet<number> = new Set([2]);
+
+/** Radii that are tried, metres: below a building there is no ground. */
+const RADII = [3, 9, 27];
+
+/** Metres to each side of the vertex over which the plan is told. */
+const STEP = 0.1;
 
 /**
  * Height of a vertex above the ground of its own data set: above the plane of least squares through the points of the
@@ -28,7 +35,7 @@ const GROUND: ReadonlySet<number> = new Set([2]);
 export async function measureHeightAboveGround(
   cloud: MeasuredCloud & PointOrigin,
   vertex: Vertex,
-  { radius = 3, classes = GROUND, signal, ...worth }: GroundOptions = {},
+  { radius, classes = GROUND, signal, ...worth }: GroundOptions = {},
 ): Promise<Quantity<"m">> {
   const { source } = vertex;
   if (!source || vertex.cloud !== cloud) {
@@ -39,10 +46,35 @@ export async function measureHeightAboveGround(
       fix: "give the data set that it stands on",
     });
   }
-  const [x, y, z] = source;
-  // About the vertex the plan has it in the middle.
+  for (const reach of radius === undefined ? RADII : [radius]) {
+    const ground = levelPlane(await pointsWithin(cloud, source, reach, { classes, signal }), reach);
+    if (!ground) continue;
+    const note = `${ground.count} points within ${reach} m`;
+    return quantity(
+      source[2] * cloud.crs.verticalUnit.size - ground.height,
+      "m",
+      [[{ vertex, gradient: axesAt(vertex).up }]],
+      { ...worth, ofRecords: true, own: [{ name: "ground", standard: ground.deviation, note }] },
+    );
+  }
+  throw new MeasureError({
+    code: "MEASURE_GROUND",
+    file: cloud.name,
+    cause: `there are not three points of the ground within ${radius ?? RADII[RADII.length - 1]} m of the vertex`,
+    fix: "give a greater radius, or the classes that the ground has in this data set",
+  });
+}
+
+/** Points around a place, in a plan about it. */
+async function pointsWithin(
+  cloud: MeasuredCloud & PointOrigin,
+  [x, y, z]: Vector,
+  radius: number,
+  options: Pick<GroundOptions, "classes" | "signal">,
+): Promise<Float64Array> {
+  // About the vertex the plan has it in the middle; close to it, since beside a data set there may be no places.
   const step =
-    radius / cloud.crs.horizontalUnit.size / (cloud.crs.horizontalUnit.kind === "angular" ? 6.4e6 : 1);
+    STEP / cloud.crs.horizontalUnit.size / (cloud.crs.horizontalUnit.kind === "angular" ? 6.4e6 : 1);
   const plan = new Plan(cloud, [
     [x - step, y - step, z],
     [x + step, y + step, z],
@@ -51,23 +83,7 @@ export async function measureHeightAboveGround(
   const reachX = (radius * step) / Math.hypot(eastX, northX);
   const reachY = (radius * step) / Math.hypot(eastY, northY);
   const around = [x - reachX, y - reachY, x + reachX, y + reachY] as const;
-  const points = joined(await readPoints(cloud, around, { plan, classes, signal }));
-  const ground = levelPlane(points, radius);
-  if (!ground) {
-    throw new MeasureError({
-      code: "MEASURE_GROUND",
-      file: cloud.name,
-      cause: `there are not three points of the ground within ${radius} m of the vertex`,
-      fix: "give a greater radius, or the classes that the ground has in this data set",
-    });
-  }
-  const note = `${ground.count} points within ${radius} m`;
-  return quantity(
-    z * cloud.crs.verticalUnit.size - ground.height,
-    "m",
-    [[{ vertex, gradient: axesAt(vertex).up }]],
-    { ...worth, ofRecords: true, own: [{ name: "ground", standard: ground.deviation, note }] },
-  );
+  return joined(await readPoints(cloud, around, { plan, ...options }));
 }
 
 /** The plane z = a + b x + c y of least squares: its height in the middle, and how far points are from it. */
@@ -97,10 +113,13 @@ function levelPlane(points: Float64Array, radius: number) {
     const [dx, dy, dz] = [0, 1, 2].map((axis) => points[i + axis] - mean[axis]);
     return sum + (dz - b * dx - c * dy) ** 2;
   }, 0);
+  // How far the middle is from the points counts too: a plane is worth less beside them.
+  const leverage =
+    (mean[0] ** 2 * yy - 2 * mean[0] * mean[1] * xy + mean[1] ** 2 * xx) / determinant + 1 / count;
   return {
     count,
     height: mean[2] - b * mean[0] - c * mean[1],
     // Of three points none is left over to tell by.
-    deviation: count > 3 ? Math.sqrt(squares / (count - 3)) : null,
+    deviation: count > 3 ? Math.sqrt((squares / (count - 3)) * (1 + leverage)) : null,
   };
 }

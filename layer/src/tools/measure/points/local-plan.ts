@@ -17,18 +17,19 @@ export class Plan {
     const mean = [0, 1, 2].map(
       (axis) => corners.reduce((sum, corner) => sum + corner[axis], 0) / corners.length,
     );
-    const reach = (axis: number) =>
-      Math.max(1e-9, ...corners.map((corner) => Math.abs(corner[axis] - mean[axis])));
     const frame = eastNorthUp(cloud.place(mean[0], mean[1], mean[2]));
+    // Nowhere but between the corners: beside a data set there may be no places.
     const slope = (axis: 0 | 1) => {
-      const step = reach(axis);
-      const at = (sign: number) => {
-        const [x, y] = axis === 0 ? [mean[0] + sign * step, mean[1]] : [mean[0], mean[1] + sign * step];
+      const along = corners.map((corner) => corner[axis]);
+      const at = (value: number) => {
+        const [x, y] = axis === 0 ? [value, mean[1]] : [mean[0], value];
         const [X, Y, Z] = Array.from(cloud.place(x, y, mean[2]));
         return pointIn(frame, X, Y, Z);
       };
-      const [ahead, behind] = [at(1), at(-1)];
-      return [(ahead[0] - behind[0]) / (2 * step), (ahead[1] - behind[1]) / (2 * step)] as const;
+      const [low, high] = [Math.min(...along), Math.max(...along)];
+      if (low === high) return [0, 0] as const;
+      const [ahead, behind] = [at(high), at(low)];
+      return [(ahead[0] - behind[0]) / (high - low), (ahead[1] - behind[1]) / (high - low)] as const;
     };
     this.#middle = [mean[0], mean[1]];
     this.#ofX = slope(0);
