@@ -137,7 +137,8 @@ describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
       };
       const map = stage.addMap({ projection: "EPSG:32632", center: [0, 0], resolution: 1 });
       map.layer.setVisible(false);
-      const link = synchronize({ viewer: globe.widget, map: map.map });
+      const features = new ol.VectorSource();
+      const link = synchronize({ viewer: globe.widget, map: map.map, features });
       window.linked.link = link;
       const view = map.map.getView();
       const [width, height] = [canvas.clientWidth, canvas.clientHeight];
@@ -169,9 +170,17 @@ describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
       await stage.frames(3);
       const marked = link.cursor!.map.getGeometry()?.getCoordinates();
       const under = meets(90, 220).at;
+      // A shared vertex without a height stands on the slope.
+      const line = new ol.Feature(new ol.LineString([before.center, wanted]));
+      features.addFeature(line);
+      await stage.frames(3);
+      const stands = link.placesOf(line).vertices.map((place) => {
+        const at = Cesium.Cartographic.fromCartesian(Cesium.Cartesian3.fromArray([...place]));
+        return at.height - heightAt(at.longitude, at.latitude);
+      });
       link.dispose();
       globe.destroy();
-      return { before, looked, corners, wanted, led, marked, under };
+      return { before, looked, corners, wanted, led, marked, under, stands };
     });
     const apart = (a: readonly number[], b: readonly number[]) => Math.hypot(a[0]! - b[0]!, a[1]! - b[1]!);
     // Cesium keeps the vertices of a tile to 12 bits of its size.
@@ -186,5 +195,7 @@ describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
     expect(seen.led.away / seen.looked.away).toBeCloseTo(1, 2);
     expect(seen.led.height - seen.looked.height).toBeGreaterThan(50);
     expect(apart(seen.marked!, seen.under)).toBeLessThan(near);
+    expect(seen.stands.length).toBe(2);
+    for (const off of seen.stands) expect(Math.abs(off)).toBeLessThan(near);
   });
 });
