@@ -94,12 +94,8 @@ export async function pointByPoint(
   const listed = usable.some(isLast) ? await inOrder() : usable;
   const list = ranked(listed, await operationAreas(proj, source, { box, signal }));
   const { plan, places: own } = candidate;
-  const rectangles = await rectanglesOf(
-    proj,
-    plan.pipeline.slice(0, plan.projection),
-    list.map(({ area }) => area),
-    signal,
-  );
+  const rectangles = await rectanglesFor(list.map(({ area }) => area));
+  if (!rectangles) return undefined;
   const points = spread(domain);
   const total = points.length / 3;
   // Points that no operation has placed as PROJ would, so far.
@@ -138,6 +134,16 @@ export async function pointByPoint(
     }
     ways.push({ candidate: its, areas, share: placed.length / total });
     return true;
+  }
+
+  async function rectanglesFor(areasOfUse: readonly AreaOfUse[]): Promise<Rectangle[][] | undefined> {
+    try {
+      return await rectanglesOf(proj, plan.pipeline.slice(0, plan.projection), areasOfUse, signal);
+    } catch (error) {
+      // A projection that PROJ has no way back to: it cannot choose by area either.
+      if (error instanceof GromaError && error.code === "PROJ_FAILED") return undefined;
+      throw error;
+    }
   }
 
   async function candidateOf(operation: Operation): Promise<Candidate | undefined> {
