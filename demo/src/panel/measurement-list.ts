@@ -3,6 +3,7 @@ import {
   type MeasureTool,
   type NamedValue,
   readsPoints,
+  type Vertex,
   type VolumeSettings,
   wordsOf,
 } from "@groma/layer/tools";
@@ -119,7 +120,7 @@ export class MeasurementList {
   }
 
   #fill({ measurement, edit, read, facts }: Entry): void {
-    const { id, name } = measurement;
+    const { id, name, kind, vertices } = measurement;
     const edited = this.#tool.edited?.id === id;
     setText(edit, edited ? "Done" : "Edit");
     edit.setAttribute("aria-label", `${edited ? "Done with" : "Edit"} ${name}`);
@@ -136,6 +137,7 @@ export class MeasurementList {
     if (reading?.state === "failed") fact("no value", messageOf(reading.thrown));
     try {
       for (const one of this.#tool.valuesOf(measurement)) fact(one.title, this.#words(one), unknownOf(one));
+      if (kind === "point") for (const [title, text] of placesOf(vertices[0])) fact(title, text);
     } catch (thrown) {
       fact("no value", messageOf(thrown));
     }
@@ -200,6 +202,20 @@ function settingsOf(base: string, height: number, groundOnly: boolean): VolumeSe
   }
   const kind = (["highest", "plane", "ring"] as const).find((one) => one === base) ?? "lowest";
   return { base: { kind }, ...classes };
+}
+
+/** A point in the frames that have no units to choose. */
+function placesOf(vertex: Vertex | undefined): [title: string, text: string][] {
+  if (!vertex) return [];
+  const { source, cloud, record, ecef } = vertex;
+  const decimals = (step: number) => Math.min(9, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)));
+  return [
+    ...(source && cloud
+      ? [[cloud.crs.name, source.map((one, i) => one.toFixed(decimals(cloud.scale[i] ?? 1))).join(", ")]]
+      : []),
+    ["ECEF", ecef.map((one) => one.toFixed(4)).join(", ")],
+    ["record", record ? `${record.index} of node ${record.node}` : "none: a place"],
+  ] as [string, string][];
 }
 
 /** What of a value nobody knows. */

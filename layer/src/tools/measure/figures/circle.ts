@@ -15,10 +15,10 @@ export interface Circle {
   readonly area: Quantity<"m²">;
   readonly arc: {
     readonly length: Quantity<"m">;
-    /** Radians, 0 … 2π. */
-    readonly angle: number;
-    /** From end to end, metres. */
-    readonly chord: number;
+    /** 0 … 2π. */
+    readonly angle: Quantity<"rad">;
+    /** From end to end. */
+    readonly chord: Quantity<"m">;
     /** From the middle of the chord to that of the arc (rise of an arch, mid-ordinate of a curve). */
     readonly sagitta: Quantity<"m">;
   };
@@ -37,7 +37,7 @@ export function measureCircle(a: Vertex, b: Vertex, c: Vertex, options: WorthOpt
   const points = inFrame(vertices, frame);
   const found = circleThrough(points);
   if (!found) throw collinear("a circle");
-  const { centre, normal, angle, chord } = found;
+  const { centre, normal, chord } = found;
   const [x, y, z] = turnOut(frame, ...centre);
   const { origin } = frame;
 
@@ -56,7 +56,7 @@ export function measureCircle(a: Vertex, b: Vertex, c: Vertex, options: WorthOpt
       return { vertex, gradient: turnOut(frame, along[0], along[1], along[2]) };
     });
   };
-  const told = <Unit extends "m" | "m²">(unit: Unit, of: (circle: PlaneCircle) => number) =>
+  const told = <Unit extends "m" | "m²" | "rad">(unit: Unit, of: (circle: PlaneCircle) => number) =>
     quantity(of(found), unit, [sensitivities(of)], options);
   return {
     centre: ecefVertex([origin[0] + x, origin[1] + y, origin[2] + z]),
@@ -66,8 +66,8 @@ export function measureCircle(a: Vertex, b: Vertex, c: Vertex, options: WorthOpt
     area: told("m²", (circle) => Math.PI * circle.radius ** 2),
     arc: {
       length: told("m", (circle) => circle.radius * circle.angle),
-      angle,
-      chord,
+      angle: told("rad", (circle) => circle.angle),
+      chord: told("m", (circle) => circle.chord),
       sagitta: told("m", (circle) => 2 * circle.radius * Math.sin(circle.angle / 4) ** 2),
     },
   };

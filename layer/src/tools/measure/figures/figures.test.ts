@@ -280,7 +280,8 @@ describe("circles", () => {
         const circle = measureCircle(at(0, radius), at(first, radius), at(first + second, radius));
         const { arc } = circle;
         expect(circle.radius.value / radius).toBeCloseTo(1, 5);
-        expect(arc.angle).toBeCloseTo(first + second, 5);
+        expect(arc.angle.value).toBeCloseTo(first + second, 5);
+        expect(arc.chord.value / (2 * radius * Math.sin((first + second) / 2))).toBeCloseTo(1, 4);
         expect(arc.length.value / (radius * (first + second))).toBeCloseTo(1, 5);
         expect(arc.sagitta.value / (radius * (1 - Math.cos((first + second) / 2)))).toBeCloseTo(1, 4);
         expect(measureDistance(circle.centre, at(1, radius)).space.value / radius).toBeCloseTo(1, 5);

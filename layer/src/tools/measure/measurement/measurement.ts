@@ -177,6 +177,8 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
       return [
         value("radius", "radius", radius),
         value("arc", "arc", arc.length),
+        value("arcAngle", "angle of the arc", arc.angle),
+        value("chord", "chord", arc.chord),
         value("sagitta", "sagitta", arc.sagitta),
         value("circumference", "circumference", circumference),
         value("area", "area", area),

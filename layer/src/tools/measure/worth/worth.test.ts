@@ -80,6 +80,7 @@ function values([a, b, c, d]: readonly Vertex[], options: { precision: number })
     ...{ "planar area": area.planar, "geodesic area": area.geodesic, "grid area": area.grid?.area },
     perimeter: area.perimeter.geodesic,
     ...{ radius: circle.radius, arc: circle.arc.length, sagitta: circle.arc.sagitta },
+    ...{ "arc's angle": circle.arc.angle, chord: circle.arc.chord },
     ...{ "plane's slope": plane.slope, "plane's aspect": plane.aspect },
     ...{ ascent: line.ascent, descent: line.descent },
   } satisfies Record<string, Quantity | undefined>;
