@@ -21,7 +21,7 @@ import {
 import { degreeBox } from "./area.js";
 import { type AssembledWay, assemble, CONSTANT, isSameGround } from "./assemble.js";
 import { type Beyond, beyondNote, goingOn } from "./beyond.js";
-import { type Choice, choose, type PassedOver, prepared } from "./candidate.js";
+import { type Candidate, type Choice, choose, type PassedOver, prepared } from "./candidate.js";
 import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
 import { egm96 } from "./egm96.js";
@@ -94,7 +94,10 @@ export async function projTransformation(
   const whole = beyond && goingOn(transformation, beyond, domain);
   const main = several && byPoint ? widest(byPoint) : undefined;
   const { operation } = (main ?? choice).candidate;
-  const accuracy = main && byPoint ? leastAccurate(byPoint) : operation.accuracy;
+  const accuracy =
+    main && byPoint
+      ? leastAccurate([candidate, ...byPoint.ways.map((way) => way.candidate)])
+      : operation.accuracy;
   const far = main ? undefined : byPoint?.farthest;
   const counted = far && (accuracy === null || far.worth > accuracy) ? far : undefined;
   const told = main && byPoint ? severalNote(byPoint.ways, main) : counted && elsewhereNote(counted);
@@ -189,8 +192,8 @@ function widest({ ways }: PointByPoint): TakenWay {
 }
 
 /** What is published for the operation that is worth least, metres; `null` where that is not known of all. */
-function leastAccurate({ ways }: PointByPoint): number | null {
-  return ways.reduce<number | null>((least, { candidate: { operation } }) => {
+function leastAccurate(candidates: readonly Candidate[]): number | null {
+  return candidates.reduce<number | null>((least, { operation }) => {
     return least === null || operation.accuracy === null ? null : Math.max(least, operation.accuracy);
   }, 0);
 }
