@@ -259,6 +259,20 @@ async function plotIsMovedAndMeasured(page: Page): Promise<void> {
   );
   expect(await page.locator("#profile-axes .ground").count()).toBeGreaterThan(0);
   await page.uncheck("#profile-table-shown");
+  // The scan has one class alone: from its greatest to its least height, which is below.
+  await page.fill("#profile-ground-class", "0");
+  await page.fill("#profile-clearance", "0");
+  await page.press("#profile-clearance", "Enter");
+  const clearance = () => page.textContent("#profile-clearance-words");
+  await expect
+    .poll(clearance)
+    .toMatch(/^Least clearance of class 0 over class 0: -\d+\.\d{3} m at chainage /);
+  await page.fill("#profile-clearance", "5");
+  await page.press("#profile-clearance", "Enter");
+  await expect.poll(clearance).toBe("No station has points of class 5 over class 0");
+  await page.fill("#profile-clearance", "");
+  await page.fill("#profile-ground-class", "");
+  await page.press("#profile-ground-class", "Enter");
 
   await page.click("#profile-measure");
   await page.focus("#profile-plot");

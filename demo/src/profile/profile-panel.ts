@@ -13,6 +13,7 @@ import {
 import type { Viewer } from "cesium";
 import { byId, optionElement, setText } from "../panel/elements.js";
 import { ExportJob } from "../panel/export-job.js";
+import { ClearanceWords } from "./clearance.js";
 import { Comparison } from "./comparison.js";
 import { CutClips } from "./cut-clips.js";
 import { groundTable } from "./ground-table.js";
@@ -48,6 +49,7 @@ export class ProfilePanel {
   readonly #lineTools: LineTools;
   readonly #comparison: Comparison;
   readonly #cut: CutClips;
+  readonly #clearance: ClearanceWords;
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #events: ProfileEvents;
   readonly #outline: StripOutline;
@@ -82,6 +84,7 @@ export class ProfilePanel {
     this.#lineTools = new LineTools(this.lines, () => void this.#read(), events.failed);
     this.#comparison = new Comparison(() => void this.#read(), events.failed);
     this.#cut = new CutClips(layer);
+    this.#clearance = new ClearanceWords(() => void this.#groundAnew());
     this.#mark = new PlaceMark(viewer);
     this.#outline = new StripOutline(viewer, layer, (width) => {
       this.#width.value = String(Number(width.toPrecision(3)));
@@ -292,6 +295,7 @@ export class ProfilePanel {
       plot.secondGround = this.#comparison.active ? second : [];
       this.#comparison.tell(found, second, profile.origin as PointCloud);
       this.#showTable(statistic);
+      await this.#clearance.tell(profile, plot.parts, choice.classification, signal);
     } catch (thrown) {
       if (!signal.aborted) this.#events.failed(thrown);
     }
