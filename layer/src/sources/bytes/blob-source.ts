@@ -7,9 +7,21 @@ export class BlobSource implements ByteSource {
   readonly size: number;
   readonly #blob: Blob;
 
-  constructor(blob: Blob, name = "name" in blob && typeof blob.name === "string" ? blob.name : "file") {
+  /**
+   * @param name for messages; default: the file's own, or `file`
+   * @throws SourceError SOURCE_ADDRESS for what is no Blob
+   */
+  constructor(blob: Blob, name?: string) {
+    if (!(blob instanceof Blob)) {
+      throw new SourceError({
+        code: "SOURCE_ADDRESS",
+        file: name ?? String(blob),
+        cause: "this is no File or Blob",
+        fix: "Give the File that the user chose, or a Blob",
+      });
+    }
     this.#blob = blob;
-    this.name = name;
+    this.name = name ?? ("name" in blob && typeof blob.name === "string" ? blob.name : "file");
     this.size = blob.size;
   }
 
