@@ -37,5 +37,5 @@ export async function runClip(files: readonly string[], options: ClipCommandOpti
     );
     return { origin, volume: sliced(volume), classes };
   };
-  await tellCut("clip", files, options, { select });
+  await tellCut("clip", files, options, { select, given: file });
 }

@@ -30,7 +30,7 @@ export async function runGeoref(
   out: string = defaultOutput(input),
   { overwrite = false, json = false, ...given }: GeorefOptions = {},
 ): Promise<void> {
-  requirePlace(out, overwrite);
+  requirePlace(out, overwrite, [input, given.control]);
   const made = await interruptible(async (signal) => {
     const source = await readHead(input, signal);
     const { boundingBox, pointCount: points, scale, offset, name: file } = source;

@@ -58,6 +58,7 @@ export async function runProfile(files: readonly string[], options: ProfileComma
   };
   const request: CutRequest = {
     title: basename(file, extname(file)),
+    given: file,
     ...(sections && { sections }),
     select,
     facts: (known) => facts?.(known) ?? known,

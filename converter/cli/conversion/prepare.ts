@@ -1,7 +1,7 @@
 import type { Fault } from "@groma/georef";
 import type { CoreEvent, PointBounds, Scan } from "../core/core.js";
 import { OptionError } from "../given/option-error.js";
-import { OutputError, requirePlace } from "../given/output-place.js";
+import { OutputError, requireOther, requirePlace } from "../given/output-place.js";
 import type { Planned } from "../pdal/bring.js";
 import type { Pdal } from "../pdal/find.js";
 import type { Job } from "../pdal/pipeline.js";
@@ -44,11 +44,13 @@ export async function prepare(
   onEvent: (event: CoreEvent) => void,
   signal?: AbortSignal,
 ): Promise<Preparation> {
-  const found = await sourcesOf(await expandInputs(args, output), options.pipeline);
+  const named = await expandInputs(args, output);
+  requireOther(output, [...named, options.control, options.pipeline]);
+  const found = await sourcesOf(named, options.pipeline);
   const files = found.flatMap((source) => (source.reader === "core" ? [source.file] : []));
   const jobs = found.flatMap((source) => (source.reader === "pdal" ? [source.job] : []));
   // PDAL may take an hour; what the core would refuse after it is refused now.
-  if (jobs.length > 0) requireTarget(output, options.overwrite ?? false);
+  if (jobs.length > 0) requireTarget(output, options.overwrite ?? false, jobs);
   const { scanOf, skipped } = await scanAll(files, found.length === 1 || (options.strict ?? false), signal);
   for (const { file, cause } of skipped) onEvent({ event: "warning", text: `${file}: skipped: ${cause}` });
   const sources = found.filter((source) => source.reader === "pdal" || scanOf.has(source.file));
@@ -56,12 +58,12 @@ export async function prepare(
   const read =
     jobs.length > 0 ? await throughPdal(jobs, options, onEvent, signal) : await withoutPdal(options, files);
 
-  const named = sources.map((source): Named => {
+  const declared = sources.map((source): Named => {
     if (source.reader === "core") return scanOf.get(source.file)!;
     const { wkt } = read!.probes[jobs.indexOf(source.job)]!;
     return { file: source.job.name, ...(wkt && { wkt }) };
   });
-  const georeferenced = await commonGeoreference(named, options);
+  const georeferenced = await commonGeoreference(declared, options);
   // What is wrong with the choice of the engine is said before the points are read.
   if (!georeferenced.local) await chosenProj(options);
   const geographic = georeferenced.crs.horizontalUnit.kind === "angular";
@@ -138,8 +140,14 @@ async function withoutPdal({ pdal, scale }: ConvertOptions, files: readonly stri
   await findPdal(pdal, files[0]!);
 }
 
-function requireTarget(output: string, overwrite: boolean): void {
-  requirePlace(output, overwrite);
+function requireTarget(output: string, overwrite: boolean, jobs: readonly Job[]): void {
+  const stages = jobs.flatMap((job) => job.stages);
+  const read = stages.map((stage) => (typeof stage === "string" ? stage : stage.filename));
+  requirePlace(
+    output,
+    overwrite,
+    read.filter((file) => typeof file === "string"),
+  );
   // As in the core, `output.rs`.
   if (!/\.laz$/i.test(output)) {
     throw new OutputError({

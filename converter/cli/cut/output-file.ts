@@ -38,7 +38,8 @@ export async function writeWhole(
   await withScratch(dirname(output), async (folder) => {
     const unfinished = join(folder, "output");
     await fill(unfinished);
-    requirePlace(output, overwrite);
+    // That it is none of the files that are read was found before the work.
+    requirePlace(output, overwrite, []);
     await rename(unfinished, output);
   });
 }
