@@ -16,22 +16,30 @@ export function extendedPlace(space: SourceSpace): Place {
     const cy = Math.min(Math.max(y, min[1]), max[1]);
     space.place(cx, cy, z, inner);
     out.set(inner);
-    carryOn(x - cx, (step) => space.place(cx + step, cy, z, probe), max[0] - min[0], inner, out);
-    carryOn(y - cy, (step) => space.place(cx, cy + step, z, probe), max[1] - min[1], inner, out);
+    carryOn(x - cx, (step) => space.place(cx + step, cy, z, probe), max[0] - min[0], cx, inner, out);
+    carryOn(y - cy, (step) => space.place(cx, cy + step, z, probe), max[1] - min[1], cy, inner, out);
     return out;
   };
 }
 
-/** Adds how far a place moves along one axis, by the secant over a thousandth of the data set inwards. */
+/** Share of a coordinate over which a secant is taken at least: over less, the rounding of ECEF is carried on as well. */
+const LEAST_SECANT = 1e-6;
+
+/**
+ * Adds how far a place moves along one axis, by the secant inwards over a thousandth of the data set; over more of a small
+ * one, up to all of it.
+ */
 function carryOn(
   beyond: number,
   at: (step: number) => Float64Array,
   width: number,
+  edge: number,
   from: Float64Array,
   out: Float64Array,
 ): void {
   if (beyond === 0 || !(width > 0)) return;
-  const step = (-Math.sign(beyond) * width) / 1000;
+  const least = LEAST_SECANT * Math.max(1, Math.abs(edge));
+  const step = -Math.sign(beyond) * Math.min(width, Math.max(width / 1000, least));
   const inside = at(step);
   for (let axis = 0; axis < 3; axis++) out[axis] += ((inside[axis] - from[axis]) / step) * beyond;
 }

@@ -45,9 +45,32 @@ describe("a line in the plane of a data set", () => {
     expect(Math.hypot(x - 501300, y - 5199800)).toBeLessThan(0.05);
   });
 
+  it.each([9, 0.02])(
+    "is found in and around a scan of %d m, however little float64 leaves of a step",
+    (size) => {
+      const [x0, y0] = [500123.45, 5499876.54];
+      const small = {
+        ...space,
+        boundingBox: { min: [x0, y0, 95], max: [x0 + size, y0 + size, 105] },
+      } as const;
+      for (let index = 0; index < 50; index++) {
+        for (const [far, accuracy] of [
+          [size, 1e-6],
+          [50, 1e-3],
+          [3000, 3],
+        ]) {
+          const [x, y] = [x0 + far * Math.sin(index), y0 + far * Math.cos(3 * index)];
+          const [[foundX, foundY]] = sourceLine(small, [angles(x, y)], "line");
+          const inside = x >= x0 && x <= x0 + size && y >= y0 && y <= y0 + size;
+          expect(Math.hypot(foundX - x, foundY - y)).toBeLessThan(inside ? 1e-6 : accuracy);
+        }
+      }
+    },
+  );
+
   it("has no vertices without a place", () => {
     expect(() => sourceLine(space, [angles(500100, 5200100), [Number.NaN, 0]], "line.geojson")).toThrow(
-      /line.geojson: vertex 2 of the line/,
+      /line.geojson: vertex 2 has no place/,
     );
   });
 });
