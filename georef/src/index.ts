@@ -31,7 +31,7 @@ export type {
   Unit,
 } from "./crs/crs.js";
 export { epsgLookup, type PackedEpsg, packEpsg } from "./crs/epsg-table.js";
-export { resolveCrs, resolveWithNotes } from "./crs/resolve.js";
+export { keepHeights, resolveCrs, resolveWithNotes } from "./crs/resolve.js";
 export { sameHeights, samePlane, sameSize } from "./crs/same.js";
 export { publishedAccuracy } from "./crs/shift-worth.js";
 export { type CurvatureRadii, curvatureRadii, radiusAlong } from "./ellipsoid/curvature.js";

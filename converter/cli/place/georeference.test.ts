@@ -88,6 +88,22 @@ describe.skipIf(!proj)(`what only PROJ understands${absent}`, () => {
     });
   });
 
+  it("keeps the heights that the file declares, its unit of z included, and tells it", async () => {
+    const wkt = `COMPD_CS["both",${epsg(25832)!.wkt},${epsg(7837)!.wkt}]`;
+    const found = await georeference(tile("scan.las", { wkt }), { crs: "EPSG:5682" });
+    expect(found).toMatchObject({
+      crs: { code: "EPSG:5682+7837", height: { epsg: 7837 }, verticalUnit: { size: 1, declared: true } },
+      notes: [{ code: "CRS_HEIGHTS_KEPT", text: expect.stringMatching(/^DHHN2016 height \(metre\)/) }],
+    });
+    expect(outputWkt(found)).toMatch(/^COMPOUNDCRS.*DB_REF.*VERTCRS\["DHHN2016 height".*ID\["EPSG",7837\]/);
+    const feet = { ...bare, geoTiff: keys(3072, 0, 1, 25832, 4099, 0, 1, 9003) };
+    const inFeet = await georeference(feet, { crs: "EPSG:5682" });
+    expect(inFeet.crs).toMatchObject({ code: "EPSG:5682", verticalUnit: { size: 1200 / 3937 } });
+    expect(outputWkt(inFeet)).toMatch(/VERTCRS\["unknown".*survey foot/);
+    const other = await georeference(tile("scan.las", { wkt }), { crs: "EPSG:5682", vertical: "EPSG:5783" });
+    expect([other.crs.code, other.notes]).toEqual(["EPSG:5682+5783", []]);
+  });
+
   it("stays refused where PROJ does not understand it either, in the same words", async () => {
     const given = { crs: "EPSG:999999" };
     const words = await georeference(bare, { ...given, engine: "proj4js" }).catch((error) => error.message);

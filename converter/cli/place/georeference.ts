@@ -2,8 +2,10 @@ import {
   type Crs,
   CrsError,
   type CrsNote,
+  type CrsSources,
   decodeRecord,
   type GeoreferenceRecord,
+  keepHeights,
   likelySystems,
   type Place,
   RecordError,
@@ -65,7 +67,7 @@ export async function georeference(scan: Named, given: Given): Promise<Georefere
     try {
       return named(scan, given, record);
     } catch (error) {
-      const known = await knownToProj(scan, given, error);
+      const known = await knownToProj(scan, given, record, error);
       if (known) return known;
       throw error;
     }
@@ -93,15 +95,7 @@ export function georeferenceRecord({ file, groma }: Named): GeoreferenceRecord |
 
 /** The coordinate reference system that the user or the file names. */
 function named(scan: Named, given: Given, record: GeoreferenceRecord | undefined): Georeferenced {
-  const { file, geoTiff: keys, pointFormat, wktBit } = scan;
-  const geoTiff = keys && {
-    directory: Uint16Array.from(keys.directory),
-    doubles: Float64Array.from(keys.doubles),
-    ascii: keys.ascii,
-  };
-  const las = pointFormat === undefined || wktBit === undefined ? undefined : { pointFormat, wktBit };
-  const recordedHeights = record?.similarity ? undefined : record?.crs;
-  const declared = { file, wkt: wktOnEarth(scan), geoTiff, las, recordedHeights };
+  const declared = declarationOf(scan, record);
   try {
     const found = resolveWithNotes({ ...declared, given: given.crs, givenVertical: given.vertical }, epsg);
     return { ...found, heightGiven: given.vertical !== undefined && found.basis !== "given" };
@@ -115,13 +109,31 @@ function named(scan: Named, given: Given, record: GeoreferenceRecord | undefined
   }
 }
 
+/** What a file says of its coordinates, as it is read. */
+function declarationOf(scan: Named, record: GeoreferenceRecord | undefined): CrsSources {
+  const { file, geoTiff: keys, pointFormat, wktBit } = scan;
+  const geoTiff = keys && {
+    directory: Uint16Array.from(keys.directory),
+    doubles: Float64Array.from(keys.doubles),
+    ascii: keys.ascii,
+  };
+  const las = pointFormat === undefined || wktBit === undefined ? undefined : { pointFormat, wktBit };
+  const recordedHeights = record?.similarity ? undefined : record?.crs;
+  return { file, wkt: wktOnEarth(scan), geoTiff, las, recordedHeights };
+}
+
 /** Refusals of CRSs that PROJ may know all the same. */
 const PROJ_MAY_KNOW = new Set(["CRS_UNKNOWN", "CRS_UNSUPPORTED"]);
 
 /**
  * What PROJ makes of a coordinate reference system that was refused; nothing where there is no PROJ, or it refuses too.
  */
-async function knownToProj(scan: Named, given: Given, refusal: unknown): Promise<Georeferenced | undefined> {
+async function knownToProj(
+  scan: Named,
+  given: Given,
+  record: GeoreferenceRecord | undefined,
+  refusal: unknown,
+): Promise<Georeferenced | undefined> {
   if (!(refusal instanceof CrsError) || !PROJ_MAY_KNOW.has(refusal.code) || given.engine === "proj4js") {
     return undefined;
   }
@@ -131,8 +143,12 @@ async function knownToProj(scan: Named, given: Given, refusal: unknown): Promise
   const proj = text === undefined ? undefined : await chosenProj(given);
   if (!proj || text === undefined) return undefined;
   try {
-    const crs = await knownCrs(proj, { name: scan.file, text });
-    return { crs, basis, notes: [], heightGiven: given.vertical !== undefined && basis !== "given" };
+    const known = await knownCrs(proj, { name: scan.file, text });
+    const keeps = basis === "given" && given.vertical === undefined;
+    const { crs, notes } = keeps
+      ? keepHeights(known, declarationOf(scan, record), epsg)
+      : { crs: known, notes: [] };
+    return { crs, basis, notes, heightGiven: given.vertical !== undefined && basis !== "given" };
   } catch (error) {
     if (error instanceof CrsError) return undefined;
     throw error;

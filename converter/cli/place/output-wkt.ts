@@ -21,11 +21,15 @@ export function outputWkt({ crs, local }: Georeferenced): string {
     : `COMPD_CS[${quoted(crs.name)},${plane},${vertical1(crs)}]`;
 }
 
-/** Whether a text declares the heights that were settled; what PROJ alone reads is as PROJ wrote it. */
+/** Whether a text declares the heights that were settled; what PROJ alone reads has none apart from a compound CRS. */
 function saysHeights(wkt: string, crs: Crs): boolean {
   const said = readHere(wkt, crs);
-  if (!said) return true;
+  if (!said) return isCompound(wkt) || (crs.height.kind === "unknown" && !crs.verticalUnit.declared);
   return sameHeights(said, crs) && (said.verticalUnit.declared || !crs.verticalUnit.declared);
+}
+
+function isCompound(wkt: string): boolean {
+  return /^\s*(COMPD_CS|COMPOUNDCRS)\b/i.test(wkt);
 }
 
 function readHere(wkt: string, { name }: Crs): Crs | undefined {

@@ -1,9 +1,9 @@
-import type { Crs, CrsSources, EpsgLookup, ResolvedCrs, Unit } from "./crs.js";
+import type { Crs, CrsNote, CrsSources, EpsgLookup, ResolvedCrs, Unit } from "./crs.js";
 import { heightsOf, inWords, readDeclared, withHeights } from "./declared.js";
 import { epsgCodes, readEpsg } from "./epsg.js";
 import { withGivenVertical } from "./given-vertical.js";
 import type { CrsModel, VerticalModel } from "./model.js";
-import { normalise } from "./normalise.js";
+import { heights, normalise } from "./normalise.js";
 import { readProjString } from "./proj-string.js";
 import { projJsonTree } from "./projjson.js";
 import { Refusal, unknown } from "./refusal.js";
@@ -71,8 +71,32 @@ function fromUser(
   const model = readText(given, lookup);
   const kept = keepHeights && !heightsOf(model) ? heightsOfFile(sources, lookup) : undefined;
   if (!kept) return { model, basis: "given", notes: [] };
+  return { model: withHeights(model, kept), basis: "given", notes: [noteOfKept(kept)] };
+}
+
+function noteOfKept(kept: VerticalModel): CrsNote {
   const text = `${inWords(kept)} is kept from the file: the coordinate reference system given names no heights`;
-  return { model: withHeights(model, kept), basis: "given", notes: [{ code: "CRS_HEIGHTS_KEPT", text }] };
+  return { code: "CRS_HEIGHTS_KEPT", text };
+}
+
+/**
+ * A given CRS that was read elsewhere, with the heights that the file declares where it names none, as
+ * {@link resolveWithNotes} keeps them. Its `wkt` stays that of the plane.
+ */
+export function keepHeights(
+  crs: Crs,
+  sources: CrsSources,
+  lookup?: EpsgLookup,
+): Pick<ResolvedCrs, "crs" | "notes"> {
+  const silent = crs.height.kind === "unknown" && !crs.verticalUnit.declared;
+  const kept = silent ? heightsOfFile({ ...sources, wkt: textOf(sources.wkt) }, lookup) : undefined;
+  if (!kept) return { crs, notes: [] };
+  const code = crs.code !== undefined && kept.code !== undefined ? `${crs.code}+${kept.code}` : crs.code;
+  const whole = { ...crs, ...heights({ kind: "projected", unit: crs.horizontalUnit }, kept) };
+  return {
+    crs: { ...whole, name: `${crs.name} + ${kept.name}`, ...(code !== undefined && { code }) },
+    notes: [noteOfKept(kept)],
+  };
 }
 
 /** The heights that a file declares, whatever it says of the plane. */
