@@ -141,6 +141,28 @@ describe("heights that only one of the two declares", () => {
     expect(crs.verticalUnit).toMatchObject({ size: 1200 / 3937, declared: true });
   });
 
+  it.each([
+    ["missing", keys([4099, 9003])],
+    ["missing but for the kind of model", keys([1024, 1], [4099, 9003])],
+    ["unknown", keys([1024, 1], [3072, 9999], [4099, 9003])],
+  ] as const)("are used where the plane of the keys is %s", (_, geoTiff) => {
+    for (const bit of [true, false]) {
+      const { crs, basis, notes } = resolved({ wkt: utm(32), geoTiff, las: las(1, bit) });
+      expect([basis, crs.code]).toEqual(["WKT", "EPSG:25832"]);
+      expect(crs.verticalUnit).toMatchObject({ size: 1200 / 3937, declared: true });
+      expect(notes.at(-1)).toMatchObject({
+        ...{ code: "CRS_HEIGHTS_FROM_OTHER_FORM", text: expect.stringMatching(/survey foot/) },
+      });
+    }
+    const other = resolved({ wkt: compound(32, DHHN), geoTiff, las: las(1, true) });
+    expect(other.crs.verticalUnit.size).toBe(1);
+    expect(other.notes).toMatchObject([
+      { code: "CRS_CONTRADICTION", text: expect.stringMatching(/z in metre.*keys \(.*survey foot/) },
+    ]);
+    expect(resolved({ given: "EPSG:25833", geoTiff }).crs.verticalUnit.size).toBe(1200 / 3937);
+    expect(() => resolved({ geoTiff: keys([4099, 9003]) })).toThrow(/^CRS_MISSING/);
+  });
+
   it("are not taken from a declaration of another plane", () => {
     const { crs, notes } = resolved({
       ...{ wkt: utm(33), geoTiff: feet, las: las(6, true) },

@@ -1,5 +1,5 @@
 import type { CrsNote, CrsSources, EpsgLookup } from "./crs.js";
-import { readGeoTiff } from "./geotiff.js";
+import { readGeoTiff, readGeoTiffHeights } from "./geotiff.js";
 import type { CrsModel, VerticalModel } from "./model.js";
 import { heights, normalise } from "./normalise.js";
 import { Refusal } from "./refusal.js";
@@ -38,13 +38,60 @@ const FIRST_WITH_WKT = 6;
  * The CRS that a file declares as WKT, as GeoTIFF keys, or as both. Which of the two is in force, the header of a LAS
  * file says: WKT for the point formats 6 to 10, else by bit 4 of the global encoding (LAS 1.4 R15, 2.4 and 2.6). Where
  * that form is absent or cannot be read, the other one is used. Heights that it does not declare are those of the other
- * form, unless the two contradict each other in plane. All of this is told in `notes`.
+ * form, unless the two contradict each other in plane; keys may declare nothing but heights. All of this is told in `notes`.
  *
  * @returns undefined where the file declares nothing
  * @throws Refusal of the form in force where neither can be used
  */
 export function readDeclared(sources: CrsSources, lookup: EpsgLookup | undefined): Declared | undefined {
-  const [first, second] = inOrder(sources, lookup);
+  const forms = inOrder(sources, lookup);
+  const declared = ofForms(forms, sources, lookup);
+  if (declared?.form !== "WKT" || forms.some((one) => one?.form === "GeoTIFF keys" && one.model)) {
+    return declared;
+  }
+  const alone = heightsInKeys(sources, lookup);
+  if (!alone) return declared;
+  const { form, model, notes } = declared;
+  const own = heightsOf(model);
+  if (own && differentHeights(model, own, alone)) {
+    const other = { form: "GeoTIFF keys", words: inWords(alone) } as const;
+    return { form, model, notes: [...notes, contradiction({ form, words: inFull(model) }, other, sources)] };
+  }
+  const whole = completed(model, form, alone, "GeoTIFF keys");
+  return { ...whole, notes: [...notes, ...whole.notes] };
+}
+
+/** The heights that a file declares, whatever it says of the plane. */
+export function readDeclaredHeights(
+  sources: CrsSources,
+  lookup: EpsgLookup | undefined,
+): VerticalModel | undefined {
+  try {
+    const declared = readDeclared(sources, lookup);
+    if (declared) return heightsOf(declared.model);
+  } catch (error) {
+    if (!(error instanceof Refusal)) throw error;
+  }
+  return heightsInKeys(sources, lookup);
+}
+
+/** The heights of keys whose plane is missing or cannot be read. */
+function heightsInKeys({ geoTiff }: CrsSources, lookup: EpsgLookup | undefined): VerticalModel | undefined {
+  try {
+    return geoTiff && readGeoTiffHeights(geoTiff, lookup);
+  } catch (error) {
+    if (error instanceof Refusal) return undefined;
+    throw error;
+  }
+}
+
+type Forms = readonly [first: Reading | undefined, second: Reading | undefined];
+
+function ofForms(
+  [first, second]: Forms,
+  sources: CrsSources,
+  lookup: EpsgLookup | undefined,
+): Declared | undefined {
   if (!first && !second) return undefined;
   if (!first?.model) {
     if (!isReadable(second)) throw (first ?? second)?.refusal;
@@ -60,10 +107,7 @@ function isReadable(reading: Reading | undefined): reading is Readable {
 }
 
 /** The two forms, the one in force first; absent where the file does not have it. */
-function inOrder(
-  sources: CrsSources,
-  lookup: EpsgLookup | undefined,
-): [Reading | undefined, Reading | undefined] {
+function inOrder(sources: CrsSources, lookup: EpsgLookup | undefined): Forms {
   const { wkt, geoTiff } = sources;
   const text = wkt === undefined ? undefined : reading("WKT", () => readWkt(parseWkt(wkt)));
   const keys = geoTiff && reading("GeoTIFF keys", () => readGeoTiff(geoTiff, lookup));
@@ -108,34 +152,48 @@ function both(
   lookup: EpsgLookup | undefined,
 ): Declared {
   const { form, model } = first;
+  const [own, other] = [heightsOf(model), heightsOf(second.model)];
   const apart = differentPlane(model, second.model, lookup);
-  if (apart || differentHeights(model, second.model)) {
-    return { form, model, notes: [contradiction(first, second, sources)] };
+  if (apart || (own && other && differentHeights(model, own, other))) {
+    const [one, two] = [first, second].map((each) => ({ form: each.form, words: inFull(each.model) }));
+    return { form, model, notes: [contradiction(one, two, sources)] };
   }
+  return completed(model, form, other, second.form);
+}
+
+/** What one form declares, its heights completed by those of the other one. */
+function completed(model: CrsModel, form: Form, other: VerticalModel | undefined, from: Form): Declared {
   const own = heightsOf(model);
-  const completed = complete(own, heightsOf(second.model));
-  if (!completed || completed === own) return { form, model, notes: [] };
-  const text = `the ${form} ${form === "WKT" ? "does" : "do"} not declare all of the heights: ${inWords(completed)} is taken from the ${second.form}`;
+  const whole = complete(own, other);
+  if (!whole || whole === own) return { form, model, notes: [] };
+  const text = `the ${form} ${form === "WKT" ? "does" : "do"} not declare all of the heights: ${inWords(whole)} is taken from the ${from}`;
   return {
-    ...{ form, model: withHeights(model, completed) },
+    ...{ form, model: withHeights(model, whole) },
     notes: [{ code: "CRS_HEIGHTS_FROM_OTHER_FORM", text }],
   };
 }
 
-function contradiction({ form, model }: Readable, second: Readable, { las }: CrsSources): CrsNote {
+/** What a form says, for people. */
+interface Said {
+  readonly form: Form;
+  readonly words: string;
+}
+
+function contradiction({ form, words }: Said, second: Said, { las }: CrsSources): CrsNote {
   const used = form === "WKT" ? "the WKT is used" : "the GeoTIFF keys are used";
   const why = !las
     ? ""
     : las.pointFormat >= FIRST_WITH_WKT
       ? `, as point format ${las.pointFormat} requires`
       : `, since the WKT bit of the header is ${las.wktBit ? "set" : "not set"}`;
-  const described = (one: Readable) => {
-    const unit = heightsOf(one.model)?.unit;
-    return `${one.model.name}${unit ? `, z in ${unit.name}` : ""}`;
-  };
-  const [own, other] = [described({ form, model }), described(second)];
-  const text = `the ${form} (${own}) and the ${second.form} (${other}) contradict each other; ${used}${why}`;
+  const text = `the ${form} (${words}) and the ${second.form} (${second.words}) contradict each other; ${used}${why}`;
   return { code: "CRS_CONTRADICTION", text };
+}
+
+/** A CRS with its unit of z. */
+function inFull(model: CrsModel): string {
+  const unit = heightsOf(model)?.unit;
+  return `${model.name}${unit ? `, z in ${unit.name}` : ""}`;
 }
 
 function differentPlane(a: CrsModel, b: CrsModel, lookup: EpsgLookup | undefined): boolean {
@@ -148,13 +206,11 @@ function differentPlane(a: CrsModel, b: CrsModel, lookup: EpsgLookup | undefined
   }
 }
 
-/** Whether both declare heights, and others. */
-function differentHeights(a: CrsModel, b: CrsModel): boolean {
-  const [first, second] = [heightsOf(a), heightsOf(b)];
-  if (!first || !second) return false;
+/** Whether the heights of two declarations of one plane contradict each other. */
+function differentHeights({ horizontal }: CrsModel, first: VerticalModel, second: VerticalModel): boolean {
   if (first.unit && second.unit && !sameSize(first.unit.size, second.unit.size)) return true;
   if (first.reference === "unknown" || second.reference === "unknown") return false;
-  return !sameZero(heights(a.horizontal, first).height, heights(b.horizontal, second).height);
+  return !sameZero(heights(horizontal, first).height, heights(horizontal, second).height);
 }
 
 /** The heights that a CRS declares, those of its own third axis included. */

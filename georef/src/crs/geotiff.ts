@@ -51,6 +51,18 @@ export function readGeoTiff(keys: GeoTiffKeys, lookup: EpsgLookup | undefined): 
   return { ...horizontal, name, vertical };
 }
 
+/**
+ * Reads the heights of GeoTIFF keys alone, whatever they say of the plane.
+ * @returns undefined when the keys name neither a vertical CRS nor a unit of z
+ * @throws Refusal
+ */
+export function readGeoTiffHeights(
+  keys: GeoTiffKeys,
+  lookup: EpsgLookup | undefined,
+): VerticalModel | undefined {
+  return readVertical(readKeys(keys), lookup);
+}
+
 function readHorizontal(values: KeyValues, lookup: EpsgLookup | undefined): CrsModel | undefined {
   const projected = code(values, PROJECTED_TYPE);
   const geographic = code(values, GEOGRAPHIC_TYPE);

@@ -1,5 +1,5 @@
 import type { Crs, CrsNote, CrsSources, EpsgLookup, ResolvedCrs, Unit } from "./crs.js";
-import { heightsOf, inWords, readDeclared, withHeights } from "./declared.js";
+import { heightsOf, inWords, readDeclared, readDeclaredHeights, withHeights } from "./declared.js";
 import { epsgCodes, readEpsg } from "./epsg.js";
 import { withGivenVertical } from "./given-vertical.js";
 import type { CrsModel, VerticalModel } from "./model.js";
@@ -108,14 +108,8 @@ function heightsOfFile(sources: CrsSources, lookup: EpsgLookup | undefined): Ver
     const name = height.kind === "geoid" ? height.model : "ellipsoidal height";
     return { name, code: height.kind === "geoid" ? height.epsg : undefined, unit, reference: height.kind };
   }
-  try {
-    const declared = readDeclared(sources, lookup);
-    return declared && heightsOf(declared.model);
-  } catch (error) {
-    // A CRS is given because that of the file cannot be used.
-    if (error instanceof Refusal) return undefined;
-    throw error;
-  }
+  // A CRS may be given because that of the file cannot be used.
+  return readDeclaredHeights(sources, lookup);
 }
 
 /** The unit of z that a file declares, whatever its heights are measured from. */
