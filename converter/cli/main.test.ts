@@ -298,6 +298,11 @@ describe("the command line", () => {
     [["convert", sample, "out3.copc.laz", "--pdal", "nowhere"], "PDAL_MISSING"],
     [["convert", sample, "out3.copc.laz", "--pipeline", "nowhere.json"], "PDAL_PIPELINE"],
     [["convert", "--pipeline", "nowhere.json"], "OPTION_INVALID"],
+    [["convert", sample, "out3.copc.laz", "--crs="], "OPTION_INVALID"],
+    [["view", sample, "--control", ""], "OPTION_INVALID"],
+    [["serve", ".", "--port="], "OPTION_INVALID"],
+    [["convert", sample, ""], "OPTION_INVALID"],
+    [["help", "nosuch"], "OPTION_INVALID"],
     [["serve", "nowhere"], "SERVER_FOLDER"],
     [["convert", sample, "out2.copc.laz", "--crs", "EPSG:999999"], "CRS_UNKNOWN"],
   ])("%j ends with exit code 1 and %s", async (args, code) => {
@@ -345,5 +350,14 @@ describe("the command line", () => {
     const { code, stdout } = await groma("--help");
     expect(code).toBe(0);
     expect(stdout).toMatch(/convert/);
+    expect(await groma("help")).toEqual({ code, stdout, stderr: "" });
+    const info = await groma("info", "--help");
+    expect(await groma("help", "info")).toEqual({ ...info, code: 0, stderr: "" });
+  });
+
+  it("names what is empty", async () => {
+    const { stderr } = await groma("convert", sample, "out3.copc.laz", "--temp-dir", "");
+    expect(stderr).toContain("option '--temp-dir <DIR>' is empty; give a value, or leave it out");
+    expect((await groma("info", "")).stderr).toContain("argument 1 is empty");
   });
 });

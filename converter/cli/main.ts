@@ -10,6 +10,7 @@ import {
   originList,
   portNumber,
   positive,
+  refuseEmpty,
   sectionFormats,
   statistic,
   threadCount,
@@ -311,7 +312,10 @@ for (const command of [convert, view, georef, grids]) {
   for (const option of placing()) command.addOption(option);
 }
 for (const command of [convert, view]) for (const option of reading()) command.addOption(option);
-for (const command of program.commands) command.copyInheritedSettings(program);
+for (const command of program.commands) {
+  command.copyInheritedSettings(program);
+  refuseEmpty(command);
+}
 
 endWithReader();
 try {
@@ -319,8 +323,8 @@ try {
 } catch (error) {
   if (!(error instanceof CommanderError)) fail(error);
   else if (error.code === "commander.help") {
-    process.exitCode = 1;
-    complain(program.helpInformation().trimEnd().split("\n"));
+    // What was asked for, `groma help info`, has been printed.
+    if (error.exitCode !== 0) helpInstead();
   } else if (error.exitCode !== 0) {
     const cause = error.message
       .replace(/^error: /, "")
@@ -328,6 +332,14 @@ try {
       .replace(/\s*\n\s*/g, " ");
     refuse(cause || "no command given");
   }
+}
+
+/** Nothing was asked for, or help about a command that does not exist. */
+function helpInstead(): void {
+  const [, unknown] = program.args;
+  process.exitCode = 1;
+  if (unknown === undefined) complain(program.helpInformation().trimEnd().split("\n"));
+  else refuse(`unknown command '${unknown}'`);
 }
 
 /** An error like all others, told without what they need. */

@@ -1,4 +1,4 @@
-import { InvalidArgumentError } from "commander";
+import { type Command, InvalidArgumentError } from "commander";
 
 /** Values of options as they are typed; each throws InvalidArgumentError for what is none. */
 
@@ -81,5 +81,22 @@ export function originList(text: string): string[] {
     throw new InvalidArgumentError(
       `${piece} is not an origin such as https://maps.example; to let all read, put --cors at the end of the line`,
     );
+  });
+}
+
+/**
+ * Has a command refuse options and arguments that are given without a value, as those of a script are whose variable is
+ * not set (`--crs "$CRS"`): taken for not given, they would mean something else than was meant.
+ */
+export function refuseEmpty(command: Command): void {
+  const refuse = (what: string) => command.error(`error: ${what} is empty; give a value, or leave it out`);
+  for (const option of command.options) {
+    command.on(`option:${option.name()}`, (value: unknown) => {
+      if (value === "") refuse(`option '${option.flags}'`);
+    });
+  }
+  command.hook("preAction", () => {
+    const at = command.args.indexOf("");
+    if (at >= 0) refuse(`argument ${at + 1}`);
   });
 }
