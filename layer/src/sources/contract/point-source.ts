@@ -151,10 +151,17 @@ export function badHierarchy(file: string, what: string): FormatError {
 }
 
 /** Said where the declared bounds do not hold the points. */
-export function wrongBounds({ min, max }: SourceBox): SourceWarning {
-  const ranges = ["x", "y", "z"].map((axis, index) => `${axis} ${min[index]} to ${max[index]}`);
-  return {
-    code: "BOUNDS_WRONG",
-    message: `the declared bounds do not hold the points (${ranges.join(", ")}); the octree's cube is used`,
-  };
+export function wrongBounds(bounds: SourceBox): SourceWarning {
+  const message = `the declared bounds do not hold the points (${ranges(bounds)}); the octree's cube is used`;
+  return { code: "BOUNDS_WRONG", message };
+}
+
+/** Said where the declared bounds reach beyond the octree, which holds all points. */
+export function tooWideBounds(bounds: SourceBox): SourceWarning {
+  const message = `the declared bounds reach beyond the octree (${ranges(bounds)}); they are cut to its cube`;
+  return { code: "BOUNDS_WRONG", message };
+}
+
+function ranges({ min, max }: SourceBox): string {
+  return ["x", "y", "z"].map((axis, index) => `${axis} ${min[index]} to ${max[index]}`).join(", ");
 }

@@ -39,6 +39,19 @@ describe("openCopc", () => {
     expect(root.pointCount).toBe(10);
   });
 
+  it.each([
+    ["octree size", 24, 1e300],
+    ["octree size", 24, 1e9],
+    ["octree centre", 0, -1e300],
+    ["octree centre", 16, 1e9],
+  ])("FORMAT_HEADER for an %s that no integers can reach", async (what, at, value) => {
+    const bytes = tinyCopc();
+    new DataView(bytes.buffer).setFloat64(429 + at, value, true);
+    const cause = expect.stringContaining(what);
+    const error = expect.objectContaining({ code: "FORMAT_HEADER", cause });
+    await expect(openCopc(new KnownParts(source(bytes)))).rejects.toThrow(error);
+  });
+
   it("keeps GeoTIFF keys as they are recorded", async () => {
     const directory = new Uint8Array(Uint16Array.of(1, 1, 0, 1, 3072, 0, 1, 2056).buffer);
     const { crs } = await open({ records: [["LASF_Projection", 34735, directory]] });

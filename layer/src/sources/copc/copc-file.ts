@@ -12,7 +12,7 @@ import {
   truncated,
 } from "../las/las-header.js";
 import { findVlr, readVlr, type VlrEntry, walkEvlrs, walkVlrs } from "../las/vlrs.js";
-import { type ByteRange, COPC_INFO_END, type CopcInfo, parseCopcInfo } from "./copc-info.js";
+import { type ByteRange, COPC_INFO_END, type CopcInfo, checkCube, parseCopcInfo } from "./copc-info.js";
 import { copiedPage, type FirstPage } from "./first-page.js";
 import { checkPageAddress, type HierarchyLimits } from "./hierarchy.js";
 import { decodeStatistics } from "./statistics-record.js";
@@ -57,6 +57,7 @@ export async function openCopc(source: KnownParts, options: ReadOptions = {}): P
   const opening = await source.read(0, Math.min(COPC_INFO_END, source.size ?? COPC_INFO_END), options);
   const header = parseLasHeader(opening, file);
   const info = parseCopcInfo(opening, file);
+  checkCube(info, header, file);
   if (source.size !== undefined && header.pointsOffset > source.size) throw truncated(file, "its records");
   if (header.pointsOffset < COPC_INFO_END || header.pointsOffset > MAX_POINTS_OFFSET) {
     throw badHeader(file, "offset to the points");

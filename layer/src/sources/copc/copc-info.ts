@@ -1,4 +1,4 @@
-import { badHeader, notCopc, readText, readU64 } from "../las/las-header.js";
+import { badHeader, type LasHeader, notCopc, readText, readU64 } from "../las/las-header.js";
 
 /** Where COPC 1.0 puts the content of its info VLR: 375 bytes of header and 54 of VLR header. */
 const COPC_INFO_BEGIN = 429;
@@ -51,4 +51,23 @@ export function parseCopcInfo(bytes: Uint8Array, file: string): CopcInfo {
   if (!Number.isFinite(info.halfSize) || info.halfSize < 0) throw badHeader(file, "octree size");
   if (!Number.isFinite(info.spacing) || info.spacing < 0) throw badHeader(file, "octree spacing");
   return info;
+}
+
+/** Steps of the integers of LAS that an octree may be wide, or its centre away from their origin: twice as many as there are. */
+const MOST_STEPS = 2 ** 33;
+
+/**
+ * Holds the octree's cube against what integers of 32 bits can reach.
+ * @throws FormatError FORMAT_HEADER
+ */
+export function checkCube(
+  { center, halfSize }: CopcInfo,
+  { scale, offset }: Pick<LasHeader, "scale" | "offset">,
+  file: string,
+): void {
+  if (2 * halfSize > MOST_STEPS * Math.max(...scale)) throw badHeader(file, `octree size (${2 * halfSize})`);
+  const reaches = center.every(
+    (middle, axis) => Math.abs(middle - offset[axis]) <= MOST_STEPS * scale[axis] + halfSize,
+  );
+  if (!reaches) throw badHeader(file, `octree centre (${center.join(", ")})`);
 }

@@ -40,6 +40,25 @@ describe("trustedBox", () => {
     ]);
   });
 
+  it.each<[string, Corner, Corner, Corner, Corner]>([
+    ["begin at 0", [0, 0, 0], [1128, 2100, 9], [1000, 2000, 0], [1128, 2100, 9]],
+    ["are 1e300 wide", [-1e300, -1e300, -1e300], [1e300, 1e300, 1e300], [1000, 2000, 0], [1128, 2128, 128]],
+  ])("is cut to the octree's cube where the header's bounds %s", (_, min, max, least, greatest) => {
+    const { boundingBox, warnings } = box(min, max, node(0, 0, 0, 0), node(1, 1, 0, 0));
+    expect(boundingBox).toEqual({ min: least, max: greatest });
+    const message = expect.stringMatching(/reach beyond the octree .* cut to its cube/);
+    expect(warnings).toEqual([{ code: "BOUNDS_WRONG", message }]);
+  });
+
+  it("is what the header declares, where that or the cube was rounded, or nothing lies in it", () => {
+    const [min, max]: [Corner, Corner] = [
+      [999, 1999, -1],
+      [1129, 2129, 129],
+    ];
+    expect(box(min, max, node(0, 0, 0, 0))).toEqual({ boundingBox: { min, max }, warnings: [] });
+    expect(box([0, 0, 0], [1000, 2000, 0], node(0, 0, 0, 0, 0)).warnings).toEqual([]);
+  });
+
   it("does not go by nodes without points, nor by pages that are still to be read", () => {
     const corner = node(2, 3, 3, 3, 0);
     const page = node(2, 3, 3, 3, -1);
