@@ -1,4 +1,5 @@
 import type { PointBatch } from "../query/index.js";
+import { takeName } from "../sources/contract/point-attribute.js";
 import { exactValue } from "../workers/index.js";
 import type { PointSelection } from "./selection.js";
 
@@ -47,11 +48,15 @@ export interface TextColumn {
   of(batch: PointBatch, point: number): string;
 }
 
-/** The attributes of a batch but for coordinates, a column for each component. */
-export function attributeColumns({ records }: PointBatch): TextColumn[] {
+/**
+ * The attributes of a batch but for coordinates, a column for each component.
+ * @param own names that the file has besides: an attribute of that name gets a number, as `chainage 2`
+ */
+export function attributeColumns({ records }: PointBatch, own: readonly string[]): TextColumn[] {
+  const taken = new Set(own);
   return records.attributes.flatMap(({ name, components }, index) =>
     Array.from({ length: components }, (_, component) => ({
-      name: components === 1 ? name : `${name} ${component + 1}`,
+      name: takeName(components === 1 ? name : `${name} ${component + 1}`, taken),
       of: ({ records: { attributes } }: PointBatch, point: number) => {
         const value = exactValue(attributes[index], point, component);
         return typeof value === "number" && !Number.isFinite(value) ? "" : String(value);

@@ -8,7 +8,7 @@ const ALONG_DIGITS = 5;
 
 /**
  * Writes points as CSV (RFC 4180, UTF-8, lines end in CR LF): x, y and z with every digit of the record, chainage and
- * offset where the selection has a line, then all attributes in full, by their names. Of several data sets the columns
+ * offset where the selection has a line, then all attributes in full, by their names. An attribute that is called as one of those gets a number (`chainage 2`). Of several data sets the columns
  * are those of the first with points; what another does not have stays empty. Where points were left out, the last column
  * says at which spacing.
  *
@@ -23,15 +23,15 @@ export async function exportCsv(
   const text = new TextSink(sink);
   const withLine = selections.some(({ along }) => along !== undefined);
   const spacing = spacingOf(selections);
+  const front = ["x", "y", "z", ...(withLine ? ["chainage", "offset"] : [])];
+  const back = spacing > 0 ? ["spacing"] : [];
   const place = new Float64Array(2);
   let names: readonly string[] | undefined;
   const count = await eachBatch(selections, options, async (batch, wanted, { origin, along }) => {
-    const found = attributeColumns(batch);
+    const found = attributeColumns(batch, [...front, ...back]);
     if (!names) {
       names = found.map(({ name }) => name);
-      const line = withLine ? ["chainage", "offset"] : [];
-      const thinned = spacing > 0 ? ["spacing"] : [];
-      text.add(`${["x", "y", "z", ...line, ...names, ...thinned].map(quoted).join(",")}\r\n`);
+      text.add(`${[...front, ...names, ...back].map(quoted).join(",")}\r\n`);
     }
     const columns = names.map((name) => found.find((column) => column.name === name));
     const coordinates = new CoordinateText(origin);

@@ -11,7 +11,8 @@ const HEIGHT_DIGITS = 5;
  * Writes points as a GeoJSON FeatureCollection of Points (RFC 7946), one feature a line: longitude, latitude and height
  * where every selection tells them, else source coordinates, which the file then says of itself (`coordinates`; and
  * `spacing` where points were left out), with all attributes as properties; of those
- * in full, integers beyond float64 as text. Chainage and offset come first where the selection has a line.
+ * in full, integers beyond float64 as text. Chainage and offset come first where the selection has a line; an
+ * attribute of that name gets a number (`chainage 2`).
  *
  * @returns number of points
  * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what the sink throws
@@ -28,10 +29,14 @@ export async function exportGeoJson(
   const spacing = spacingOf(selections);
   const thinned = spacing > 0 ? `"spacing":${spacing},` : "";
   text.add(`{"type":"FeatureCollection",${what}${thinned}"features":[`);
+  const own = selections.some(({ along }) => along !== undefined) ? ["chainage", "offset"] : [];
   const place = new Float64Array(3);
   let separator = "\n";
   const count = await eachBatch(selections, options, async (batch, wanted, { origin, along, geodetic }) => {
-    const columns = attributeColumns(batch).map((column) => ({ column, key: JSON.stringify(column.name) }));
+    const columns = attributeColumns(batch, own).map((column) => ({
+      column,
+      key: JSON.stringify(column.name),
+    }));
     const coordinates = new CoordinateText(origin);
     const { xyz } = batch.records;
     for (const [index, point] of wanted.entries()) {

@@ -1,3 +1,4 @@
+import { takeName } from "../sources/contract/point-attribute.js";
 import type { LasEnvelope, LasVariableRecord } from "../sources/contract/point-source.js";
 
 /** Where the fields of the public header block stand that follow from the points (LAS 1.4 R15, table 3). */
@@ -22,7 +23,7 @@ const SOFTWARE = "Groma";
 
 /** An attribute that the exported records get behind their own bytes, a float64. */
 export interface AddedAttribute {
-  /** At most 32 bytes of UTF-8. */
+  /** At most 30 bytes of UTF-8; gets a number where an attribute of the source has it. */
   readonly name: string;
   /** At most 32 bytes of UTF-8. */
   readonly description: string;
@@ -138,9 +139,10 @@ function withDescriptors(
     : { bytes: new Uint8Array(0), length: 0 };
   const rest = extraLength - known.length;
   const gaps = Array.from({ length: Math.ceil(rest / 255) }, (_, index) => Math.min(255, rest - 255 * index));
+  const taken = new Set(namesOf(known.bytes));
   const descriptors = [
     ...gaps.map((length) => descriptor(UNDESCRIBED, length, "", "")),
-    ...added.map(({ name, description }) => descriptor(DOUBLE, 0, name, description)),
+    ...added.map(({ name, description }) => descriptor(DOUBLE, 0, takeName(name, taken), description)),
   ];
   const content = new Uint8Array(known.bytes.length + DESCRIPTOR * descriptors.length);
   content.set(known.bytes);
@@ -164,6 +166,15 @@ function wholeDescriptors(content: Uint8Array, available: number): { bytes: Uint
     length += size;
   }
   return { bytes: content.subarray(0, from), length };
+}
+
+/** Names in descriptors. */
+function namesOf(descriptors: Uint8Array): string[] {
+  return Array.from({ length: descriptors.length / DESCRIPTOR }, (_, index) => {
+    const name = descriptors.subarray(DESCRIPTOR * index + 4, DESCRIPTOR * index + 36);
+    const end = name.indexOf(0);
+    return new TextDecoder().decode(end < 0 ? name : name.subarray(0, end));
+  });
 }
 
 function descriptor(type: number, options: number, name: string, description: string): Uint8Array {

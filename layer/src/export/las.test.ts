@@ -106,7 +106,7 @@ describe("LAS from recorded points", () => {
   it("gets chainage and offset behind the records, described after what was described", async () => {
     const described = new Uint8Array(192);
     described[2] = 3;
-    described.set(new TextEncoder().encode("height"), 4);
+    described.set(new TextEncoder().encode("offset"), 4);
     const extra = variableRecord("LASF_Spec", 4, described);
     // Two bytes are described, 300 are not: these have to be, or what follows them is misread.
     const { selection, lasRecords } = selectionOf(3, envelopeOf(302, [extra]));
@@ -127,11 +127,11 @@ describe("LAS from recorded points", () => {
       return [file.getUint8(at + 2), file.getUint8(at + 3), name];
     });
     expect(fields).toEqual([
-      [3, 0, "height"],
+      [3, 0, "offset"],
       [0, 255, ""],
       [0, 45, ""],
       [10, 0, "chainage"],
-      [10, 0, "offset"],
+      [10, 0, "offset 2"],
     ]);
     for (let point = 0; point < 3; point++) {
       const at = points + point * (RECORD + 318);

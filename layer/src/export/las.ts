@@ -7,7 +7,7 @@ import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from ".
 
 /** How LAS is written. */
 export interface LasOptions extends ExportOptions {
-  /** Adds `chainage` and `offset` along the selection's line to each record, float64 extra bytes. Default: false. */
+  /** Adds `chainage` and `offset` along the selection's line to each record, float64 extra bytes; `chainage 2` where records have that name. Default: false. */
   readonly chainage?: boolean | undefined;
 }
 

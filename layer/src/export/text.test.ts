@@ -7,14 +7,14 @@ import { exportGeoJson } from "./geojson.js";
 import type { PointSelection } from "./selection.js";
 
 /** Two points with an attribute of each kind, one of them with a name that a table program takes for a formula. */
-function selectionOf(scale = 0.01): PointSelection {
+function selectionOf(scale = 0.01, name = '=1+"1"'): PointSelection {
   const ids = new Uint8Array(new BigUint64Array([7n, 2n ** 63n]).buffer);
   const pairs = new Uint8Array(new Float32Array([1.5, -2, Number.NaN, 4]).buffer);
   const common = { description: "", kind: "scalar", at: 0, shift: 0, mask: -1, noData: undefined };
   const attributes = [
     {
       ...common,
-      name: '=1+"1"',
+      name,
       type: "uint64",
       components: 1,
       scale: [1],
@@ -72,6 +72,16 @@ describe("CSV", () => {
     ]);
   });
 
+  it.each([
+    ["chainage", "x,y,z,chainage,offset,chainage 2,pair 1,pair 2,spacing"],
+    ["spacing", "x,y,z,chainage,offset,spacing 2,pair 1,pair 2,spacing"],
+    ["pair 1", "x,y,z,chainage,offset,pair 1,pair 1 2,pair 2,spacing"],
+  ])("has no two columns of one name where an attribute is called %s", async (name, columns) => {
+    const selection = { ...selectionOf(0.01, name), along, spacing: 2 };
+    const text = await textOf((sink) => exportCsv([selection], sink));
+    expect(text.split("\r\n")[0]).toBe(columns);
+  });
+
   it("gives coordinates of odd scales in full", async () => {
     const text = await textOf((sink) => exportCsv([selectionOf(1 / 3)], sink));
     const [x, y] = text.split("\r\n")[1].split(",").map(Number);
@@ -96,6 +106,12 @@ describe("GeoJSON", () => {
         "pair 2": 4,
       },
     });
+  });
+
+  it("keeps the chainage where an attribute is called so", async () => {
+    const selection = { ...selectionOf(0.01, "chainage"), along };
+    const { features } = JSON.parse(await textOf((sink) => exportGeoJson([selection], sink)));
+    expect(features[0].properties).toMatchObject({ chainage: 1, "chainage 2": 7 });
   });
 
   it("says that its coordinates are those of the source", async () => {

@@ -38,3 +38,11 @@ export interface PointAttribute {
 export const DERIVED_COLUMNS: readonly string[] = [
   ...["x", "y", "z", "position", "rgb", "elevation", "ellipsoidalHeight", "levelOfDetail"],
 ];
+
+/** A name that is not taken yet: the plain one or, as `intensity 2`, with the first number that is free. It is taken then. */
+export function takeName(plain: string, taken: Set<string>): string {
+  let name = plain;
+  for (let number = 2; taken.has(name); number++) name = `${plain} ${number}`;
+  taken.add(name);
+  return name;
+}

@@ -1,4 +1,9 @@
-import { DERIVED_COLUMNS, type NumberType, type PointAttribute } from "../contract/point-attribute.js";
+import {
+  DERIVED_COLUMNS,
+  type NumberType,
+  type PointAttribute,
+  takeName,
+} from "../contract/point-attribute.js";
 import type { ExtraBytes } from "./extra-bytes.js";
 import { BASE_RECORD_LENGTH } from "./las-header.js";
 
@@ -74,10 +79,7 @@ export function recordFields(pointFormat: number, extraBytes: readonly ExtraByte
   if (pointFormat >= 8) fields.push(INFRARED);
   const taken = new Set([...DERIVED_COLUMNS, ...fields.map(({ name }) => name)]);
   extraBytes.forEach(({ name: given, at, ...rest }, index) => {
-    const plain = given || `extra ${index + 1}`;
-    let name = plain;
-    for (let number = 2; taken.has(name); number++) name = `${plain} ${number}`;
-    taken.add(name);
+    const name = takeName(given || `extra ${index + 1}`, taken);
     const place = { at: BASE_RECORD_LENGTH[pointFormat] + at, shift: 0, mask: -1 };
     fields.push({ ...rest, ...place, name, kind: "scalar" });
   });
