@@ -1,5 +1,13 @@
 import { execFile, execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  rmSync,
+  symlinkSync,
+  writeFileSync,
+} from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -57,6 +65,25 @@ describe("several inputs, some of which are empty or cannot be read", () => {
     expect(stdout).toMatch(/^skipped +cut\.las: .* \(INPUT_TRUNCATED\)$/m);
     const plan = last(await groma("convert", ...inputs, "c.copc.laz", "--dry-run", "--json"));
     expect(plan).toMatchObject({ inputs: 1, points: 4970, skipped: done.skipped });
+  });
+
+  it("are links to nothing too, as tiles on a disk that is not there, and pipes", async () => {
+    mkdirSync(join(folder, "tiles"));
+    symlinkSync("../good.las", join(folder, "tiles/good.las"));
+    for (const name of ["gone.e57", "gone.las"]) symlinkSync(`/nowhere/${name}`, join(folder, "tiles", name));
+    execFileSync("mkfifo", [join(folder, "tiles/pipe.e57")]);
+    const plan = last(await groma("convert", "tiles", "e.copc.laz", "--dry-run", "--json"));
+    expect(plan).toMatchObject({ inputs: 1, points: 4970 });
+    expect(plan.skipped.map(({ file, code }: { file: string; code: string }) => [file, code])).toEqual([
+      ["tiles/gone.e57", "INPUT_NOT_FOUND"],
+      ["tiles/gone.las", "INPUT_NOT_FOUND"],
+      ["tiles/pipe.e57", "INPUT_NOT_FOUND"],
+    ]);
+    const strict = await groma("convert", "tiles", "e.copc.laz", "--dry-run", "--strict");
+    expect([strict.code, strict.stderr]).toEqual([
+      1,
+      expect.stringMatching(/^INPUT_NOT_FOUND: tiles\/(gone|pipe)\./m),
+    ]);
   });
 
   it("are refused with --strict, and so is one that is alone or not there", async () => {

@@ -1,4 +1,5 @@
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
@@ -44,6 +45,29 @@ describe("the inputs of a conversion", () => {
       "[g].las",
       "a.LAS",
     ]);
+  });
+
+  it("are taken once, however many links lead to them", async () => {
+    mkdirSync(at("linked"));
+    for (const name of ["b.las", "z.las"]) writeFileSync(at(`linked/${name}`), "");
+    symlinkSync(".", at("linked/loop"));
+    symlinkSync("z.las", at("linked/other name.las"));
+    expect(await expandInputs([at("linked")], output)).toEqual([at("linked/b.las"), at("linked/z.las")]);
+    expect(await names("linked/loop/z.las", "linked/*.las")).toEqual(["z.las", "b.las"]);
+    expect(await expandInputs([at("linked")], at("linked/loop/b.las"))).toEqual([at("linked/z.las")]);
+  });
+
+  it("are links to nothing too, and what is no regular file, which whoever opens them tells", async () => {
+    mkdirSync(at("strange"));
+    symlinkSync("/nowhere/tile.laz", at("strange/gone.laz"));
+    symlinkSync("/nowhere/tiles", at("strange/gone"));
+    symlinkSync(".", at("strange/loop"));
+    const server = createServer().listen(at("strange/socket.las"));
+    await new Promise((listening) => server.once("listening", listening));
+    expect(await names("strange")).toEqual(["gone.laz", "socket.las"]);
+    expect(await names("strange/*.la[sz]")).toEqual(["gone.laz", "socket.las"]);
+    expect(await names("strange/**/*.las")).toEqual(["socket.las"]);
+    await new Promise((closed) => server.close(closed));
   });
 
   it("leave files that are not there, and addresses, to who opens them", async () => {

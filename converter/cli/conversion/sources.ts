@@ -1,5 +1,5 @@
-import { existsSync } from "node:fs";
-import { open } from "node:fs/promises";
+import { lstatSync } from "node:fs";
+import { open, stat } from "node:fs/promises";
 import { availableParallelism } from "node:os";
 import type { Fault } from "@groma/georef";
 import { CoreError, type Scan, scanFile } from "../core/core.js";
@@ -36,6 +36,8 @@ export async function isLas(input: string): Promise<boolean> {
   if (isAddress(input)) return false;
   if (/\.la[sz]$/i.test(input)) return true;
   try {
+    // A pipe would be waited for.
+    if (!(await stat(input)).isFile()) return true;
     const file = await open(input);
     try {
       const { buffer, bytesRead } = await file.read(Buffer.alloc(4), 0, 4, 0);
@@ -57,7 +59,7 @@ export interface Scans {
 
 /**
  * Headers and records of many files, as many at a time as the machine has cores. One of several that is empty or cannot
- * be read is skipped; a file that is not there is not, for its name may be misspelt.
+ * be read is skipped, a link to nothing too; a file that is not there is not, for its name may be misspelt.
  *
  * @param keepAll refuses every file that cannot be read; so does a single one
  * @throws CoreError INPUT_*
@@ -98,9 +100,8 @@ async function scanOrFault(file: string, keepAll: boolean, signal?: AbortSignal)
     if (keepAll || scan.problem === null) return scan;
     return new CoreError(scan.problem);
   } catch (error) {
-    if (keepAll || !(error instanceof CoreError) || !error.code.startsWith("INPUT_") || !existsSync(file)) {
-      throw error;
-    }
+    const isThere = lstatSync(file, { throwIfNoEntry: false }) !== undefined;
+    if (keepAll || !isThere || !(error instanceof CoreError) || !error.code.startsWith("INPUT_")) throw error;
     return error;
   }
 }
