@@ -75,6 +75,20 @@ describe("where a data set lies", () => {
     expect(await notes("85500,446200,0")).toEqual([]);
   });
 
+  it("lies deeper or higher than any scan: coordinates of a plane as geocentric ones, or z in a wrong unit", () => {
+    const text = expect.stringMatching(
+      /^the middle of the data set lies \d+ km below the ellipsoid in WGS 84.*--crs/,
+    );
+    expect(at("EPSG:4978", 500_000, 5_500_000).notes).toEqual([{ code: "CRS_AREA", text }]);
+    const utm = { crs: resolveCrs({ file: "scan.las", given: "EPSG:25832" }, epsg) };
+    const notes = (z: number) =>
+      expectedWhereabouts(utm, { min: [500_000, 5_500_000, z], max: [500_010, 5_500_010, z] }).notes;
+    expect([-11_000, 0, 9_000].flatMap(notes)).toEqual([]);
+    expect(notes(460_000)).toMatchObject([
+      { code: "CRS_AREA", text: expect.stringContaining("460 km above") },
+    ]);
+  });
+
   it("is nowhere beyond the end of its projection, and that is told", () => {
     const text = expect.stringMatching(/\(x 1000000, y 1000000\) has no place in WGS 84; .*--crs/);
     expect(at("EPSG:4326", 1e6, 1e6)).toEqual({

@@ -25,6 +25,8 @@ const DEGREE = Math.PI / 180;
 const NEIGHBOURHOOD = 300_000;
 /** Metres from its anchor at which a rigid body departs from the ground by 8 m, and is no scan of one place any more. */
 const ANCHOR_REACH = 10_000;
+/** Metres above the ellipsoid between which scans are made, with room: the deepest trench is 11 km deep, and planes end far below 100. */
+const HEIGHTS = [-12_000, 100_000] as const;
 /** Letters of an area of use that a message shows. */
 const SHOWN = 80;
 
@@ -43,7 +45,8 @@ export interface Whereabouts {
 export function whereabouts(crs: Crs, truth: Truth, bounds: PointBounds): Whereabouts {
   const centre = centreOf(truth, bounds);
   if (!centre) return { centre, notes: [placelessNote(crs, bounds)] };
-  return { centre, notes: areaNote(crs, centre, bounds) ?? heightNote(crs, centre) ?? [] };
+  const notes = areaNote(crs, centre, bounds) ?? heightNote(crs, centre) ?? [];
+  return { centre, notes: [...notes, ...altitudeNote(crs, truth, bounds)] };
 }
 
 /** As {@link whereabouts} before an engine has placed anything: by proj4js, to some metres. */
@@ -103,6 +106,15 @@ function areaNote(crs: Crs, centre: Place, bounds: PointBounds): CrsNote[] | und
   return [{ code: "CRS_AREA", text: `${where} of EPSG:${code} (${shown(plane)})${hint}` }];
 }
 
+/** `CRS_AREA`: no scan lies so deep, or so high; plane coordinates in a geocentric system do, and z in a wrong unit. */
+function altitudeNote({ name }: Crs, truth: Truth, bounds: PointBounds): CrsNote[] {
+  const height = geodeticOf(truth, bounds)?.[2] ?? 0;
+  if (height >= HEIGHTS[0] && height <= HEIGHTS[1]) return [];
+  const where = `${length(Math.abs(height))} ${height < 0 ? "below" : "above"} the ellipsoid`;
+  const text = `the middle of the data set lies ${where} in ${name}, where no scan is made; check the unit of z, and name the system of the scan with --crs`;
+  return [{ code: "CRS_AREA", text }];
+}
+
 /** Name of the height system of a data set whose middle lies outside of its area of use; undefined within it. */
 export function heightSystemAbroad(crs: Crs, truth: Truth, bounds: PointBounds): string | undefined {
   const system = heightSystem(crs);
@@ -152,13 +164,19 @@ function distance(entry: EpsgEntry | undefined, place: Place): number {
 
 /** The place of the middle of bounds; undefined where it has none. */
 export function centreOf(truth: Truth, bounds: PointBounds): Place | undefined {
+  const geodetic = geodeticOf(truth, bounds);
+  return geodetic && { longitude: geodetic[0]! / DEGREE, latitude: geodetic[1]! / DEGREE };
+}
+
+/** Longitude, latitude (radians) and height (metres) of the middle of bounds; undefined where it has no place. */
+function geodeticOf(truth: Truth, bounds: PointBounds): Float64Array | undefined {
   const [x, y, z] = middleOf(bounds);
   const ecef = new Float64Array(3);
   pointTransform(truth)(x, y, z, ecef, 0);
   if (!ecef.every(Number.isFinite)) return undefined;
   const geodetic = new Float64Array(3);
   ecefToGeodetic(ecef[0]!, ecef[1]!, ecef[2]!, geodetic);
-  return { longitude: geodetic[0]! / DEGREE, latitude: geodetic[1]! / DEGREE };
+  return geodetic;
 }
 
 function middleOf({ min, max }: PointBounds): [number, number, number] {
