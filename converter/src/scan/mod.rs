@@ -11,7 +11,7 @@ use las::raw::Header;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use variable_record::{EXTRA_BYTES, SPECIFICATION, VariableRecord};
+use variable_record::{EXTRA_BYTES, PROJECTION, SPECIFICATION, VariableRecord, WKT, text};
 
 /// Bytes of a LAS 1.0 to 1.2 header, the shortest there is.
 const SHORTEST_HEADER: u64 = 227;
@@ -62,6 +62,7 @@ impl Scan {
         let evlrs = read_evlrs(&mut reader, &header, file_size, path, &mut warnings)?;
         let format = header.point_data_record_format;
         warn_of_more(&header, points, file_size, &mut warnings);
+        warn_of_second_wkt(vlrs.iter().chain(&evlrs), &mut warnings);
         let extra_bytes = described(&header, vlrs.iter().chain(&evlrs), &mut warnings);
         Ok(Self {
             path: path.to_path_buf(),
@@ -170,6 +171,20 @@ fn warn_of_more(header: &Header, points: u64, file_size: u64, warnings: &mut Vec
     }
 }
 
+/// Warns where a file declares its coordinate reference system as WKT more than once, and not in the same words.
+fn warn_of_second_wkt<'a>(records: impl Iterator<Item = &'a VariableRecord>, warnings: &mut Vec<String>) {
+    let mut texts = records.filter(|record| record.is(PROJECTION, WKT)).map(|record| text(&record.data));
+    let Some(first) = texts.next() else { return };
+    if let Some(other) = texts.find(|other| *other != first) {
+        let name = |wkt: &str| wkt.split('"').nth(1).unwrap_or("no name").to_string();
+        warnings.push(format!(
+            "the file has several WKT records that differ ({}; {}); the first is used",
+            name(&first),
+            name(&other)
+        ));
+    }
+}
+
 /// What the extra bytes are said to hold; some writers give each attribute its own record.
 fn described<'a>(
     header: &Header,
@@ -241,4 +256,24 @@ fn read_evlrs(
         at = next;
     }
     Ok(records)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PROJECTION, VariableRecord, WKT, warn_of_second_wkt};
+
+    #[test]
+    fn several_wkt_records_are_told_where_they_differ() {
+        let warned = |texts: &[&str]| {
+            let record = |wkt: &&str| VariableRecord::new(PROJECTION, WKT, "", wkt.as_bytes().to_vec());
+            let records: Vec<_> = texts.iter().map(record).collect();
+            let mut warnings = Vec::new();
+            warn_of_second_wkt(records.iter(), &mut warnings);
+            warnings
+        };
+        assert!(warned(&[]).is_empty());
+        assert!(warned(&["CRS[\"a\"]", "CRS[\"a\"]\0"]).is_empty());
+        let told = "the file has several WKT records that differ (a; b); the first is used";
+        assert_eq!(warned(&["CRS[\"a\"]", "CRS[\"a\"]", "CRS[\"b\"]"]), [told]);
+    }
 }
