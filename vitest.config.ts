@@ -50,6 +50,8 @@ export default defineConfig({
         include,
         // A browser test fills both cores by itself.
         fileParallelism: !["browser", "install"].includes(name),
+        // Projects of one file at a time go by themselves, after the others.
+        sequence: { groupOrder: ["browser", "install"].includes(name) ? 1 : 0 },
         // Loading the modules anew for each of many short files takes as long as the tests themselves.
         isolate: !["unit", "browser"].includes(name),
       },
