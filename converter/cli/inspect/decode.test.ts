@@ -1,5 +1,5 @@
-import { beforeEach, describe, expect, it, vi } from "vitest";
-import { decodeChunk } from "./decode.js";
+import { afterAll, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
+import type { decodeChunk as DecodeChunk } from "./decode.js";
 
 /** What stands for laz-perf: records of zeros, and a failure where the chunk begins with 255. */
 const lazPerf = vi.hoisted(() => ({ modules: 0, allocated: 0, decoders: 0 }));
@@ -29,6 +29,15 @@ vi.mock("laz-perf/lib/node/index.js", () => ({
 }));
 
 describe("decodeChunk", () => {
+  let decodeChunk: typeof DecodeChunk;
+
+  // Files share their modules: neither may another's decoder serve here, nor this one there.
+  beforeAll(async () => {
+    vi.resetModules();
+    ({ decodeChunk } = await import("./decode.js"));
+  });
+  afterAll(() => vi.resetModules());
+
   beforeEach(() => Object.assign(lazPerf, { modules: 0, allocated: 0, decoders: 0 }));
 
   it("decodes many chunks in one module and keeps nothing of them", async () => {
