@@ -6,7 +6,7 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, it } from "vitest";
 import { lasOf } from "../faults/las-bytes.js";
 import { projectRoot } from "../project.js";
-import { launch, openPage, screenshot, type View, view } from "./harness.js";
+import { openPage, screenshot, sharedBrowser, type View, view } from "./harness.js";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 /** WCAG 2.2 AA with all that it stands on, and what axe calls good practice. */
@@ -22,7 +22,7 @@ beforeAll(async () => {
   const scan = join(folder, "box.las");
   writeFileSync(scan, lasOf(20_000));
   server = await view(scan, ["--crs", "EPSG:32632", "--vertical", "ellipsoidal"]);
-  browser = await launch();
+  browser = await sharedBrowser();
   ({ page } = await openPage(browser, { width: 1000, height: 700 }));
 }, 180_000);
 

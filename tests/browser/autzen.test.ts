@@ -4,7 +4,15 @@ import { converted } from "../converted.js";
 import { data } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { ecef, hideCloud, lookDown, pixelOf, settle } from "./globe.js";
-import { colourDifference, launch, meanColour, openPage, screenshot, type View, view } from "./harness.js";
+import {
+  colourDifference,
+  meanColour,
+  openPage,
+  screenshot,
+  sharedBrowser,
+  type View,
+  view,
+} from "./harness.js";
 
 interface Landmark {
   longitude: number;
@@ -29,7 +37,7 @@ describe.skipIf(missing)(`Autzen on the globe${missing ? ` (skipped: ${missing})
 
   beforeAll(async () => {
     server = await view(converted(scan.path));
-    browser = await launch();
+    browser = await sharedBrowser();
   }, 240_000);
 
   afterAll(async () => {

@@ -7,7 +7,7 @@ import { converted } from "../converted.js";
 import { BadServer, type Misbehaviour } from "../faults/bad-server.js";
 import { data, projectRoot } from "../project.js";
 import type {} from "./globe.js";
-import { launch, openPage, screenshot, type View, view, type Watch } from "./harness.js";
+import { openPage, screenshot, sharedBrowser, type View, view, type Watch } from "./harness.js";
 
 const scan = data("vol_total.laz");
 const withoutCrs = data("lion_takanawa.copc.laz");
@@ -31,7 +31,7 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
     file = readFileSync(copc);
     good = await view(copc);
     goodCloud = new URL(good.address).searchParams.get("cloud") ?? "";
-    browser = await launch();
+    browser = await sharedBrowser();
   }, 120_000);
 
   afterAll(async () => {

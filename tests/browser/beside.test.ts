@@ -3,7 +3,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
 import { data } from "../project.js";
 import { settle } from "./globe.js";
-import { launch, openPage, screenshot, type View, view } from "./harness.js";
+import { openPage, screenshot, sharedBrowser, type View, view } from "./harness.js";
 
 const scan = data("autzen.laz");
 
@@ -14,7 +14,7 @@ describe.skipIf(scan.missing)(
     let browser: Browser;
     beforeAll(async () => {
       server = await view(converted(scan.path));
-      browser = await launch();
+      browser = await sharedBrowser();
     }, 240_000);
     afterAll(async () => {
       await browser?.close();

@@ -15,14 +15,14 @@ import {
 import { richFacts, styleOf } from "../../layer/src/effects/scene.fixture.js";
 import { WEBGL2 } from "../../layer/src/effects/webgl2-target.js";
 import { columnsOf, type GpuResult, type PlainTexture, run } from "./gpu-page.js";
-import { launch } from "./harness.js";
+import { sharedBrowser } from "./harness.js";
 
 /** A page with WebGL 2 for the tests of a file. */
 export function usePage(): () => Page {
   let browser: Browser;
   let page: Page;
   beforeAll(async () => {
-    browser = await launch();
+    browser = await sharedBrowser();
     page = await browser.newPage();
   });
   afterAll(() => browser?.close());

@@ -3,7 +3,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { composePointShader, composeQuad, passesOf, planEffects } from "../../layer/src/effects/index.js";
 import { combinations } from "../../layer/src/effects/scene.fixture.js";
 import { WEBGL2 } from "../../layer/src/effects/webgl2-target.js";
-import { launch } from "./harness.js";
+import { sharedBrowser } from "./harness.js";
 
 /** As both views have their programs: what belongs to a node comes in a table. */
 const TARGET = { ...WEBGL2, nodeTable: true };
@@ -87,7 +87,7 @@ function compileAll(programs: readonly Case[]): string[] {
 describe("programs of all combinations of effects", () => {
   let browser: Browser;
   beforeAll(async () => {
-    browser = await launch();
+    browser = await sharedBrowser();
   });
   afterAll(() => browser?.close());
 

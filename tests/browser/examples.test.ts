@@ -11,7 +11,7 @@ import webpack from "webpack";
 import { convert } from "../converted.js";
 import { lasOf } from "../faults/las-bytes.js";
 import { projectRoot } from "../project.js";
-import { launch, openPage, screenshot } from "./harness.js";
+import { openPage, screenshot, sharedBrowser } from "./harness.js";
 
 const examples = join(projectRoot, "demo/examples");
 const built = join(projectRoot, "tests/artifacts/examples");
@@ -86,7 +86,7 @@ beforeAll(async () => {
   }
   await buildWithVite();
   await buildWithWebpack();
-  [server, browser] = await Promise.all([serve(), launch()]);
+  [server, browser] = await Promise.all([serve(), sharedBrowser()]);
 }, 480_000);
 
 afterAll(async () => {

@@ -73,6 +73,23 @@ export function launch(graphics: Graphics = "software"): Promise<Browser> {
   });
 }
 
+let running: Browser | undefined;
+
+/**
+ * One Chromium for all files of tests, which share their modules and run one after the other. Its `close` closes the pages
+ * and leaves the browser to the next file; it ends with the process.
+ */
+export async function sharedBrowser(): Promise<Browser> {
+  if (!running?.isConnected()) {
+    const browser = await launch();
+    browser.close = async () => {
+      await Promise.all(browser.contexts().map((context) => context.close()));
+    };
+    running = browser;
+  }
+  return running;
+}
+
 /** What a page did that a test must know of. */
 export interface Watch {
   /** Console errors and uncaught exceptions. */

@@ -10,7 +10,7 @@ import { proj, projMissing } from "../proj.js";
 import { data, projectRoot } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { ecef, hideCloud, pixelOf, settle } from "./globe.js";
-import { launch, openPage, screenshot, type View, view } from "./harness.js";
+import { openPage, screenshot, sharedBrowser, type View, view } from "./harness.js";
 
 const folder = join(projectRoot, "tests/artifacts/zones");
 /** Middle of the scan that zones.py makes, degrees and metres above the ellipsoid. */
@@ -129,7 +129,7 @@ describe.skipIf(pythonMissing)(
       mkdirSync(folder, { recursive: true });
       const { zones } = runPython<{ zones: { file: string }[] }>("browser/zones.py", ["write", folder]);
       server = await view(converted(zones[0]!.file));
-      browser = await launch();
+      browser = await sharedBrowser();
     }, 240_000);
 
     afterAll(async () => {

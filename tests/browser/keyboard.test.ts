@@ -6,7 +6,7 @@ import { afterAll, beforeAll, expect, it } from "vitest";
 import { lasOf } from "../faults/las-bytes.js";
 import { projectRoot } from "../project.js";
 import { settle } from "./globe.js";
-import { launch, openPage, screenshot, type View, view } from "./harness.js";
+import { openPage, screenshot, sharedBrowser, type View, view } from "./harness.js";
 
 let browser: Browser;
 let server: View;
@@ -18,7 +18,7 @@ beforeAll(async () => {
   const scan = join(scans, "box.las");
   writeFileSync(scan, lasOf(20_000));
   server = await view(scan, ["--crs", "EPSG:32632", "--vertical", "ellipsoidal"]);
-  browser = await launch();
+  browser = await sharedBrowser();
   folder = mkdtempSync(join(tmpdir(), "groma-keyboard-"));
 }, 180_000);
 

@@ -6,7 +6,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
 import { data } from "../project.js";
 import { settle } from "./globe.js";
-import { launch, openPage, screenshot, type View, view, type Watch } from "./harness.js";
+import { openPage, screenshot, sharedBrowser, type View, view, type Watch } from "./harness.js";
 
 const scan = data("vol_total.laz");
 
@@ -48,7 +48,7 @@ describe.skipIf(scan.missing)(`measuring on globe and map${scan.missing ? ` (${s
 
   beforeAll(async () => {
     server = await view(converted(scan.path));
-    browser = await launch();
+    browser = await sharedBrowser();
     ({ page, watch } = await openPage(browser, { width: 1080, height: 400 }));
     session = await page.context().newCDPSession(page);
     await serveTerrain(page);

@@ -4,7 +4,7 @@ import { converted } from "../converted.js";
 import { data } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { settle } from "./globe.js";
-import { launch, openPage, type View, view } from "./harness.js";
+import { openPage, sharedBrowser, type View, view } from "./harness.js";
 
 interface Picked {
   key: string;
@@ -35,7 +35,7 @@ const missing = scans.map((scan) => data(scan.name).missing).find(Boolean) ?? py
 describe.skipIf(missing)(`places in the page against PROJ${missing ? ` (skipped: ${missing})` : ""}`, () => {
   let browser: Browser;
   beforeAll(async () => {
-    browser = await launch();
+    browser = await sharedBrowser();
   });
   afterAll(async () => {
     await browser?.close();

@@ -7,7 +7,7 @@ import { converted } from "../converted.js";
 import { groma } from "../interop/groma.js";
 import { data, projectRoot } from "../project.js";
 import { settle } from "./globe.js";
-import { launch, openPage, screenshot, type View, view } from "./harness.js";
+import { openPage, screenshot, sharedBrowser, type View, view } from "./harness.js";
 
 const scan = data("vol_total.laz");
 
@@ -43,7 +43,7 @@ describe.skipIf(scan.missing)(
 
     beforeAll(async () => {
       server = await view(converted(scan.path));
-      browser = await launch();
+      browser = await sharedBrowser();
       folder = mkdtempSync(join(tmpdir(), "groma-page-profile-"));
     }, 240_000);
 

@@ -10,7 +10,7 @@ import send from "send";
 import { convert } from "../converted.js";
 import { projectRoot } from "../project.js";
 import { runPython } from "../python.js";
-import { launch, openPage, type Watch } from "./harness.js";
+import { openPage, sharedBrowser, type Watch } from "./harness.js";
 
 /** Pages of tests: a scene of the globe, a map, and both in step. */
 const PAGES = ["stage", "map-stage", "link-stage"] as const;
@@ -101,7 +101,7 @@ export async function openStage(
   makeClouds();
   await buildPage(which);
   const server = await serve(which, further);
-  const browser = await launch();
+  const browser = await sharedBrowser();
   const { page, watch } = await openPage(browser, { width: 820, height: 640 });
   await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}/index.html`);
   await page.waitForSelector("body[data-ready]", { state: "attached", timeout: 60_000 });

@@ -7,7 +7,7 @@ import { converted } from "../converted.js";
 import { projectRoot } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { settle } from "./globe.js";
-import { launch, openPage, type View, view } from "./harness.js";
+import { openPage, sharedBrowser, type View, view } from "./harness.js";
 
 type Place = [x: number, y: number, z: number];
 
@@ -27,7 +27,7 @@ describe.skipIf(pythonMissing)(
 
     beforeAll(async () => {
       mkdirSync(folder, { recursive: true });
-      browser = await launch();
+      browser = await sharedBrowser();
     });
     afterAll(async () => {
       await browser?.close();
