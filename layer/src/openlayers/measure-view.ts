@@ -7,13 +7,17 @@ import type { PointCloudLayer } from "./point-cloud-layer.js";
 
 const DEGREE = Math.PI / 180;
 
+/** Milliseconds after the click that ends a figure in which OpenLayers (250 ms) may still take it for half of a double click. */
+const DOUBLE_CLICK = 300;
+
 /**
  * A map of OpenLayers for a `MeasureTool`: picks records of layers, and shows vertices at their places on the map.
  * @param layers those that are measured, asked for anew each time
  */
 export function measureView(map: OlMap, layers: () => readonly PointCloudLayer[]): ViewAdapter {
   /** Interactions that rest while a figure is drawn. */
-  let resting: DoubleClickZoom[] = [];
+  const resting: DoubleClickZoom[] = [];
+  let waking: ReturnType<typeof setTimeout> | undefined;
   return {
     element: map.getViewport(),
     async pick({ x, y }, reach, signal) {
@@ -46,12 +50,18 @@ export function measureView(map: OlMap, layers: () => readonly PointCloudLayer[]
     },
     redraw: () => map.render(),
     drawing(active) {
-      for (const one of resting) one.setActive(true);
-      const zooms = map.getInteractions().getArray();
-      resting = zooms
-        .filter((one) => one instanceof DoubleClickZoom)
-        .filter((one) => active && one.getActive());
-      for (const one of resting) one.setActive(false);
+      clearTimeout(waking);
+      if (!active) {
+        waking = setTimeout(() => {
+          for (const one of resting.splice(0)) one.setActive(true);
+        }, DOUBLE_CLICK);
+        return;
+      }
+      for (const one of map.getInteractions().getArray()) {
+        if (!(one instanceof DoubleClickZoom) || !one.getActive()) continue;
+        one.setActive(false);
+        resting.push(one);
+      }
     },
   };
 }
