@@ -9,8 +9,9 @@ const MITRED = Math.PI / 3;
 const DISC = 16;
 
 /**
- * The outline of a strip as rings whose union it is, for clips: one for each segment, and a disc at sharp corners. On the outer side
- * of other corners it reaches to the mitre, at most 16 % farther than the strip, which is round there.
+ * The outline of a strip as rings whose union it is, for clips: one for each segment, and a disc at corners that are sharp or
+ * belong to a segment shorter than the reach. On the outer side of other corners it reaches to the mitre, at most 16 % farther
+ * than the strip, which is round there.
  */
 export function stripRings({ vertices, reach }: Corridor): Place[][] {
   const line = vertices.filter(
@@ -34,7 +35,9 @@ export function stripRings({ vertices, reach }: Corridor): Place[][] {
       [end[0] - b[0], end[1] - b[1]],
       [start[0] - a[0], start[1] - a[1]],
     ]);
-    if (after && !mitre(after)) rings.push(disc(end, reach));
+    // The joint of a short piece is round beyond the piece, past the end of the line too.
+    const short = after && Math.min(here.length, after.length) < reach;
+    if (short || (after && !mitre(after))) rings.push(disc(end, reach));
   }
   return rings;
 }

@@ -21,7 +21,8 @@ export interface LinePlace {
 /**
  * The strip along a polyline in the plane of the source coordinates: all points no farther than half the width from the
  * line. It ends squarely, where the line does; joints are mitred on the inner side (the border of two segments is the
- * bisector of their angle) and round on the outer one.
+ * bisector of their angle) and round on the outer one. Where a piece at an end is shorter than half the width, the round of its
+ * joint reaches past that end.
  *
  * Each point belongs to the part of the line that is nearest to it, the earlier one where two are as near: so no point is
  * taken twice or lost, whatever the angles are and wherever the line crosses itself. Whether a point lies in the strip is
