@@ -104,7 +104,6 @@ function show(
   projection: readonly number[],
   pixels: number,
 ): void {
-  // biome-ignore lint/correctness/useHookAtTopLevel: this is WebGL, not React
   gl.useProgram(program);
   gl.uniformMatrix4fv(gl.getUniformLocation(program, "u_projection"), false, [...projection]);
   gl.uniform1f(gl.getUniformLocation(program, "u_size"), pixels);
