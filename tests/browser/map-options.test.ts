@@ -138,6 +138,72 @@ describe.skipIf(pythonMissing)(
       expect(mercator!.extent).toEqual(seen.extent);
     });
 
+    it("has one source and one outline on maps of several projections, each of which comes to rest", {
+      timeout: 120_000,
+    }, async () => {
+      await open();
+      const seen = await stage.page.evaluate(async () => {
+        const { layer, ol, stage } = window.map;
+        const outlines = () => new ol.VectorLayer({ source: stage.source.footprint });
+        stage.map.addLayer(outlines());
+        const mercator = stage.source.getExtent("EPSG:3857")!;
+        const target = stage.map.getTargetElement()!.cloneNode() as HTMLElement;
+        document.body.append(target);
+        const points = new layer.PointCloudLayer({ source: stage.source, style: { pointSize: 3 } });
+        const view = new ol.View({ center: [0, 0], resolution: 1 });
+        const options = { target, controls: [], interactions: [], layers: [points, outlines()], view };
+        const other = new ol.OlMap(options);
+        view.fit(mercator, { padding: [20, 20, 20, 20] });
+        // A map in a projection that nothing knows shows no outline, and goes on.
+        const nowhere = new ol.OlMap({
+          ...{ target: target.cloneNode() as HTMLElement, layers: [outlines()] },
+          view: new ol.View({ projection: new ol.Projection({ code: "X:9" }), center: [0, 0], zoom: 1 }),
+        });
+        document.body.append(nowhere.getTargetElement()!);
+        const maps = [stage.map, other, nowhere];
+        const complete = async () => {
+          for (const map of maps) {
+            await new Promise<void>((resolve) => {
+              map.once("rendercomplete", () => resolve());
+              map.render();
+            });
+          }
+        };
+        await complete();
+        await complete();
+        const frames = [0, 0, 0];
+        for (const [at, map] of maps.entries()) map.on("postrender", () => frames[at]!++);
+        await new Promise((done) => setTimeout(done, 500));
+        const resting = [...frames];
+        // Both are drawn anew, and find the outline where each of them has it.
+        await complete();
+        const extents = maps.map((map) => {
+          const geometry = { extent: undefined as number[] | undefined };
+          const [width, height] = map.getSize()!;
+          for (let x = 0; x < width! / 2 && !geometry.extent; x++) {
+            map.forEachFeatureAtPixel([x, height! / 2], (feature, from) => {
+              if (from !== points && from !== stage.layer)
+                geometry.extent = feature.getGeometry()!.getExtent();
+            });
+          }
+          return geometry.extent;
+        });
+        const drawn = [stage.layer, points].map((one) => one.statistics.pointsDrawn);
+        const utm = stage.source.getExtent("EPSG:32632")!;
+        for (const map of [other, nowhere]) {
+          map.getTargetElement()!.remove();
+          map.dispose();
+        }
+        points.dispose();
+        return { resting, extents, wanted: [utm, mercator, undefined], drawn };
+      });
+      expect(seen.resting).toEqual([0, 0, 0]);
+      expect(seen.extents).toEqual(seen.wanted);
+      expect(seen.drawn[0]).toBeGreaterThan(30_000);
+      expect(seen.drawn[1]).toBe(seen.drawn[0]);
+      expect(stage.watch.errors).toEqual([]);
+    });
+
     it("shows at the zooms that it is given, in an element of its class", { timeout: 120_000 }, async () => {
       await open({ className: "scan", minZoom: 17, maxZoom: 18 });
       const seen = await stage.page.evaluate(async () => {

@@ -1,15 +1,14 @@
-import { ecefToGeodetic } from "@groma/georef";
 import BaseEvent from "ol/events/Event.js";
 import type { Extent } from "ol/extent.js";
-import Feature from "ol/Feature.js";
-import Polygon from "ol/geom/Polygon.js";
-import type Projection from "ol/proj/Projection.js";
-import { type ProjectionLike, transform } from "ol/proj.js";
+import type Feature from "ol/Feature.js";
+import type Polygon from "ol/geom/Polygon.js";
+import type { ProjectionLike } from "ol/proj.js";
 import Source, { type AttributionLike } from "ol/source/Source.js";
-import VectorSource from "ol/source/Vector.js";
+import type VectorSource from "ol/source/Vector.js";
 import { checkCloudOptions, PointCloud, type PointCloudOptions } from "../cloud/index.js";
 import { StyleError } from "../errors/index.js";
 import type { SourceLike } from "../sources/index.js";
+import { Footprint, outlineOf } from "./footprint.js";
 
 /** Where a source's points come from, and what is said of them. */
 export interface PointCloudSourceOptions extends PointCloudOptions {
@@ -34,39 +33,6 @@ export class PointCloudErrorEvent extends BaseEvent {
   }
 }
 
-/** Parts that a side of the outline is cut into, so that it bends as the ground does. */
-const SIDE = 16;
-
-/** The outline of a data set, in the projection that was asked for last. */
-class Footprint extends VectorSource {
-  readonly #feature = new Feature<Polygon>();
-  #cloud: PointCloud | undefined;
-  #code: string | undefined;
-
-  constructor(opened: Promise<PointCloud>) {
-    super();
-    // What keeps it from being opened is told by the source of the points.
-    opened.then(
-      (cloud) => {
-        this.#cloud = cloud;
-        this.changed();
-      },
-      () => undefined,
-    );
-  }
-
-  override loadFeatures(extent: Extent, resolution: number, projection: Projection): void {
-    const code = projection.getCode();
-    if (this.#cloud && code !== this.#code) {
-      this.#code = code;
-      this.#feature.set("name", this.#cloud.name);
-      this.#feature.setGeometry(outlineOf(this.#cloud, projection));
-      if (!this.hasFeature(this.#feature)) this.addFeature(this.#feature);
-    }
-    super.loadFeatures(extent, resolution, projection);
-  }
-}
-
 /**
  * A georeferenced point cloud as a source of OpenLayers: `loading` until it is open, then `ready`, or `error` with an
  * event `error`. Several layers, on several maps, may draw one source.
@@ -76,7 +42,7 @@ export class PointCloudSource extends Source {
   readonly #owned: boolean;
   readonly #stop = new AbortController();
   #cloud: PointCloud | undefined;
-  #footprint: VectorSource | undefined;
+  #footprint: Footprint | undefined;
 
   /** @throws StyleError STYLE_OPTION where not exactly one of `url`, `file` and `cloud` is given */
   constructor({ url, file, cloud, attributions, ...options }: PointCloudSourceOptions) {
@@ -103,21 +69,22 @@ export class PointCloudSource extends Source {
   }
 
   /**
-   * The outline of the data set's box, with its name, for a vector layer. It comes in the projection of the map that
-   * asks for it, and follows it to another one. Maps of several projections need a source each.
+   * The outline of the data set's box, with its name, for vector layers: each map has it in its own projection, also after
+   * that has changed. Who asks the source itself is given the one of the map that was drawn last.
    */
-  get footprint(): VectorSource {
+  get footprint(): VectorSource<Feature<Polygon>> {
     this.#footprint ??= new Footprint(this.#opened);
     return this.#footprint;
   }
 
   /**
-   * Box around the data set in a projection, to fit a view to; undefined until it is open. Across 180° it goes on beyond
-   * the edge of the world.
+   * Box around the data set in a projection, to fit a view to; undefined until it is open, and where it has no place there.
+   * Across 180° it goes on beyond the edge of the world.
    * @param projection Default: EPSG:3857
+   * @throws CrsError CRS_PROJECTION where the projection is not registered
    */
   getExtent(projection: ProjectionLike = "EPSG:3857"): Extent | undefined {
-    return this.#cloud && outlineOf(this.#cloud, projection).getExtent();
+    return this.#cloud && outlineOf(this.#cloud, projection)?.getExtent();
   }
 
   override disposeInternal(): void {
@@ -145,34 +112,6 @@ export class PointCloudSource extends Source {
       throw thrown;
     }
   }
-}
-
-/** The sides of a data set's box on the ground, at its middle height, in a projection. */
-function outlineOf(cloud: PointCloud, projection: ProjectionLike): Polygon {
-  const { min, max } = cloud.boundingBox;
-  const z = (min[2] + max[2]) / 2;
-  const corners = [
-    [min[0], min[1]],
-    [max[0], min[1]],
-    [max[0], max[1]],
-    [min[0], max[1]],
-  ];
-  const place = new Float64Array(3);
-  let near: number | undefined;
-  const ring = corners.flatMap(([x, y], side) => {
-    const [toX, toY] = corners[(side + 1) % corners.length];
-    return Array.from({ length: SIDE }, (_, step) => {
-      const share = step / SIDE;
-      cloud.place(x + share * (toX - x), y + share * (toY - y), z, place);
-      ecefToGeodetic(place[0], place[1], place[2], place);
-      const [longitude, latitude] = [place[0], place[1]].map((angle) => (angle * 180) / Math.PI);
-      // In one piece across 180°.
-      near ??= longitude;
-      const turns = Math.round((near - longitude) / 360);
-      return transform([longitude + 360 * turns, latitude], "EPSG:4326", projection);
-    });
-  });
-  return new Polygon([[...ring, ring[0]]]);
 }
 
 function notOne(count: number): StyleError {

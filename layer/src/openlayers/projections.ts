@@ -25,7 +25,8 @@ export function projectionOfMap(projection: Projection, finest: number, file: st
   return { code, definition, metresPerUnit, wraps: projection.canWrapX(), tolerance };
 }
 
-function notRegistered(code: string, file: string): GromaError {
+/** A projection that neither OpenLayers nor proj4js knows. */
+export function notRegistered(code: string, file: string): GromaError {
   return new CrsError({
     code: "CRS_PROJECTION",
     file,
