@@ -71,11 +71,17 @@ function importance(bounds: NodeBounds, above: number, { position, direction, pr
   return Math.min(above, pixels * (0.5 + (0.5 * (1 + ahead)) / 2));
 }
 
+/** How far apart the points of a node with nothing above it lie, in terms of its level's distance. */
+function sparsenessOf({ bounds, pointCount }: OctreeNode): number {
+  const area = 2 * bounds!.radius ** 2;
+  return Math.max(1, Math.sqrt(area / pointCount) / bounds!.spacing);
+}
+
 function importances(root: OctreeNode, from: View = view): Map<string, number> {
   const all = new Map<string, number>();
   const visit = (node: OctreeNode, above: number) => {
     const own = importance(node.bounds!, above, from);
-    all.set(node.name, own);
+    all.set(node.name, node === root ? own * sparsenessOf(node) : own);
     for (const child of node.children ?? []) if (child) visit(child, own);
   };
   visit(root, Number.POSITIVE_INFINITY);
@@ -173,7 +179,8 @@ describe("gather", () => {
           if (node.pointCount > 0) {
             expected.nodes.push(node.name);
             spacings.set(node.name, pixels);
-            caps.set(node.name, prefix ? shareOf(pixels, error, base) : 1);
+            const apart = base ? pixels * sparsenessOf(node) : pixels;
+            caps.set(node.name, prefix ? shareOf(apart, error, base) : 1);
           }
           const bare = base && node.pointCount === 0;
           // The children of a node are half as far apart: those of one that is whole at nine tenths may be in the fringe.
@@ -276,6 +283,24 @@ describe("gather", () => {
       const { demand } = gather(family(new Array(17).fill(sphere)), flat, everything, known);
       expect(new Set(demand.pixels)).toEqual(new Set([2 * PIXELS_PER_METRE]));
     }
+  });
+
+  it("leaves out no point of a sparse root that the screen-space error tells from the next", () => {
+    const drawn = (points: number, metresPerPixel: number) => {
+      const root = new OctreeNode({ depth: 0, x: 0, y: 0, z: 0 }, "listed");
+      root.pointCount = points;
+      // 256 m wide and long, in 128 cells to a side.
+      root.bounds = { x: 0, y: 0, z: 0, radius: 128 * Math.SQRT2, spacing: 2 };
+      const flat: View = { ...view, projection: { kind: "orthographic", extent: 1000 * metresPerPixel } };
+      const options = { maximumScreenSpaceError: 2, pointBudget: 1e6 };
+      return selectNodes(root, flat, options, known).points;
+    };
+    // 100 points, 25.6 m apart; of 16,384 there is one in each cell.
+    expect([1, 5, 12.7].map((metres) => drawn(100, metres))).toEqual([100, 100, 100]);
+    expect([25.6, 51.2].map((metres) => drawn(100, metres))).toEqual([25, 6]);
+    expect([0.9, 2, 4].map((metres) => drawn(128 ** 2, metres))).toEqual([16_384, 4_096, 1_024]);
+    // More than one in a cell are as far apart as the cells.
+    expect(drawn(50_000, 2)).toBe(12_500);
   });
 
   it("asks for the sphere of a node once", () => {

@@ -43,7 +43,8 @@ const AT_THRESHOLD = 1e-6;
  * spacing is below the screen-space error or more points are found than the limit could ever let through.
  *
  * Importance is the spacing in pixels, halved towards the edge of the picture and beyond, where the eye does not rest;
- * never more than that of the node above. A node that the camera is in comes before all others, larger ones first.
+ * never more than that of the node above. A node with nothing above it counts by the distance of its points where they are
+ * fewer than its level has room for. A node that the camera is in comes before all others, larger ones first.
  */
 export function gather(root: OctreeNode, view: View, options: DemandOptions, boundsOf: BoundsOf): Gathered {
   const { maximumScreenSpaceError: error, limit, prefix, rejects } = options;
@@ -73,7 +74,8 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     const weighted = own < above ? own : above;
     if (!base && 2 * weighted < floor) return;
     if (base) bases++;
-    queue.push(reached.add(node, pixels, weighted, base), weighted);
+    const sparse = base ? sparseness(node.pointCount, bounds) : 1;
+    queue.push(reached.add(node, pixels, weighted, base, sparse), sparse * weighted);
   };
   consider(root, Number.POSITIVE_INFINITY, true);
   let points = 0;
@@ -83,6 +85,7 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     const pixels = reached.pixels[index];
     const weighted = reached.weighted[index];
     const base = reached.base[index];
+    const sparse = reached.sparse[index];
     if (base) bases--;
     else if (2 * weighted < floor) {
       // Whatever is still to come is less important than this node.
@@ -105,8 +108,8 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
       nodes.push(node);
       spacings.push(pixels);
       demand.sizes.push(pointCount);
-      demand.caps.push(prefix ? shareOf(pixels, error, base) : 1);
-      demand.pixels.push(weighted);
+      demand.caps.push(prefix ? shareOf(sparse * pixels, error, base) : 1);
+      demand.pixels.push(sparse * weighted);
       demand.base.push(base);
       points += pointCount;
       if (points > limit && nodes.length >= check) {
@@ -127,18 +130,29 @@ class ReachedNodes {
   readonly pixels: number[] = [];
   readonly weighted: number[] = [];
   readonly base: boolean[] = [];
+  readonly sparse: number[] = [];
 
   /** @returns the index of the node */
-  add(node: OctreeNode, pixels: number, weighted: number, base: boolean): number {
+  add(node: OctreeNode, pixels: number, weighted: number, base: boolean, sparse: number): number {
     this.pixels.push(pixels);
     this.weighted.push(weighted);
     this.base.push(base);
+    this.sparse.push(sparse);
     return this.nodes.push(node) - 1;
   }
 }
 
 /** Pixels per metre of spacing at which nodes around the camera rank. */
 const AROUND = 1e12;
+
+/**
+ * How many times as wide apart as its level says a node's points are where nothing is above it, at least 1: n points on a
+ * square of diagonal 2r lie √(2/n) r apart, and closer only where they leave a part of it empty. With its level alone, which
+ * stands for a surface without gaps, most of a hundred points far apart would be left out although each shows by itself.
+ */
+function sparseness(points: number, { radius, spacing }: NodeBounds): number {
+  return points > 0 ? Math.max(1, (Math.sqrt(2 / points) * radius) / spacing) : 1;
+}
 
 /** 1 for a node in the middle of the picture, 0.75 beside the camera, 0.5 behind it. */
 function weightOf({ position, direction }: View, bounds: NodeBounds): number {

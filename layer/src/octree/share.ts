@@ -4,7 +4,7 @@ export interface Demand {
   readonly sizes: number[];
   /** Share of a node that the screen-space error calls for, 0 to 1. */
   readonly caps: number[];
-  /** Importance of a node: its spacing in pixels, weighted by its place in the picture. */
+  /** Importance of a node: the distance of its points in pixels, weighted by its place in the picture. */
   readonly pixels: number[];
   /** Whether no node above it has points. */
   readonly base: boolean[];
