@@ -70,7 +70,7 @@ export {
   type GeodesicPolygon,
   geodesicPolygon,
 } from "./geodesic/polygon.js";
-export { areaOfDomain, boundsOfPlaces, spread, withWorthThere } from "./georeference/area.js";
+export { areaOfDomain, boundsOfPlaces, domainAround, spread, withWorthThere } from "./georeference/area.js";
 export { aroundPoints } from "./georeference/around-points.js";
 export { type DerivedOptions, deriveTransformation } from "./georeference/derive.js";
 export { fitPlacement } from "./georeference/fit.js";

@@ -1,7 +1,7 @@
 import {
   compileTransformation,
-  type Domain,
   decodeTransformation,
+  domainAround,
   encodeTransformation,
   fitPlacement,
   place,
@@ -123,11 +123,10 @@ describe.skipIf(missing)("poles and the antimeridian", () => {
     { timeout: 60_000 },
     async (code, _low, _high, index) => {
       const [, low, high] = SETS[index]!;
-      const [minX, minY, minZ] = low as [number, number, number];
-      const [maxX, maxY, maxZ] = high as [number, number, number];
-      const domain: Domain = { minX, minY, minZ, maxX, maxY, maxZ };
       const choice = { engine: "proj", grids: grids.path } as const;
       const { crs } = await georeference({ file: code }, { crs: code, ...choice });
+      const step = crs.horizontalUnit.kind === "angular" ? 1e-7 : 1e-3;
+      const domain = domainAround({ min: low, max: high }, [step, step, 1e-3], crs.horizontalUnit);
       const { transformation } = await engineTransformation(crs, domain, choice, { file: code });
       const carried = compileTransformation(decodeTransformation(encodeTransformation(transformation), code));
       const points = pointsOf(index);

@@ -3,6 +3,7 @@ import {
   accuracyParts,
   type CompiledTransformation,
   type Crs,
+  domainAround,
   ENGINE,
   type ExactTransform,
   type GeoreferenceRecord,
@@ -14,7 +15,7 @@ import {
 import type { Scan } from "../core/core.js";
 import { fitBoundOf, geoidsOf } from "./geoids.js";
 import { type Georeferenced, georeference, georeferenceRecord, type Named } from "./georeference.js";
-import { domainOf, TOLERANCE } from "./records.js";
+import { TOLERANCE } from "./records.js";
 
 /** Where a file's points are, as the file itself says it: by the same code that a page uses, without PROJ. */
 export interface Placed {
@@ -75,7 +76,7 @@ function partsOf(
   truth: Placed["truth"],
   scan: Pick<Scan, "min" | "max" | "scale">,
 ): AccuracyPart[] {
-  const domain = domainOf(scan);
+  const domain = domainAround(scan, scan.scale, crs.horizontalUnit);
   return accuracyParts(
     withWorthThere(crs, truth, domain),
     scan.scale,

@@ -2,6 +2,7 @@ import {
   accuracyParts,
   type Crs,
   type Domain,
+  domainAround,
   EGM96,
   EGM96_NOTE,
   ENGINE,
@@ -69,7 +70,7 @@ export async function makeRecords(
   if (isInSpace(crs)) {
     return encoded({ version: 1, crs, engine: ENGINE, accuracy: accuracyParts(crs, scale, TOLERANCE) });
   }
-  const domain = domainOf({ min, max, scale });
+  const domain = domainAround({ min, max }, scale, crs.horizontalUnit);
   const { minZ, maxZ } = domain;
   const { transformation, report: own } = await engineTransformation(crs, domain, choice, surroundings);
   const bytes = encodeTransformation(transformation);
@@ -84,16 +85,6 @@ export async function makeRecords(
   });
   const georeference = { version: 1, crs, engine: report.engine, operation, accuracy } as const;
   return { ...encoded(georeference), transformation: bytes, fitBound: report.fitBound };
-}
-
-/**
- * The bounds of the points and one step of their integers around: whoever asks for a surveyed point of the scan asks
- * with the digits that rounding to the steps has taken.
- */
-export function domainOf({ min, max, scale }: PointBounds & { readonly scale: ArrayLike<number> }): Domain {
-  const [minX, minY, minZ] = min.map((least, axis) => least - scale[axis]);
-  const [maxX, maxY, maxZ] = max.map((greatest, axis) => greatest + scale[axis]);
-  return { minX, minY, minZ, maxX, maxY, maxZ };
 }
 
 /** Geocentric coordinates are ECEF but for their unit: there is nothing to fit. */

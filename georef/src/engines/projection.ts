@@ -27,6 +27,8 @@ const GRIDS = 3;
 const NULL_SHIFT = 4;
 const NO_DATUM = 5;
 
+/** Radians; beyond a pole by as much, 6 mm, stands what rounding puts there: the domain of a fit is widened by that. */
+const POLE_MARGIN = 1e-9 * Math.PI;
 /** Longitudes more than two turns out are a mistake, not a place. */
 const LONGITUDE_LIMIT = 4 * Math.PI;
 /**
@@ -64,7 +66,7 @@ export function inverseOf(projection: Projection, unit: number): PlaneInverse {
       longitude = point.x;
       latitude = point.y;
     }
-    if (!(Math.abs(latitude) <= Math.PI / 2 + 1e-12 && Math.abs(longitude) <= LONGITUDE_LIMIT)) return;
+    if (!(Math.abs(latitude) <= Math.PI / 2 + POLE_MARGIN && Math.abs(longitude) <= LONGITUDE_LIMIT)) return;
     out[offset] = longitude + meridian;
     out[offset + 1] = latitude;
   };

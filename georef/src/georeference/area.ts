@@ -1,6 +1,6 @@
 import type { Domain } from "../cartesian/domain.js";
 import type { AreaOfUse } from "../crs/area-of-use.js";
-import type { Crs } from "../crs/crs.js";
+import type { Crs, Unit } from "../crs/crs.js";
 import { accuracyIn } from "../crs/shift-worth.js";
 import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import { pointTransform, type Truth } from "../engines/truth.js";
@@ -14,6 +14,29 @@ const MARGIN = 2e-6;
 const RELATIVE_MARGIN = 0.01;
 
 const TURN = 2 * Math.PI;
+
+/**
+ * The bounds of the points of a data set and one step of their integers around, in source units: whoever asks for a surveyed
+ * point of a scan asks with the digits that rounding to the steps has taken. No latitude goes beyond a pole by that.
+ *
+ * @param scale LAS scale factors, source units
+ * @param unit of x and y
+ */
+export function domainAround(
+  { min, max }: { readonly min: ArrayLike<number>; readonly max: ArrayLike<number> },
+  scale: ArrayLike<number>,
+  unit: Unit,
+): Domain {
+  const pole = unit.kind === "angular" ? Math.PI / 2 / unit.size : Number.POSITIVE_INFINITY;
+  return {
+    minX: min[0] - scale[0],
+    minY: Math.max(min[1] - scale[1], Math.min(min[1], -pole)),
+    minZ: min[2] - scale[2],
+    maxX: max[0] + scale[0],
+    maxY: Math.min(max[1] + scale[1], Math.max(max[1], pole)),
+    maxZ: max[2] + scale[2],
+  };
+}
 
 /** x, y, z on a raster over a domain, edges included, at its lowest and highest z. */
 export function spread({ minX, minY, minZ, maxX, maxY, maxZ }: Domain): Float64Array {

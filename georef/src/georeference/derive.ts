@@ -1,8 +1,7 @@
 import type { Domain } from "../cartesian/domain.js";
 import type { Crs } from "../crs/crs.js";
-import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
-import { exactTransform } from "../engines/exact.js";
+import { inverseOf, open } from "../engines/projection.js";
 import { CrsError } from "../errors/errors.js";
 import type { Bounds, Grid } from "../grid/window.js";
 import { fitPatchwork, PATCHWORK_TOLERANCE } from "../transformation/patchwork.js";
@@ -55,17 +54,10 @@ export async function deriveTransformation(
 
 /** x, y pairs to longitude, latitude pairs (radians) of the CRS's own datum. */
 function sampler(crs: Crs): (points: Float64Array) => Float64Array {
-  // Without a shift the geodetic coordinates count as those of WGS 84, so that they come back unchanged.
-  const exact = exactTransform({ ...crs, proj4: crs.proj4.replace(TOWGS84, "") });
-  const parts = new Float64Array(6);
-  const place = new Float64Array(3);
+  const inverse = inverseOf(open(crs.proj4.replace(TOWGS84, "")), crs.horizontalUnit.size);
   return (points) => {
     const out = new Float64Array(points.length);
-    for (let i = 0; i < points.length; i += 2) {
-      exact(points[i], points[i + 1], parts, 0);
-      ecefToGeodetic(parts[0], parts[1], parts[2], place, 0);
-      out.set(place.subarray(0, 2), i);
-    }
+    for (let i = 0; i < points.length; i += 2) inverse(points[i], points[i + 1], out, i);
     return out;
   };
 }

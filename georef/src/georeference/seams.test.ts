@@ -4,6 +4,9 @@ import { describe, expect, it } from "vitest";
 import { distance, radians, random } from "../cartesian/points.fixture.js";
 import { lookup } from "../crs/epsg-table.fixture.js";
 import {
+  compileTransformation,
+  deriveTransformation,
+  domainAround,
   ecefToGeodetic,
   exactTransform,
   fitPlacement,
@@ -132,6 +135,31 @@ describe("poles", () => {
       { numRuns: 200 },
     );
   });
+});
+
+describe("a transformation derived for geographic coordinates", () => {
+  it.each([
+    [-90, 90, "EPSG:4326"],
+    [89.99, 90, "EPSG:4326"],
+  ])(
+    "from %d to %d of %s holds on the pole, and one step of integers around is no latitude",
+    async (low, high, code) => {
+      const crs = resolveCrs({ file: code, given: code }, lookup);
+      const bounds = { min: [10, low, 0], max: [12, high, 9] };
+      const domain = domainAround(bounds, [1e-7, 1e-7, 1e-3], crs.horizontalUnit);
+      expect(domain.maxY).toBe(high);
+      expect(domain.minX).toBe(10 - 1e-7);
+      const { forward } = compileTransformation(await deriveTransformation(crs, domain), code);
+      const exact = exactTransform(crs);
+      for (const y of [low, (low + high) / 2, high]) {
+        forward(11, y, 5, one);
+        const parts = new Float64Array(6);
+        exact(11, y, parts, 0);
+        const there = [0, 1, 2].map((axis) => parts[axis] + 5 * parts[axis + 3]);
+        expect(distance(one, there)).toBeLessThan(1e-4);
+      }
+    },
+  );
 });
 
 describe("round trips through a projection", () => {

@@ -1,3 +1,4 @@
+import { PlacementError } from "@groma/georef";
 import type { Place, SourceSpace } from "./volume.js";
 
 /** Corner of a ring in source coordinates. */
@@ -24,10 +25,12 @@ export function extendedPlace(space: SourceSpace): Place {
 
 /** Share of a coordinate over which a secant is taken at least: over less, the rounding of ECEF is carried on as well. */
 const LEAST_SECANT = 1e-6;
+/** Shorter secants for data sets without width, where the map ends with them: as far as transformations reach around them. */
+const SHORTER = [1e-1, 1e-2, 1e-3];
 
 /**
- * Adds how far a place moves along one axis, by the secant inwards over a thousandth of the data set; over more of a small
- * one, up to all of it.
+ * Adds how far a place moves along one axis, by the secant inwards over a thousandth of the data set. Where that is too
+ * little, it goes beyond the other edge, as far as the map does.
  */
 function carryOn(
   beyond: number,
@@ -37,11 +40,32 @@ function carryOn(
   from: Float64Array,
   out: Float64Array,
 ): void {
-  if (beyond === 0 || !(width > 0)) return;
+  if (beyond === 0) return;
   const least = LEAST_SECANT * Math.max(1, Math.abs(edge));
-  const step = -Math.sign(beyond) * Math.min(width, Math.max(width / 1000, least));
-  const inside = at(step);
-  for (let axis = 0; axis < 3; axis++) out[axis] += ((inside[axis] - from[axis]) / step) * beyond;
+  const inwards = -Math.sign(beyond);
+  const lengths =
+    width >= least
+      ? [Math.max(width / 1000, least)]
+      : [least, width, ...SHORTER.map((share) => share * least)];
+  for (const length of lengths) {
+    if (length === 0) continue;
+    const inside = orUndefined(at, inwards * length);
+    if (!inside) continue;
+    for (let axis = 0; axis < 3; axis++)
+      out[axis] += ((inside[axis] - from[axis]) / (inwards * length)) * beyond;
+    return;
+  }
+}
+
+/** A place, where the map has it. */
+function orUndefined(at: (step: number) => Float64Array, step: number): Float64Array | undefined {
+  try {
+    const place = at(step);
+    return place.every(Number.isFinite) ? place : undefined;
+  } catch (error) {
+    if (error instanceof PlacementError) return undefined;
+    throw error;
+  }
 }
 
 /**

@@ -6,6 +6,7 @@ import {
   decodeRecord,
   decodeRecordFile,
   decodeTransformation,
+  domainAround,
   ENGINE,
   type EpsgLookup,
   encodeRecord,
@@ -34,7 +35,6 @@ import {
   crsWithHeights,
   type Declared,
   derivedByEgm96,
-  domainOf,
   lookupFor,
   operationRegiven,
   regiven,
@@ -190,7 +190,11 @@ async function fromCrs(
   const { heightData = packagedHeights } = options;
   const outsideOf =
     vertical === undefined ? undefined : await systemAbroad(map.truth, crs, source, heightData);
-  const there = withWorthThere(crs, map.truth, domainOf(source));
+  const there = withWorthThere(
+    crs,
+    map.truth,
+    domainAround(source.boundingBox, source.scale, crs.horizontalUnit),
+  );
   const placing = by.transformation && {
     outsideOf,
     operation: {
@@ -242,7 +246,11 @@ function recorded(
   const bound = boundOf(map.truth, source, tolerance);
   const lost = !transformation && !similarity && (engine.name === "PROJ" || operation !== undefined);
   if (lost) {
-    const there = withWorthThere(crs, map.truth, domainOf(source));
+    const there = withWorthThere(
+      crs,
+      map.truth,
+      domainAround(source.boundingBox, source.scale, crs.horizontalUnit),
+    );
     const parts = remarked(accuracyParts(there, source.scale, bound), "datum operation", LOST);
     return { ...common, engine: ENGINE, operation: undefined, accuracy: statedAccuracy(parts) };
   }

@@ -4,8 +4,8 @@ import {
   CrsError,
   type CrsNote,
   compileTransformation,
-  type Domain,
   deriveTransformation,
+  domainAround,
   EGM96,
   EGM96_NOTE,
   type EpsgLookup,
@@ -176,15 +176,9 @@ export function operationRegiven(
  * @throws PlacementError PLACE_POLE, PLACE_ANTIMERIDIAN, PLACE_DOMAIN, PLACE_PATCHWORK
  */
 export async function derivedByEgm96(crs: Crs, source: Declared, egm96: Grid): Promise<Uint8Array> {
-  const file = source.name;
-  return encodeTransformation(await deriveTransformation(crs, domainOf(source), { egm96, file }));
-}
-
-/** The bounds of the points, and one step of their integers around. */
-export function domainOf({ boundingBox: { min, max }, scale }: Declared): Domain {
-  const [minX, minY, minZ] = min.map((least, axis) => least - scale[axis]);
-  const [maxX, maxY, maxZ] = max.map((greatest, axis) => greatest + scale[axis]);
-  return { minX, minY, minZ, maxX, maxY, maxZ };
+  const { name: file, boundingBox, scale } = source;
+  const domain = domainAround(boundingBox, scale, crs.horizontalUnit);
+  return encodeTransformation(await deriveTransformation(crs, domain, { egm96, file }));
 }
 
 /** Where the data set lies on the earth. */

@@ -1,4 +1,4 @@
-import { ecefToGeodetic, pointTransform, truthOf } from "@groma/georef";
+import { ecefToGeodetic, PlacementError, pointTransform, truthOf } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import { sourceLine } from "./source-line.js";
 
@@ -67,6 +67,31 @@ describe("a line in the plane of a data set", () => {
       }
     },
   );
+
+  it.each([
+    ["of one point", 0, 0],
+    ["of a wall along y", 0, 12],
+    ["of a line along x", 12, 0],
+  ])("is found beside a scan %s, whose own map ends a few millimetres around it", (_which, width, depth) => {
+    const [x0, y0] = [500123.456, 5499876.543];
+    const [x1, y1] = [x0 + width, y0 + depth];
+    const flat = {
+      boundingBox: { min: [x0, y0, 95], max: [x1, y1, 95] },
+      place(x: number, y: number, z: number, out: Float64Array) {
+        const beyond = Math.max(x0 - x, x - x1, y0 - y, y - y1);
+        if (beyond > 0.006) throw new PlacementError({ code: "PLACE_DOMAIN", file: "", cause: "", fix: "" });
+        return space.place(x, y, z, out);
+      },
+    } as const;
+    for (const [dx, dy] of [
+      [0, 0],
+      [3, -4],
+      [-20, 30],
+    ]) {
+      const [[x, y]] = sourceLine(flat, [angles(x0 + dx, y0 + dy)], "line");
+      expect(Math.hypot(x - x0 - dx, y - y0 - dy)).toBeLessThan(1e-3);
+    }
+  });
 
   it("has no vertices without a place", () => {
     expect(() => sourceLine(space, [angles(500100, 5200100), [Number.NaN, 0]], "line.geojson")).toThrow(
