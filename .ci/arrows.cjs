@@ -144,8 +144,10 @@ module.exports = {
     layer("tools/exact", []),
     layer("tools/sections", ["tools/profile", "query"]),
     layer("tools/area", ["tools/exact", "clips", "query"]),
+    layer("camera", []),
     // A view hands out all that every application needs, beside its own.
     layer("cesium", [
+      "camera",
       "tools",
       "drawing",
       "permalink",
@@ -173,8 +175,10 @@ module.exports = {
       "errors",
       "every-view.ts",
     ]),
-    layer("link", ["cesium", "openlayers", "options", "errors"]),
-    layer("link/geometry", []),
+    layer("link", ["cesium", "openlayers", "camera", "options", "errors"]),
+    layer("link/geometry", ["camera"]),
+    layer("navigation", ["cesium", "camera", "options", "errors"]),
+    layer("navigation/motions", ["camera"]),
     {
       name: "only-openlayers-rooms-know-openlayers",
       severity: "error",
@@ -184,7 +188,10 @@ module.exports = {
     {
       name: "only-cesium-rooms-know-cesium",
       severity: "error",
-      from: { path: "^(georef|layer|converter)/(src|cli)/", pathNot: room("layer/src/(cesium|link)") },
+      from: {
+        path: "^(georef|layer|converter)/(src|cli)/",
+        pathNot: room("layer/src/(cesium|link|navigation)"),
+      },
       to: { path: "(^|node_modules/)(@cesium|cesium)/" },
     },
     {

@@ -1,4 +1,4 @@
-import { cross, difference, dot, unit, type Vector } from "@groma/georef";
+import { difference, dot, type Vector } from "@groma/georef";
 import {
   Cartesian2,
   Cartesian3,
@@ -6,38 +6,29 @@ import {
   Ray as CesiumRay,
   EllipsoidTerrainProvider,
   IntersectionTests,
-  Matrix4,
   OrthographicFrustum,
-  type PerspectiveFrustum,
-  type PrimitiveCollection,
   type Scene,
   SceneMode,
 } from "cesium";
-import { PointCloudLayer } from "../cesium/index.js";
 import {
   type CameraPose,
-  footprintOf,
-  type GroundView,
-  geodeticOf,
   headingAt,
   heightOf,
   meetSurface,
   moveCamera,
-  type PictureHalves,
   placeLookedAt,
   type Ray,
-} from "./geometry/index.js";
+  rayThrough,
+  type ScreenPlace,
+} from "../camera/index.js";
+import type { PointCloudLayer } from "../cesium/index.js";
+import { layersIn, lensOf, poseOf, standCamera, vectorOf } from "../cesium/scene-camera.js";
+import { footprintOf, type GroundView, geodeticOf } from "./geometry/index.js";
 
 const scratch = { ray: new CesiumRay(), place: new Cartesian3(), cartographic: new Cartographic() };
 
 /** Share of a number by which a scene may move its camera by its own rounding, as Cesium does: not a move of anybody's. */
 const ROUNDING = 1e-12;
-
-/** A place of a picture, CSS pixels from the upper left. */
-export interface ScreenPlace {
-  readonly x: number;
-  readonly y: number;
-}
 
 /** The globe as a link knows it: its camera, its ground, and the points on it. */
 export class GlobeSide {
@@ -72,8 +63,7 @@ export class GlobeSide {
   }
 
   get pose(): CameraPose {
-    const { positionWC, directionWC, upWC } = this.scene.camera;
-    return { position: vector(positionWC), direction: vector(directionWC), up: vector(upWC) };
+    return poseOf(this.scene.camera);
   }
 
   /** Place of the picture whose ground is in the middle of the map, CSS pixels from the upper left. */
@@ -85,11 +75,12 @@ export class GlobeSide {
   /** What the camera looks at. */
   get view(): GroundView {
     const { pose } = this;
-    const { origin, direction } = this.#rayAt(pose, this.middle);
+    const lens = lensOf(this.scene);
+    const { origin, direction } = rayThrough(pose, lens, this.middle);
     const place = this.#lookedAt({ ...pose, position: origin, direction });
-    const halves = halvesOf(this.scene.camera.frustum);
+    const { halves, height } = lens;
     const depth = halves.parallel ? 1 : distance(place, origin) * dot(direction, pose.direction);
-    const metresPerPixel = (2 * depth * halves.up) / this.scene.canvas.clientHeight;
+    const metresPerPixel = (2 * depth * halves.up) / height;
     return { place, heading: headingAt(pose, place), metresPerPixel };
   }
 
@@ -117,7 +108,7 @@ export class GlobeSide {
     const { positionWC, directionWC } = this.scene.camera;
     const ray = new CesiumRay(positionWC, directionWC);
     const ahead = this.layers.find(({ boundingSphere }) => IntersectionTests.raySphere(ray, boundingSphere));
-    return ahead && heightOf(vector(ahead.boundingSphere.center));
+    return ahead && heightOf(vectorOf(ahead.boundingSphere.center));
   }
 
   /** Whether points of the view are still on their way. */
@@ -138,15 +129,10 @@ export class GlobeSide {
   }
 
   /** Puts the camera somewhere; that is no move of the globe's own. */
-  stand({ position, direction, up }: CameraPose): void {
+  stand(pose: CameraPose): void {
     const { camera } = this.scene;
     camera.cancelFlight();
-    camera.lookAtTransform(Matrix4.IDENTITY);
-    // `setView` goes by angles, which lose the roll of a camera that looks down.
-    Cartesian3.fromElements(...position, camera.position);
-    Cartesian3.fromElements(...direction, camera.direction);
-    Cartesian3.fromElements(...up, camera.up);
-    Cartesian3.cross(camera.direction, camera.up, camera.right);
+    standCamera(camera, pose);
     this.know();
     this.scene.requestRender();
   }
@@ -158,7 +144,7 @@ export class GlobeSide {
 
   /** The outline of the ground in the picture: places of ECEF. */
   get footprint(): Vector[] {
-    const halves = halvesOf(this.scene.camera.frustum);
+    const { halves } = lensOf(this.scene);
     const terrain = this.#terrain;
     if (!terrain) return footprintOf(this.pose, halves, this.#height);
     return footprintOf(this.pose, halves, 0, (ray) => this.#pickTerrain(ray));
@@ -175,7 +161,7 @@ export class GlobeSide {
     const away = (hit: (typeof hits)[number]) =>
       hit ? Cartesian3.distance(eye, hit.position) : Number.POSITIVE_INFINITY;
     const nearest = hits.sort((a, b) => away(a) - away(b))[0];
-    return nearest && vector(nearest.position);
+    return nearest && vectorOf(nearest.position);
   }
 
   /** The place that the globe shows at a place of its picture: of a point, else of the ground. @throws as {@link pick} */
@@ -183,7 +169,7 @@ export class GlobeSide {
     const point = await this.pick(at, signal);
     if (point) return point;
     const found = this.scene.camera.getPickRay(new Cartesian2(at.x, at.y));
-    const ray = found && { origin: vector(found.origin), direction: vector(found.direction) };
+    const ray = found && { origin: vectorOf(found.origin), direction: vectorOf(found.direction) };
     return ray && ((this.#terrain && this.#pickTerrain(ray)) ?? meetSurface(ray, this.#height));
   }
 
@@ -207,7 +193,7 @@ export class GlobeSide {
 
   /** Layers of points that are shown. */
   get layers(): PointCloudLayer[] {
-    return layersIn(this.scene.primitives).filter(({ show }) => show);
+    return layersIn(this.scene.primitives);
   }
 
   dispose(): void {
@@ -218,23 +204,6 @@ export class GlobeSide {
   get #terrain() {
     const { globe } = this.scene;
     return globe?.show && !(globe.terrainProvider instanceof EllipsoidTerrainProvider) ? globe : undefined;
-  }
-
-  /** The ray through a place of the picture; without perspective it begins beside the camera. */
-  #rayAt({ position, direction, up }: CameraPose, { x, y }: ScreenPlace): Ray {
-    const { camera, canvas } = this.scene;
-    const halves = halvesOf(camera.frustum);
-    const [a, b] = [
-      ((2 * x) / canvas.clientWidth - 1) * halves.right,
-      (1 - (2 * y) / canvas.clientHeight) * halves.up,
-    ];
-    const right = cross(direction, up);
-    const beside = (from: Vector): Vector => {
-      const along = (axis: number) => from[axis] + a * right[axis] + b * up[axis];
-      return [along(0), along(1), along(2)];
-    };
-    if (halves.parallel) return { origin: beside(position), direction };
-    return { origin: position, direction: unit(beside(direction)) };
   }
 
   /** @param pose a camera whose direction is that of the ray */
@@ -250,7 +219,7 @@ export class GlobeSide {
     Cartesian3.fromElements(...origin, ray.origin);
     Cartesian3.fromElements(...direction, ray.direction);
     const found = this.scene.globe.pick(ray, this.scene, place);
-    return found && vector(found);
+    return found && vectorOf(found);
   }
 
   #isKnown(): boolean {
@@ -268,35 +237,6 @@ export class GlobeSide {
   }
 }
 
-function layersIn(collection: PrimitiveCollection): PointCloudLayer[] {
-  const found: PointCloudLayer[] = [];
-  for (let at = 0; at < collection.length; at++) {
-    const primitive: unknown = collection.get(at);
-    if (primitive instanceof PointCloudLayer) found.push(primitive);
-    else if (isCollection(primitive)) found.push(...layersIn(primitive));
-  }
-  return found;
-}
-
-function isCollection(primitive: unknown): primitive is PrimitiveCollection {
-  const { get, length } = primitive as Partial<PrimitiveCollection>;
-  return typeof get === "function" && typeof length === "number";
-}
-
-function halvesOf(frustum: Scene["camera"]["frustum"]): PictureHalves {
-  if (frustum instanceof OrthographicFrustum) {
-    const right = (frustum.width ?? 1) / 2;
-    return { right, up: right / (frustum.aspectRatio ?? 1), parallel: true };
-  }
-  const { fovy = Math.PI / 3, aspectRatio = 1 } = frustum as PerspectiveFrustum;
-  const up = Math.tan(fovy / 2);
-  return { right: up * aspectRatio, up };
-}
-
 function distance(a: Vector, b: Vector): number {
   return Math.hypot(...difference(a, b));
-}
-
-function vector({ x, y, z }: Cartesian3): Vector {
-  return [x, y, z];
 }

@@ -3,8 +3,9 @@ import type OlMap from "ol/Map.js";
 import { unByKey } from "ol/Observable.js";
 import { getTransform, get as projectionOf } from "ol/proj.js";
 import type View from "ol/View.js";
+import { heightOf } from "../camera/index.js";
 import { PointCloudLayer } from "../openlayers/index.js";
-import { geodeticOf, heightOf, type MapView, type Plane, placeOn, unwrapped } from "./geometry/index.js";
+import { geodeticOf, type MapView, type Plane, placeOn, unwrapped } from "./geometry/index.js";
 
 const DEGREE = Math.PI / 180;
 const NOWHERE = [Number.NaN, Number.NaN] as const;

@@ -7,9 +7,10 @@ import type { DrawEvent } from "ol/interaction/Draw.js";
 import { unByKey } from "ol/Observable.js";
 import type VectorSource from "ol/source/Vector.js";
 import type { VectorSourceEvent } from "ol/source/Vector.js";
-import { heightOf, placeOn } from "./geometry/index.js";
+import { heightOf, type ScreenPlace } from "../camera/index.js";
+import { placeOn } from "./geometry/index.js";
 import { type GlobeLine, GlobeLines } from "./globe-lines.js";
-import type { GlobeSide, ScreenPlace } from "./globe-side.js";
+import type { GlobeSide } from "./globe-side.js";
 import type { MapSide } from "./map-side.js";
 import { insertVertex, moveVertex, removeVertex, rowsOf, type Vertex, type VertexRow } from "./vertices.js";
 

@@ -6,6 +6,7 @@ import type Polygon from "ol/geom/Polygon.js";
 import type Draw from "ol/interaction/Draw.js";
 import type OlMap from "ol/Map.js";
 import VectorSource from "ol/source/Vector.js";
+import type { ScreenPlace } from "../camera/index.js";
 import {
   flag,
   type Kinds,
@@ -21,7 +22,7 @@ import { Clicks } from "./clicks.js";
 import { Cursors } from "./cursors.js";
 import { FootprintLayer } from "./footprint-layer.js";
 import { type DrawnKind, GlobeEditing } from "./globe-editing.js";
-import { GlobeSide, type ScreenPlace } from "./globe-side.js";
+import { GlobeSide } from "./globe-side.js";
 import { MapSide } from "./map-side.js";
 import { SharedFeatures } from "./shared-features.js";
 import { type Move, ViewLink, type ViewMode } from "./view-link.js";

@@ -1,5 +1,6 @@
 import type { Vector } from "@groma/georef";
-import { heightOf, toGroundView, toMapView } from "./geometry/index.js";
+import { heightOf } from "../camera/index.js";
+import { toGroundView, toMapView } from "./geometry/index.js";
 import type { GlobeSide } from "./globe-side.js";
 import type { MapSide } from "./map-side.js";
 

@@ -1,15 +1,13 @@
 import { cross, difference, dot, unit, type Vector } from "@groma/georef";
-import type { CameraPose } from "./camera.js";
+import {
+  type CameraPose,
+  horizonBelow,
+  limbBeside,
+  meetSurface,
+  type PictureHalves,
+  type Ray,
+} from "../../camera/index.js";
 import { geodeticOf, type Plane, unwrapped } from "./plane-view.js";
-import { horizonBelow, limbBeside, meetSurface, type Ray } from "./surface.js";
-
-/** Half of the picture's edges: tangents of half of the fields of view, or metres where there is no perspective. */
-export interface PictureHalves {
-  readonly right: number;
-  readonly up: number;
-  /** Whether all rays have the camera's direction. Default: they begin in one place. */
-  readonly parallel?: boolean;
-}
 
 /** Parts of an edge of the picture, at least, each of which is a side of the footprint. */
 const PARTS = 12;

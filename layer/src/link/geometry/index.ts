@@ -1,11 +1,4 @@
-export {
-  type CameraPose,
-  headingAt,
-  moveCamera,
-  placeLookedAt,
-  type Target,
-} from "./camera.js";
-export { footprintOf, type PictureHalves, ringOnMap } from "./footprint.js";
+export { footprintOf, ringOnMap } from "./footprint.js";
 export {
   type GroundView,
   geodeticOf,
@@ -16,4 +9,3 @@ export {
   toMapView,
   unwrapped,
 } from "./plane-view.js";
-export { alongRay, heightOf, meetSurface, type Ray, upAt } from "./surface.js";
