@@ -29,7 +29,7 @@ export class Compared {
     });
   }
 
-  /** Those that are open; the one opened last of each name. */
+  /** Those that are open, by what their points are: two scans of one name are two. */
   get clouds(): readonly PointCloud[] {
     return [...this.#clouds.values()];
   }
@@ -38,8 +38,8 @@ export class Compared {
     setText(this.#note, "Opening…");
     try {
       const cloud = await PointCloud.fromUrl(from());
-      this.#clouds.get(cloud.name)?.destroy();
-      this.#clouds.set(cloud.name, cloud);
+      this.#clouds.get(cloud.identity)?.destroy();
+      this.#clouds.set(cloud.identity, cloud);
       setText(
         this.#note,
         `${cloud.name} is open: choose it where a volume says what it is measured against.`,

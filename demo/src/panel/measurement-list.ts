@@ -18,8 +18,14 @@ const BASES = new Map<string, string>([
   ["height", "a height"],
 ]);
 
-/** Begins the choices that are scans; their names follow. */
+/** Begins the choices that are scans; what their points are follows, or the name where that is not known. */
 const CLOUD = "cloud:";
+
+/** A scan that volumes are measured against. */
+interface Scan {
+  readonly name: string;
+  readonly identity?: string | undefined;
+}
 
 /** ASPRS class of the ground. */
 const GROUND = 2;
@@ -37,7 +43,7 @@ interface Entry {
 interface Settings {
   readonly element: HTMLElement;
   /** Lets the volume be measured against further scans. */
-  offer(names: readonly string[]): void;
+  offer(scans: readonly Scan[]): void;
   fill(volume: VolumeSettings | undefined): void;
 }
 
@@ -45,7 +51,7 @@ interface Settings {
 export class MeasurementList {
   readonly #tool: MeasureTool;
   readonly #fly: (measurement: Measurement) => void;
-  readonly #others: () => readonly { readonly name: string }[];
+  readonly #others: () => readonly Scan[];
   readonly #list = byId("measurements", HTMLOListElement);
   #entries: readonly Entry[] = [];
 
@@ -53,11 +59,7 @@ export class MeasurementList {
    * @param others scans that volumes can be measured against
    * @param fly takes the views to a measurement
    */
-  constructor(
-    tool: MeasureTool,
-    others: () => readonly { readonly name: string }[],
-    fly: (measurement: Measurement) => void,
-  ) {
+  constructor(tool: MeasureTool, others: () => readonly Scan[], fly: (measurement: Measurement) => void) {
     this.#tool = tool;
     this.#others = others;
     this.#fly = fly;
@@ -69,7 +71,7 @@ export class MeasurementList {
     this.#entries = this.#tool.measurements.map((measurement) => {
       const there = kept.get(measurement.id);
       const entry = there ? { ...there, measurement } : this.#entry(measurement);
-      entry.settings?.offer(this.#others().map(({ name }) => name));
+      entry.settings?.offer(this.#others());
       // Not while it is read: who types a height is not disturbed.
       if (there?.measurement !== measurement) entry.settings?.fill(measurement.volume);
       this.#fill(entry);
@@ -162,27 +164,36 @@ export class MeasurementList {
     const only = document.createElement("label");
     only.className = "check";
     only.append(ground, textElement("span", "ground points only"));
+    const offered = new Map<string, Scan>();
     const changed = () => {
       height.hidden = base.value !== "height";
-      const settings = settingsOf(base.value, height.valueAsNumber, ground.checked);
+      const settings = settingsOf(
+        offered.get(base.value) ?? base.value,
+        height.valueAsNumber,
+        ground.checked,
+      );
       if (settings) this.#tool.change(id, { volume: settings });
     };
     for (const field of [base, height, ground]) field.addEventListener("change", changed);
     const element = document.createElement("div");
     element.className = "row";
     element.append(base, height, only);
-    const offer = (names: readonly string[]) => {
-      for (const name of names) {
-        const value = CLOUD + name;
-        const there = Array.from(base.options).some((option) => option.value === value);
-        if (!there) base.append(optionElement({ value, label: `the scan ${name}` }));
+    const offer = (scans: readonly Scan[]) => {
+      for (const scan of scans) {
+        const value = choiceOf(scan);
+        if (offered.has(value)) continue;
+        const namesakes = [...offered.values()].some(({ name }) => name === scan.name);
+        offered.set(value, scan);
+        const label = `the scan ${scan.name}${namesakes ? ` (${scan.identity})` : ""}`;
+        base.append(optionElement({ value, label }));
       }
     };
     const fill = (volume: VolumeSettings | undefined) => {
       const against = volume?.base;
       // A scan that is not open is what the volume was measured against all the same.
-      if (against?.kind === "cloud") offer([against.dataset]);
-      base.value = against?.kind === "cloud" ? CLOUD + against.dataset : (against?.kind ?? "lowest");
+      const scan = against?.kind === "cloud" && { name: against.dataset, identity: against.identity };
+      if (scan) offer([scan]);
+      base.value = scan ? choiceOf(scan) : (against?.kind ?? "lowest");
       height.hidden = base.value !== "height";
       if (volume?.base?.kind === "height") height.valueAsNumber = volume.base.height;
       ground.checked = volume?.classes?.length === 1 && volume.classes[0] === GROUND;
@@ -191,14 +202,19 @@ export class MeasurementList {
   }
 }
 
+function choiceOf({ name, identity }: Scan): string {
+  return CLOUD + (identity ?? name);
+}
+
 /** Undefined where a height is still to be given. */
-function settingsOf(base: string, height: number, groundOnly: boolean): VolumeSettings | undefined {
+function settingsOf(base: string | Scan, height: number, groundOnly: boolean): VolumeSettings | undefined {
   const classes = groundOnly ? { classes: [GROUND] } : {};
   if (base === "height") {
     return Number.isFinite(height) ? { base: { kind: "height", height }, ...classes } : undefined;
   }
-  if (base.startsWith(CLOUD)) {
-    return { base: { kind: "cloud", dataset: base.slice(CLOUD.length) }, ...classes };
+  if (typeof base === "object") {
+    const { name, identity } = base;
+    return { base: { kind: "cloud", dataset: name, identity }, ...classes };
   }
   const kind = (["highest", "plane", "ring"] as const).find((one) => one === base) ?? "lowest";
   return { base: { kind }, ...classes };

@@ -70,6 +70,8 @@ export class PointCloud implements PointOrigin {
   /** File name without the path. */
   readonly name: string;
   readonly pointCount: number;
+  /** What tells its points from those of other data sets, whatever their files are called; kept with what is measured. */
+  readonly identity: string;
   readonly crs: Crs;
   /** What the heights are measured from. */
   readonly height: HeightReference;
@@ -122,6 +124,7 @@ export class PointCloud implements PointOrigin {
     this.#truth = truth;
     this.name = baseName(source.name);
     this.pointCount = source.pointCount;
+    this.identity = source.identity;
     this.crs = crs;
     this.height = crs.height;
     this.accuracy = georeference.accuracy;

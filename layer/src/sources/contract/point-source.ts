@@ -19,6 +19,8 @@ export interface PointSource<Address = unknown, Encoding extends AnyEncoding = A
   /** Address or file name, for errors and to be shown. */
   readonly name: string;
   readonly pointCount: number;
+  /** What tells its points from those of other data sets, whatever these are called. The same whenever it is opened. */
+  readonly identity: string;
   /** Box that holds all points as far as is known without reading them, source coordinates. */
   readonly boundingBox: SourceBox;
   /** What the data set says of itself and does not hold. */

@@ -9,12 +9,14 @@ import { type CopcFile, openCopc } from "./copc-file.js";
 import type { ByteRange } from "./copc-info.js";
 import type { FirstPage } from "./first-page.js";
 import { type ChunkRange, checkPageAddress, entriesOfPage, type HierarchyLimits } from "./hierarchy.js";
+import { identityOf } from "./identity.js";
 import { trustedBox } from "./trusted-box.js";
 
 /** A COPC file as a source of points. */
 export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
   readonly name: string;
   readonly pointCount: number;
+  readonly identity: string;
   readonly boundingBox: PointSource["boundingBox"];
   readonly warnings: PointSource["warnings"];
   readonly cube: PointSource["cube"];
@@ -45,6 +47,7 @@ export class CopcSource implements PointSource<ChunkRange, LazEncoding> {
     this.#limits = file.limits;
     this.name = source.name;
     this.pointCount = header.pointCount;
+    this.identity = identityOf(header, first.bytes);
     this.cube = [x, y, z, edge];
     const { boundingBox, warnings } = trustedBox(header, this.cube, entriesOfPage(first.bytes, file.limits));
     this.boundingBox = boundingBox;

@@ -110,7 +110,8 @@ export function freshName(measurements: readonly Measurement[], title: string): 
 export function isSame(a: Vertex, b: Vertex): boolean {
   if (a.record && b.record) {
     const [one, other] = [a.record, b.record];
-    return one.dataset === other.dataset && one.node === other.node && one.index === other.index;
+    const keys = ["dataset", "identity", "node", "index"] as const;
+    return keys.every((key) => one[key] === other[key]);
   }
   return a.ecef.every((value, axis) => value === b.ecef[axis]);
 }

@@ -49,10 +49,12 @@ export {
   type Vertex,
   type VertexRecord,
 } from "./vertex/vertex.js";
-export { cutAndFill, type Progress, type RingVolume, type VolumeBase } from "./volume/cut-and-fill.js";
+export type { Progress, VolumeBase } from "./volume/base.js";
+export { cutAndFill, type RingVolume } from "./volume/cut-and-fill.js";
 export type { VolumeReply, VolumeWorker } from "./volume/in-worker.js";
 export { measureVolume, type Volume, type VolumeCloud, type VolumeOptions } from "./volume/measure-volume.js";
 export type { CutAndFill } from "./volume/prisms.js";
+export type { Sensitivities, Sensitivity } from "./volume/sensitivity.js";
 export type { VolumeJob, VolumeSums } from "./volume/volume-job.js";
 export type { Precision, WorthOptions } from "./worth/point-errors.js";
 export type { Quantity, SiUnit, UncertaintyPart } from "./worth/quantity.js";

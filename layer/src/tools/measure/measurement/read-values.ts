@@ -1,6 +1,7 @@
 import { MeasureError } from "../../../errors/index.js";
 import { measureHeightAboveGround } from "../ground/height-above-ground.js";
 import { measureHeightAboveTerrain, type Terrain } from "../ground/height-above-terrain.js";
+import { datasetAmong, whyNotAmong } from "../vertex/dataset.js";
 import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
 import type { VolumeWorker } from "../volume/in-worker.js";
 import { measureVolume, type VolumeCloud, type VolumeOptions } from "../volume/measure-volume.js";
@@ -70,9 +71,10 @@ async function volumeValues(
 
 function baseOf(base: VolumeBaseSetting, clouds: readonly MeasuredCloud[]): VolumeOptions["base"] {
   if (base.kind !== "cloud") return base;
-  const cloud = clouds.find(({ name }) => name === base.dataset);
+  const cloud = datasetAmong(clouds, base);
   if (cloud && hasPoints(cloud)) return { kind: "cloud", cloud };
-  throw notAtHand(base.dataset, "the volume is measured against it, and it is not open");
+  const why = cloud ? "its points cannot be read" : whyNotAmong(clouds, base);
+  throw notAtHand(base.dataset, `the volume is measured against it: ${why}`);
 }
 
 /** Above the points of the ground, and above a terrain where there is one; one of them will do. */

@@ -5,6 +5,7 @@ import {
   measureHeightAboveTerrain,
   placeVertex,
   readValues,
+  sourceVertex,
   type Terrain,
   type Vertex,
 } from "../index.js";
@@ -64,6 +65,50 @@ describe("values that take reading points", () => {
     const changed = (await byName(against, { clouds: [cloud, before] })).get("net")!.value;
     expect(changed).toBeCloseTo((await byName(volume())).get("net")!.value, 6);
     await expect(readValues(against)).rejects.toMatchObject({ code: "MEASURE_DATASET", file: "before" });
+  });
+
+  it("are the change against another data set of the same name", async () => {
+    const of = (identity: string, points: Points) =>
+      Object.assign(withPoints(cloudOf(UTM, { name: "scan" }), points), { identity });
+    const after = of("900-aaaaaaaa", heap);
+    const before = of(
+      "900-bbbbbbbb",
+      heap.map(([x, y, , kind]) => [x, y, 5, kind] as const),
+    );
+    const vertices = ring.map(({ source }) => after.vertex(...source!));
+    const against = (identity: string) =>
+      volume({ vertices, volume: { base: { kind: "cloud", dataset: "scan", identity } } });
+    const clouds = [after, before];
+    const changed = (await byName(against("900-bbbbbbbb"), { clouds })).get("net")!.value;
+    expect(changed).toBeCloseTo((await byName(volume())).get("net")!.value, 6);
+    // Against itself nothing has changed, and of that there is no doubt.
+    const none = await byName(against("900-aaaaaaaa"), { clouds });
+    for (const name of ["net", "cut", "fill", "levelOfDetection"]) {
+      expect([name, none.get(name)!.value, none.get(name)!.uncertainty]).toEqual([name, 0, 0]);
+    }
+    await expect(readValues(against("900-bbbbbbbb"), { clouds: [after] })).rejects.toMatchObject({
+      code: "MEASURE_DATASET",
+      message: expect.stringContaining("has other points than the one that was measured"),
+    });
+  });
+
+  it("are worth no more than the vertices that they are measured against", async () => {
+    const parts = async (kind: "lowest" | "height", vertices = ring) => {
+      const base = kind === "height" ? { kind, height: 5 } : { kind };
+      const values = await byName(volume({ vertices, volume: { base } }), { precision: 0.01 });
+      const { parts: all, value: net } = values.get("net")!;
+      return { net, standard: new Map(all.map((one) => [one.name, one.standard])) };
+    };
+    const lowest = await parts("lowest");
+    const level = await parts("height");
+    expect(lowest.net).toBeCloseTo(level.net, 6);
+    // One vertex bears 400 m²; the 400 points of the surface a square metre each, and the slopes of the heap besides.
+    expect(lowest.standard.get("point precision")).toBeGreaterThan(0.01 * 400);
+    expect(level.standard.get("point precision")).toBeGreaterThan(0.01 * 20);
+    expect(level.standard.get("point precision")).toBeLessThan(0.01 * 50);
+    // What an edge is worth that is no record nobody knows.
+    const free = ring.map(({ source }) => sourceVertex(cloud, source!));
+    expect((await parts("lowest", free)).standard.get("place")).toBeNull();
   });
 
   it("are heights above the ground, the terrain's too where there is one", async () => {

@@ -3,8 +3,8 @@ export type VolumeBaseSetting =
   | { readonly kind: "lowest" | "highest" | "plane" | "ring" }
   /** Metres, in the data set's own height system. */
   | { readonly kind: "height"; readonly height: number }
-  /** Another data set, by its name. */
-  | { readonly kind: "cloud"; readonly dataset: string };
+  /** Another data set, by its name, and by its `identity` where that is known. */
+  | { readonly kind: "cloud"; readonly dataset: string; readonly identity?: string | undefined };
 
 /** How a volume is measured. */
 export interface VolumeSettings {
@@ -30,7 +30,9 @@ export function volumeSettingsOf(saved: unknown): VolumeSettings | undefined {
 function isBase(value: unknown): value is VolumeBaseSetting {
   if (!isObject(value)) return false;
   if (value.kind === "height") return Number.isFinite(value.height);
-  if (value.kind === "cloud") return typeof value.dataset === "string";
+  if (value.kind === "cloud") {
+    return typeof value.dataset === "string" && ["string", "undefined"].includes(typeof value.identity);
+  }
   return PLAIN.has(value.kind);
 }
 

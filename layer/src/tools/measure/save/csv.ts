@@ -3,7 +3,7 @@ import { knownValues, type SaveOptions } from "./write.js";
 
 const COLUMNS = "measurement,kind,value_name,value,unit,uncertainty95,at_least,unknown_parts";
 const VERTEX_COLUMNS =
-  "measurement,kind,vertex,longitude_deg,latitude_deg,height_m,dataset,node,record,x_integer,y_integer,z_integer,x,y,z";
+  "measurement,kind,vertex,longitude_deg,latitude_deg,height_m,dataset,node,record,x_integer,y_integer,z_integer,x,y,z,dataset_identity";
 
 /** A row for each value of each measurement, SI and radians (RFC 4180). An uncertainty that is unknown is empty. */
 export function valuesToCsv(measurements: readonly Measurement[], options: SaveOptions = {}): string {
@@ -26,6 +26,7 @@ export function verticesToCsv(measurements: readonly Measurement[]): string {
       ...[record?.dataset ?? cloud?.name, record?.node, record?.index],
       ...(record?.integers ?? EMPTY),
       ...(source ?? EMPTY),
+      record ? record.identity : cloud?.identity,
     ]),
   );
   return table(VERTEX_COLUMNS, rows);

@@ -11,6 +11,8 @@ export const VERSION = 1;
 /** A data set that vertices stand on, as far as its records can be told by it. */
 export interface SavedDataset {
   readonly name: string;
+  /** What tells its points from those of others of the same name. */
+  readonly identity?: string;
   readonly crs: {
     readonly name: string;
     readonly code?: string;
@@ -28,6 +30,7 @@ export interface SavedVertex {
   /** Longitude and latitude of WGS 84 in degrees, height above the ellipsoid in metres. */
   readonly place: Position;
   readonly dataset?: string;
+  readonly identity?: string;
   /** x, y, z in the units of the data set's coordinate system. */
   readonly source?: readonly [number, number, number];
   readonly node?: string;

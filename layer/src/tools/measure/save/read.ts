@@ -1,6 +1,7 @@
 import { MeasureError } from "../../../errors/index.js";
 import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind } from "../measurement/measurement.js";
 import { volumeSettingsOf } from "../measurement/volume-settings.js";
+import { datasetAmong, whyNotAmong } from "../vertex/dataset.js";
 import {
   type MeasuredCloud,
   placeVertex,
@@ -40,7 +41,7 @@ export function readMeasurements(
     throw refused(file, "it is no feature or feature collection of GeoJSON");
   }
   const notes = new Set<string>();
-  const reader = new Reader(new Map(clouds.map((cloud) => [cloud.name, cloud])), notes);
+  const reader = new Reader(clouds, notes);
   const measurements = features.flatMap((feature, i) => {
     const found = isObject(feature) && reader.feature(feature, i);
     if (!found)
@@ -88,7 +89,7 @@ function refused(file: string, cause: string): MeasureError {
 
 class Reader {
   constructor(
-    readonly clouds: ReadonlyMap<string, MeasuredCloud>,
+    readonly clouds: readonly MeasuredCloud[],
     readonly notes: Set<string>,
   ) {}
 
@@ -121,14 +122,15 @@ class Reader {
 
   vertex(saved: unknown): Vertex | undefined {
     if (!isObject(saved)) return undefined;
-    const { dataset, node, index, integers, source, place } = saved;
+    const { dataset, identity, node, index, integers, source, place } = saved;
     const there = this.place(place);
     if (!there || typeof dataset !== "string") return there;
-    const cloud = this.clouds.get(dataset);
+    const named = { dataset, ...(typeof identity === "string" && { identity }) };
+    const cloud = datasetAmong(this.clouds, named);
     const recorded = isTriple(integers) && typeof node === "string" && Number.isInteger(index);
-    const record = recorded && { dataset, node, index: Number(index), integers };
+    const record = recorded && { ...named, node, index: Number(index), integers };
     if (!cloud) {
-      this.notes.add(`${dataset} is not open: its vertices stand at their saved places`);
+      this.notes.add(`${whyNotAmong(this.clouds, named)}: its vertices stand at their saved places`);
       return { ...there, ...(record && { record }), ...(isTriple(source) && { source }) };
     }
     if (!isTriple(source)) return there;

@@ -5,6 +5,7 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { cloudOf, UTM } from "../cloud.fixture.js";
 import {
+  attached,
   MEASUREMENT_KINDS,
   type Measurement,
   type MeasurementKind,
@@ -98,6 +99,67 @@ describe("measurements saved and read again", () => {
     expect(space.quantity.uncertainty).toBeNull();
     // Opened and saved again, nothing of them is lost.
     expect(readMeasurements(saved(measurements), [cloud]).measurements[0].vertices).toEqual(vertices);
+  });
+
+  it("are told apart from those of another scan of the same name", () => {
+    const [first, second] = ["5-aaaaaaaa", "5-bbbbbbbb"].map((identity, i) =>
+      Object.assign(cloudOf(i === 0 ? UTM : UTM.replace("32", "33"), { name: "scan" }), { identity }),
+    );
+    const at = (of: typeof first, x: number) => of!.vertex(500000 + x, 5300000, 1);
+    const mixed = one("distance", [at(first, 0), at(second, 10)]);
+    const against = {
+      ...one("volume", [at(first, 0), at(first, 9), first!.vertex(500000, 5300009, 1)]),
+      volume: { base: { kind: "cloud", dataset: "scan", identity: "5-bbbbbbbb" } },
+    } as const;
+    const text = saved([mixed, against]);
+    expect(JSON.parse(text).groma.datasets.map(({ identity }: { identity: string }) => identity)).toEqual([
+      ...["5-aaaaaaaa", "5-bbbbbbbb"],
+    ]);
+    // Whatever the order, and whatever the files are called by now.
+    const renamed = Object.assign(cloudOf(UTM, { name: "renamed" }), { identity: "5-aaaaaaaa" });
+    for (const clouds of [
+      [first!, second!],
+      [second!, first!],
+      [second!, renamed],
+    ]) {
+      const { measurements, notes } = readMeasurements(text, clouds);
+      expect(notes).toEqual([]);
+      const [a, b] = measurements[0].vertices;
+      expect([a.cloud?.identity, b.cloud]).toEqual(["5-aaaaaaaa", second]);
+      expect(measurements[1].volume).toEqual(against.volume);
+    }
+    const { measurements, notes } = readMeasurements(text, [second!]);
+    expect(notes).toEqual([
+      expect.stringMatching(/^the scan that is open has other points .* saved places$/),
+    ]);
+    expect(measurements[0].vertices.map(({ cloud: of }) => of)).toEqual([undefined, second]);
+    expect(measurements[0].vertices[0].ecef).toEqual(
+      at(first, 0).ecef.map((value) => expect.closeTo(value, 6)),
+    );
+    // What is opened later takes up its own vertices only.
+    expect(measurements[0].vertices.map((vertex) => attached(vertex, [second!, first!]).cloud)).toEqual([
+      first,
+      second,
+    ]);
+    expect(verticesToCsv([mixed]).match(/5-[ab]{8}\r/g)).toEqual(["5-aaaaaaaa\r", "5-bbbbbbbb\r"]);
+  });
+
+  it("of a version that does not tell scans of one name apart go by the name, where one alone has it", () => {
+    const before = one("distance", [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 1)]);
+    const text = saved([before]);
+    expect(text).not.toContain("identity");
+    const [known, other] = ["5-aaaaaaaa", "5-bbbbbbbb"].map((identity) =>
+      Object.assign(cloudOf(UTM, { name: "__proto__" }), { identity }),
+    );
+    expect(readMeasurements(text, [known!]).measurements[0].vertices[0].record).toEqual({
+      ...before.vertices[0].record,
+      identity: "5-aaaaaaaa",
+    });
+    const { measurements, notes } = readMeasurements(text, [known!, other!]);
+    expect(notes).toEqual([
+      "several data sets named __proto__ are open: its vertices stand at their saved places",
+    ]);
+    expect(measurements[0].vertices[0].record).toEqual(before.vertices[0].record);
   });
 
   it("are saved without values where they have none, and not lost", () => {
@@ -297,7 +359,7 @@ describe("CSV", () => {
     expect(rows[1]).toMatch(/^"'=1\+1,""x""",distance,space,10\.00\d*,m,0\.027\d*,0\.027\d*,$/);
     const [, first] = verticesToCsv(measurements).split("\r\n");
     expect(first).toMatch(
-      /,distance,1,[\d.]+,[\d.]+,[\d.]+,__proto__,0-0-0-0,0,500000000,1300000000,1000,500000,5300000,1$/,
+      /,distance,1,[\d.]+,[\d.]+,[\d.]+,__proto__,0-0-0-0,0,500000000,1300000000,1000,500000,5300000,1,$/,
     );
     expect(valuesToCsv(measurements)).toContain("point precision");
   });

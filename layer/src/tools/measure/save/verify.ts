@@ -1,10 +1,12 @@
 import { MeasureError } from "../../../errors/index.js";
 import type { Measurement } from "../measurement/measurement.js";
+import { datasetAmong } from "../vertex/dataset.js";
 import type { RecordedPoint } from "../vertex/vertex.js";
 
 /** A data set whose records can be read; a `PointCloud` is one. */
 export interface ReadableCloud {
   readonly name: string;
+  readonly identity?: string | undefined;
   readPoint(
     node: string,
     point: { readonly record: number },
@@ -22,10 +24,9 @@ export async function verifyRecords(
   clouds: readonly ReadableCloud[],
   { signal }: { signal?: AbortSignal | undefined } = {},
 ): Promise<void> {
-  const byName = new Map(clouds.map((cloud) => [cloud.name, cloud]));
   for (const { name, vertices } of measurements) {
     for (const [i, { record }] of vertices.entries()) {
-      const cloud = record && byName.get(record.dataset);
+      const cloud = record && datasetAmong(clouds, record);
       if (!cloud) continue;
       const { integers } = await cloud.readPoint(record.node, { record: record.index }, { signal });
       if (integers.every((value, axis) => value === record.integers[axis])) continue;

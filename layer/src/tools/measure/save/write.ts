@@ -5,6 +5,7 @@ import {
   type NamedValue,
   valuesOf,
 } from "../measurement/measurement.js";
+import { datasetOf } from "../vertex/dataset.js";
 import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import {
@@ -33,7 +34,9 @@ export function measurementsToGeoJson(
 ): MeasurementCollection {
   const datasets = new Map<string, SavedDataset>();
   for (const { vertices } of measurements) {
-    for (const { cloud } of vertices) if (cloud) datasets.set(cloud.name, datasetOf(cloud));
+    for (const { cloud } of vertices) {
+      if (cloud) datasets.set(JSON.stringify([cloud.name, cloud.identity]), savedDataset(cloud));
+    }
   }
   return {
     type: "FeatureCollection",
@@ -80,18 +83,21 @@ export function knownValues(measurement: Measurement, options: SaveOptions): rea
   }
 }
 
-function datasetOf({ name, crs, scale }: MeasuredCloud): SavedDataset {
+function savedDataset({ name, identity, crs, scale }: MeasuredCloud): SavedDataset {
   const { code, wkt, proj4, height } = crs;
   const names = { name: crs.name, ...(code !== undefined && { code }), ...(wkt !== undefined && { wkt }) };
-  return { name, crs: { ...names, proj4 }, height, scale };
+  return { name, ...(identity !== undefined && { identity }), crs: { ...names, proj4 }, height, scale };
 }
+
+const NONE = { dataset: undefined, identity: undefined };
 
 function savedVertex(vertex: Vertex): SavedVertex {
   const { cloud, source, record } = vertex;
-  const dataset = record?.dataset ?? cloud?.name;
+  const { dataset, identity } = record ?? (cloud ? datasetOf(cloud) : NONE);
   return {
     place: positionOf(vertex),
     ...(dataset !== undefined && { dataset }),
+    ...(identity !== undefined && { identity }),
     ...(source && { source: [source[0], source[1], source[2]] }),
     ...(record && { node: record.node, index: record.index, integers: record.integers }),
   };

@@ -1,8 +1,11 @@
 import { type Crs, ecefToGeodetic, geodeticToEcef, type StatedAccuracy, type Vector } from "@groma/georef";
+import { datasetAmong, datasetOf } from "./dataset.js";
 
 /** What measuring must know of a data set; a `PointCloud` is one. */
 export interface MeasuredCloud {
   readonly name: string;
+  /** What tells its points from those of others of the same name. */
+  readonly identity?: string | undefined;
   readonly crs: Crs;
   /** Source units per step of the recorded integers, per axis. */
   readonly scale: readonly [number, number, number];
@@ -18,6 +21,8 @@ export interface MeasuredCloud {
 export interface VertexRecord {
   /** Name of the data set. */
   readonly dataset: string;
+  /** That of the data set: undefined where it has none, or a file of an earlier version does not say. */
+  readonly identity?: string | undefined;
   /** Node, `depth-x-y-z`. */
   readonly node: string;
   /** Index of the record in the node's chunk. */
@@ -54,7 +59,7 @@ export interface RecordedPoint {
 /** A vertex on a recorded point. It stays that point whatever view, level of detail or fit. */
 export function recordVertex(cloud: MeasuredCloud, point: RecordedPoint): Vertex {
   const { node, index, integers, source } = point;
-  const record = { dataset: cloud.name, node, index, integers };
+  const record = { ...datasetOf(cloud), node, index, integers };
   return { ...placed(cloud.place(...source)), record, cloud, source };
 }
 
@@ -73,8 +78,8 @@ export function sourceVertex(cloud: MeasuredCloud, source: Vector): Vertex {
  */
 export function attached(vertex: Vertex, clouds: readonly MeasuredCloud[]): Vertex {
   const { record, source } = vertex;
-  const name = record?.dataset ?? vertex.cloud?.name;
-  const cloud = clouds.find((one) => one.name === name);
+  const named = record ?? (vertex.cloud && datasetOf(vertex.cloud));
+  const cloud = named && datasetAmong(clouds, named);
   if (!cloud || !source || cloud === vertex.cloud) return vertex;
   return record ? recordVertex(cloud, { ...record, source }) : sourceVertex(cloud, source);
 }

@@ -1,6 +1,6 @@
 import type { FaultWire } from "@groma/georef";
 import { fromWire, MeasureError } from "../../../errors/index.js";
-import type { Progress } from "./cut-and-fill.js";
+import type { Progress } from "./base.js";
 import type { VolumeJob, VolumeSums } from "./volume-job.js";
 
 /** From the worker to the page. */

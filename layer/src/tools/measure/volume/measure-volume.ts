@@ -5,10 +5,11 @@ import { checkedRing } from "../figures/ring.js";
 import { Plan } from "../points/local-plan.js";
 import { readPoints, type SourceRectangle } from "../points/read-points.js";
 import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
-import type { Precision, WorthOptions } from "../worth/point-errors.js";
+import { cloudErrors, type PointError, type WorthOptions } from "../worth/point-errors.js";
 import { type OwnError, type Quantity, quantity } from "../worth/quantity.js";
-import type { VolumeBase } from "./cut-and-fill.js";
+import type { VolumeBase } from "./base.js";
 import { inWorker, type VolumeWorker } from "./in-worker.js";
+import type { Sensitivity } from "./sensitivity.js";
 import { runVolumeJob, type VolumeJob, type VolumeSums } from "./volume-job.js";
 
 /** A data set whose points can be asked for; a `PointCloud` is one. */
@@ -58,8 +59,8 @@ const AROUND = 0.05;
  * prismoidal over Delaunay's triangles, lengths in the level of the polygon.
  *
  * The surface has one height at each place: of points above each other one counts, so take the classes that are meant.
- * Its worth: the precision of the points, what two surfaces may be off against each other, and what the surface may do
- * between the points, told by how far half of them lead.
+ * Its worth: the precision of the points of the surface, of those of the base and of the polygon's vertices, what two surfaces
+ * may be off against each other, and what the surface may do between the points, told by how far half of them lead.
  *
  * The surfaces are made in a worker of their own; where there are none (Node), on the calling thread.
  *
@@ -105,7 +106,7 @@ export async function measureVolume(
   const job: VolumeJob = { points, outline, base: against };
   const sums = await worked(job, options);
   const { whole, half } = sums;
-  const own = errorsOf(cloud, other, sums, options);
+  const own = errorsOf(cloud, other, { ring, sums, precision: options.precision });
   const told = (value: number, coarse: number | undefined) =>
     quantity(value, "m³", [], { own: [...own, betweenPoints(value, coarse)] });
   return {
@@ -146,39 +147,58 @@ function betweenPoints(whole: number, half: number | undefined): OwnError {
   return { name: "surface", standard: half === undefined ? null : Math.abs(whole - half), note };
 }
 
-/** Errors of the heights of a volume: each point's own, and what the base is off by against them. */
+/**
+ * Errors of a volume: the heights of the points of the surface and of those that the base is made of (the polygon's vertices,
+ * unless it is a height or another surface), the places of the polygon's vertices, and what two data sets are off by against
+ * each other.
+ */
 function errorsOf(
   cloud: VolumeCloud,
   other: VolumeCloud | undefined,
-  { square, covered }: VolumeSums,
-  { precision }: WorthOptions,
+  {
+    ring,
+    sums,
+    precision,
+  }: Pick<WorthOptions, "precision"> & {
+    readonly ring: readonly Vertex[];
+    readonly sums: VolumeSums;
+  },
 ): OwnError[] {
-  const step = (cloud.scale[2] * Math.abs(cloud.crs.verticalUnit.size)) / Math.sqrt(12);
-  const given = typeof precision === "function" ? precision(cloud) : precision;
-  const errors: OwnError[] = [
-    { name: "quantisation", standard: square * step, note: "rounding to the stored integers" },
-    { name: "point precision", ...precisionOf(given, square) },
-  ];
-  if (!other) return errors;
+  // What the same points are off by is no difference.
+  if (other === cloud) return [{ name: "place", standard: 0, note: "the data set is held against itself" }];
+  const { sensitivities, covered } = sums;
+  const { ofRecords, ofPlaces } = cloudErrors(cloud, precision);
+  const ofVertices = ring.every(({ record }) => record) ? ofRecords : ofPlaces;
+  const ofBase = other ? cloudErrors(other, precision).ofRecords : ofRecords;
+  const errors = new Map<string, OwnError>();
+  const add = (among: readonly PointError[], { up: upwards, plan }: Sensitivity) => {
+    if (upwards === 0 && plan === 0) return;
+    for (const { name, known, up, horizontal, of, note } of among) {
+      if (of === "place") continue;
+      const before = errors.get(name)?.standard;
+      const square = known && before !== null ? [before ?? 0, upwards * up, plan * horizontal] : undefined;
+      errors.set(name, { name, standard: square ? Math.hypot(...square) : null, ...(note && { note }) });
+    }
+  };
+  add(ofRecords, sensitivities.surface);
+  add(ofBase, sensitivities.base);
+  add(ofVertices, sensitivities.ring);
+  if (!other) return [...errors.values()];
   const parts = [cloud, other].map(({ accuracy }) => accuracy.total);
-  const known = parts.every((total) => total !== null);
-  const together = known ? covered * Math.hypot(...(parts as number[])) : null;
-  return [
-    ...errors,
-    { name: "place of both data sets", standard: together, note: "against each other, over the whole area" },
-  ];
+  const apart = parts.every((total) => total !== null) ? covered * Math.hypot(...parts) : null;
+  const note = "against each other, over the whole area";
+  return [...errors.values(), { name: "place of both data sets", standard: apart, note }];
 }
 
 /** 1.96 standard deviations of a difference of two heights (Lane, Westaway and Hicks 2003). */
 function levelOfDetection(a: VolumeCloud, b: VolumeCloud, { precision }: WorthOptions): number | null {
-  const deviations = [a, b].flatMap((cloud) => {
-    const given = typeof precision === "function" ? precision(cloud) : precision;
-    return [typeof given === "object" ? given.vertical : (given ?? null), cloud.accuracy.total];
-  });
-  return deviations.every((one) => one !== null) ? 1.96 * Math.hypot(...(deviations as number[])) : null;
+  if (a === b) return 0;
+  const deviations = [a, b].flatMap((cloud) => [precisionOf(cloud, precision), cloud.accuracy.total]);
+  return deviations.every((one) => one !== null) ? 1.96 * Math.hypot(...deviations) : null;
 }
 
-function precisionOf(given: Precision | undefined, square: number): Omit<OwnError, "name"> {
-  if (given === undefined) return { standard: null, note: "the scanner's; not given" };
-  return { standard: square * (typeof given === "number" ? given : given.vertical), note: "as given" };
+/** Standard deviation of the heights of a data set's points, metres; null where it is not given. */
+function precisionOf(cloud: VolumeCloud, given: WorthOptions["precision"]): number | null {
+  const precision = typeof given === "function" ? given(cloud) : given;
+  return typeof precision === "object" ? precision.vertical : (precision ?? null);
 }

@@ -1,4 +1,4 @@
-import type { RingIndex } from "./ring-index.js";
+import type { Places, RingIndex } from "./ring-index.js";
 import type { Tin } from "./tin.js";
 
 /** Volumes between a surface and a base, all from 0 on. */
@@ -9,8 +9,6 @@ export interface CutAndFill {
   readonly fill: number;
   /** Part of the ring that the surface covers, square metres. */
   readonly covered: number;
-  /** Area that the height of each point stands for, square metres: the volume's derivatives by the heights. */
-  readonly shares: Float64Array;
 }
 
 /**
@@ -20,18 +18,12 @@ export interface CutAndFill {
  */
 export function prismsOf(differences: Tin, index: RingIndex): CutAndFill {
   const { triangles, xy, z } = differences;
-  const shares = new Float64Array(z.length);
   let [cut, fill, covered] = [0, 0, 0];
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
     const [ax, ay, bx, by] = [xy[2 * a], xy[2 * a + 1], xy[2 * b], xy[2 * b + 1]];
     const [cx, cy] = [xy[2 * c], xy[2 * c + 1]];
-    const relation = index.relation(
-      Math.min(ax, bx, cx),
-      Math.min(ay, by, cy),
-      Math.max(ax, bx, cx),
-      Math.max(ay, by, cy),
-    );
+    const relation = relationOf(index, xy, a, b, c);
     if (relation === "out") continue;
     let area: number;
     let above: number;
@@ -41,7 +33,7 @@ export function prismsOf(differences: Tin, index: RingIndex): CutAndFill {
       total = (area * (z[a] + z[b] + z[c])) / 3;
       above = area * aboveOf(z[a], z[b], z[c]);
     } else {
-      const part = clipped(index.ring, [ax, ay, z[a], bx, by, z[b], cx, cy, z[c]]);
+      const part = clipped(index.places, [ax, ay, z[a], bx, by, z[b], cx, cy, z[c]]);
       area = part.area;
       total = part.volume;
       above = part.above;
@@ -49,9 +41,27 @@ export function prismsOf(differences: Tin, index: RingIndex): CutAndFill {
     covered += area;
     cut += above;
     fill += above - total;
-    for (const point of [a, b, c]) shares[point] += area / 3;
   }
-  return { cut: Math.max(0, cut), fill: Math.max(0, fill), covered, shares };
+  return { cut: Math.max(0, cut), fill: Math.max(0, fill), covered };
+}
+
+/** Area of the part of a triangle that lies within a ring. @param a, b, c its corners among `xy` */
+export function areaWithin(index: RingIndex, xy: Float64Array, a: number, b: number, c: number): number {
+  const relation = relationOf(index, xy, a, b, c);
+  if (relation === "out") return 0;
+  const [ax, ay, bx, by] = [xy[2 * a], xy[2 * a + 1], xy[2 * b], xy[2 * b + 1]];
+  const [cx, cy] = [xy[2 * c], xy[2 * c + 1]];
+  if (relation === "in") return Math.abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 2;
+  return clipped(index.places, [ax, ay, 0, bx, by, 0, cx, cy, 0]).area;
+}
+
+function relationOf(index: RingIndex, xy: Float64Array, a: number, b: number, c: number) {
+  return index.relation(
+    Math.min(xy[2 * a], xy[2 * b], xy[2 * c]),
+    Math.min(xy[2 * a + 1], xy[2 * b + 1], xy[2 * c + 1]),
+    Math.max(xy[2 * a], xy[2 * b], xy[2 * c]),
+    Math.max(xy[2 * a + 1], xy[2 * b + 1], xy[2 * c + 1]),
+  );
 }
 
 /** Mean over a triangle of what is above 0, for heights of its corners. */
@@ -68,7 +78,7 @@ function aboveOf(a: number, b: number, c: number): number {
 }
 
 /** The part of a triangle in a ring: area, volume, and the volume above 0. @param t x, y, z of its corners */
-function clipped(ring: Float64Array, t: readonly number[]) {
+function clipped(ring: Places, t: readonly number[]) {
   const [ax, ay, az, bx, by, bz, cx, cy, cz] = t;
   const twice = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay);
   if (twice === 0) return { area: 0, volume: 0, above: 0 };
@@ -77,7 +87,7 @@ function clipped(ring: Float64Array, t: readonly number[]) {
     const u = ((bx - ax) * (y - ay) - (x - ax) * (by - ay)) / twice;
     return az + s * (bz - az) + u * (cz - az);
   };
-  let part = Array.from({ length: ring.length / 2 }, (_, i) => [ring[2 * i], ring[2 * i + 1]] as const);
+  let part = ring;
   const sides = [
     [ax, ay, bx, by],
     [bx, by, cx, cy],
@@ -94,19 +104,21 @@ function clipped(ring: Float64Array, t: readonly number[]) {
   };
 }
 
-type Places = (readonly [number, number])[];
-
 /** The part of a polygon where a linear function is not negative. */
 function half(polygon: Places, of: (x: number, y: number) => number): Places {
-  return polygon.flatMap((here, i) => {
-    const next = polygon[(i + 1) % polygon.length];
-    const [v, w] = [of(...here), of(...next)];
-    const kept = v >= 0 ? [here] : [];
-    if (v >= 0 === w >= 0) return kept;
-    const share = v / (v - w);
-    const at = [here[0] + share * (next[0] - here[0]), here[1] + share * (next[1] - here[1])] as const;
-    return [...kept, at];
-  });
+  const kept: (readonly [number, number])[] = [];
+  let here = polygon[polygon.length - 1];
+  let v = here ? of(here[0], here[1]) : 0;
+  for (const next of polygon) {
+    const w = of(next[0], next[1]);
+    if (v >= 0 !== w >= 0) {
+      const share = v / (v - w);
+      kept.push([here[0] + share * (next[0] - here[0]), here[1] + share * (next[1] - here[1])]);
+    }
+    if (w >= 0) kept.push(next);
+    [here, v] = [next, w];
+  }
+  return kept;
 }
 
 /** Integral of a linear function over a polygon, counter-clockwise. */

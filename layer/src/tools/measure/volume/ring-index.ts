@@ -1,10 +1,14 @@
 /** Cells along each side. */
 const CELLS = 128;
 
+/** x and y of the vertices of a polygon. */
+export type Places = readonly (readonly [number, number])[];
+
 /** A ring in the plane: which places it holds, and where its edges are. */
 export class RingIndex {
   /** x, y of each vertex in turn, the first not repeated, counter-clockwise. */
   readonly ring: Float64Array;
+  readonly places: Places;
   readonly area: number;
   readonly #min: readonly [number, number];
   readonly #max: readonly [number, number];
@@ -15,6 +19,10 @@ export class RingIndex {
   /** @param area of the ring, signed, as `planarArea` gives it */
   constructor(ring: Float64Array, area: number) {
     this.ring = area < 0 ? reversed(ring) : ring;
+    this.places = Array.from(
+      { length: ring.length / 2 },
+      (_, i) => [this.ring[2 * i], this.ring[2 * i + 1]] as const,
+    );
     this.area = Math.abs(area);
     let [minX, minY, maxX, maxY] = [Infinity, Infinity, -Infinity, -Infinity];
     for (let i = 0; i < ring.length; i += 2) {

@@ -31,6 +31,13 @@ export class Tin {
     this.#turn = Math.sign(left(this.xy, a, b, this.xy[2 * c], this.xy[2 * c + 1]));
   }
 
+  /** Which points the surface goes through, 1 or 0: of several in one place it is one. */
+  corners(): Uint8Array {
+    const corners = new Uint8Array(this.z.length);
+    for (const corner of this.triangles) corners[corner] = 1;
+    return corners;
+  }
+
   /** Height of the surface at a place; NaN outside of it. Quick where places follow each other closely. */
   heightAt(x: number, y: number): number {
     const { triangles, xy, z } = this;
@@ -67,5 +74,6 @@ function plane(xy: Float64Array, z: Float64Array, a: number, b: number, c: numbe
   const twice = ux * vy - uy * vx;
   const s = (wx * vy - wy * vx) / twice;
   const t = (ux * wy - uy * wx) / twice;
-  return z[a] + s * (z[b] - z[a]) + t * (z[c] - z[a]);
+  // Weights, so that each corner has its own height to the last digit: a surface does not differ from itself.
+  return (1 - s - t) * z[a] + s * z[b] + t * z[c];
 }

@@ -1,6 +1,8 @@
 import { MeasureError } from "../../../errors/index.js";
 import { joined } from "../points/read-points.js";
-import { cutAndFill, type Progress, type RingVolume, type VolumeBase } from "./cut-and-fill.js";
+import type { Progress, VolumeBase } from "./base.js";
+import { cutAndFill, type RingVolume } from "./cut-and-fill.js";
+import type { Sensitivities } from "./sensitivity.js";
 
 /** A volume to be worked out, as it goes to a worker: nothing but numbers. */
 export interface VolumeJob {
@@ -22,8 +24,7 @@ export interface VolumeSums {
   readonly area: number;
   readonly covered: number;
   readonly points: number;
-  /** Root of the sum of the squares of what area each point stands for, square metres. */
-  readonly square: number;
+  readonly sensitivities: Sensitivities;
 }
 
 /** Share of the work that the whole takes; the rest is for the half of the points. */
@@ -34,22 +35,26 @@ export function runVolumeJob({ points: parts, outline, base }: VolumeJob, onProg
   const points = joined(parts);
   const against: VolumeBase = "kind" in base ? base : { kind: "surface", points: joined(base.points) };
   const {
+    sensitivities,
     cut,
     fill,
     area,
     covered,
-    shares,
     points: count,
-  } = cutAndFill(points, outline, against, (share) => onProgress(WHOLE * share));
-  let square = 0;
-  for (const share of shares) square += share * share;
+  } = wholeOf(points, outline, against, (share) => onProgress(WHOLE * share));
   const coarse = coarser(points, outline, against, (share) => onProgress(WHOLE + (1 - WHOLE) * share));
   onProgress(1);
   return {
     whole: { cut, fill },
     half: coarse && { cut: coarse.cut, fill: coarse.fill },
-    ...{ area, covered, points: count, square: Math.sqrt(square) },
+    ...{ area, covered, points: count, sensitivities },
   };
+}
+
+/** The whole, and none of its surfaces is kept. */
+function wholeOf(...asked: Parameters<typeof cutAndFill>) {
+  const { sensitivities, ...sums } = cutAndFill(...asked);
+  return { ...sums, sensitivities: sensitivities() };
 }
 
 function coarser(
