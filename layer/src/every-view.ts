@@ -1,6 +1,6 @@
 // What the entry of each view exports, besides its own layer.
 export type { Vector } from "@groma/georef";
-export type { DrawingOptions } from "./drawing/drawing-options.js";
+export type { DrawingOptions, PickOptions } from "./drawing/drawing-options.js";
 export type { GpuCounts, GpuKind } from "./drawing/gpu.js";
 export {
   ASPRS_CLASSES,

@@ -314,6 +314,46 @@ describe.skipIf(pythonMissing)(
       expect(seen.without).toEqual(["DRAW_WEBGL2"]);
     });
 
+    it("draws the data set of another source before it is complete, and nothing of the one before", {
+      timeout: 120_000,
+    }, async () => {
+      await open("stripes");
+      const seen = await stage.page.evaluate(async () => {
+        const { layer, stage } = window.map;
+        const { source } = stage;
+        /** Pixels with a colour, and without one. */
+        const count = () => {
+          if (!stage.map.getViewport().querySelector(".ol-layer canvas")) return [0, 0];
+          const { data } = stage.pixels();
+          const counts = [0, 0] as [number, number];
+          for (let at = 0; at < data.length; at += 4) {
+            if (data[at + 3]! > 0) counts[Math.abs(data[at]! - data[at + 1]!) > 30 ? 0 : 1]++;
+          }
+          return counts;
+        };
+        const found = [count()];
+        const grey = new layer.PointCloudSource({ url: "/clouds/steps.copc.laz" });
+        const later = new layer.PointCloudSource({ url: "/clouds/steps.copc.laz" });
+        await grey.opened();
+        for (const next of [grey, source, later, null, source]) {
+          stage.layer.setSource(next);
+          await stage.complete();
+          found.push(count());
+        }
+        for (const one of [grey, later]) one.dispose();
+        return found;
+      });
+      const [coloured, ...others] = seen;
+      expect(coloured![0]).toBeGreaterThan(50_000);
+      const [grey, back, later, none, again] = others;
+      for (const [colours, greys] of [grey!, later!]) {
+        expect(colours).toBe(0);
+        expect(greys).toBeGreaterThan(100_000);
+      }
+      expect([back, none, again]).toEqual([coloured, [0, 0], coloured]);
+      expect(stage.watch.errors).toEqual([]);
+    });
+
     it("comes back as it was when the browser takes its context away", { timeout: 120_000 }, async () => {
       await open("stripes", { layer: { style: { pointSize: 3, eyeDomeLighting: true } } });
       const seen = await stage.page.evaluate(async () => {

@@ -181,10 +181,11 @@ describe.skipIf(pythonMissing)(
           const geometry = { extent: undefined as number[] | undefined };
           const [width, height] = map.getSize()!;
           for (let x = 0; x < width! / 2 && !geometry.extent; x++) {
-            map.forEachFeatureAtPixel([x, height! / 2], (feature, from) => {
-              if (from !== points && from !== stage.layer)
-                geometry.extent = feature.getGeometry()!.getExtent();
-            });
+            const outline = (feature: { getGeometry(): unknown }) => {
+              geometry.extent = (feature.getGeometry() as { getExtent(): number[] }).getExtent();
+            };
+            const layerFilter = (one: unknown) => one !== points && one !== stage.layer;
+            map.forEachFeatureAtPixel([x, height! / 2], outline, { layerFilter });
           }
           return geometry.extent;
         });
@@ -259,7 +260,25 @@ describe.skipIf(pythonMissing)(
             const middle = [edge * (1 + 2 * (turn as number)), (minY + maxY) / 2];
             await stage.show({ ...view, center: middle, resolution });
             const columns = stage.lit().map(([x]) => x);
+            // What is picked on either side of 180° lies where it was picked, in the world that the map shows.
+            const off: number[] = [];
+            for (const pixel of [
+              [240, 200],
+              [360, 200],
+            ] as const) {
+              const found: (readonly number[])[] = [(await stage.layer.pick(pixel))?.coordinate ?? []];
+              for (const one of await stage.layer.getFeatures([...pixel])) found.push(placeOf(one));
+              stage.map.forEachFeatureAtPixel([...pixel], (one) => void found.push(placeOf(one)));
+              for (const place of found) {
+                const [x, y] = stage.map.getPixelFromCoordinate([...place]) ?? [Infinity, Infinity];
+                off.push(Math.hypot(x! - pixel[0]!, y! - pixel[1]!));
+              }
+            }
+            function placeOf(feature: { getGeometry(): unknown }): number[] {
+              return (feature.getGeometry() as { getCoordinates(): number[] }).getCoordinates();
+            }
             return {
+              off,
               ...{ lit: columns.length, left: Math.min(...columns), right: Math.max(...columns) },
               ...{ errors: stage.errors, width: (maxX - minX) * (metres ? 1 : 111_320) },
             };
@@ -274,6 +293,8 @@ describe.skipIf(pythonMissing)(
         expect(seen.lit).toBeGreaterThan(20_000);
         expect(Math.abs(seen.left + seen.right - 600)).toBeLessThan(8);
         expect(seen.right - seen.left).toBeGreaterThan(180);
+        expect(seen.off).toHaveLength(6);
+        for (const pixels of seen.off) expect(pixels).toBeLessThan(5);
       }
       await screenshot(stage.page, "map-antimeridian");
       expect(errors).toEqual([]);

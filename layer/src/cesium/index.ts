@@ -3,7 +3,6 @@ export * from "../every-view.js";
 export { cameraView, showCameraView } from "./camera-view.js";
 export type {
   LayerSource,
-  PickOptions,
   PickResult,
   PointCloudLayerOptions,
   WindowPosition,

@@ -1,7 +1,12 @@
 import { type Cartesian3, RequestErrorEvent, Resource, TrustedServers } from "cesium";
 import { CLOUD_OPTIONS, type PointCloud, type PointCloudOptions, type PointRecord } from "../cloud/index.js";
-import { DRAWING_KINDS, type DrawingOptions } from "../drawing/drawing-options.js";
-import { flag, type Kind, type Kinds, kindOf, number, optionPlace, some } from "../options/index.js";
+import {
+  DRAWING_KINDS,
+  type DrawingOptions,
+  PICK_OPTIONS,
+  type PickOptions,
+} from "../drawing/drawing-options.js";
+import { flag, type Kind, type Kinds, kindOf, optionPlace, some } from "../options/index.js";
 import type { HttpOptions, SourceLike } from "../sources/index.js";
 
 /** Options of a layer; all can be changed later. */
@@ -65,13 +70,6 @@ export interface WindowPosition {
   readonly y: number;
 }
 
-/** How a place of the picture is asked for its point. */
-export interface PickOptions {
-  /** Edge of the square around it in which the nearest point counts, CSS pixels, at most 1000. Default: 9. */
-  readonly window?: number | undefined;
-  readonly signal?: AbortSignal | undefined;
-}
-
 const windowPosition = kindOf(
   "finite numbers x and y, CSS pixels",
   (given): given is WindowPosition =>
@@ -80,12 +78,10 @@ const windowPosition = kindOf(
     [(given as WindowPosition).x, (given as WindowPosition).y].every(Number.isFinite),
 );
 
-const pickOptions = some<PickOptions>({ window: number(0, 1000), signal: CLOUD_OPTIONS.signal });
-
 /** Place and options of a pick. @throws StyleError STYLE_OPTION */
 export function checkPick(position: WindowPosition, options: PickOptions, file: string): PickOptions {
   windowPosition.read(position, optionPlace("windowPosition", file));
-  return pickOptions.read(options, optionPlace("options", file));
+  return PICK_OPTIONS.read(options, optionPlace("options", file));
 }
 
 /** A point that was picked, as it is recorded. */

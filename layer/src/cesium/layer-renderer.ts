@@ -1,4 +1,5 @@
 import { type Camera, Matrix4 } from "cesium";
+import type { PickOptions } from "../drawing/drawing-options.js";
 import { pointOf } from "../drawing/drawn-node.js";
 import type { GpuMilliseconds, LayerRenderer as Renderer } from "../drawing/frame.js";
 import { type ContentRequest, LayerContent } from "../drawing/layer-content.js";
@@ -8,7 +9,7 @@ import { type ProbedFrame, type Relief, SilhouetteProbe } from "../drawing/silho
 import type { Context, FrameState, PickId } from "./engine/cesium-private.js";
 import { GpuObjects } from "./engine/gpu-objects.js";
 import { RenderStates } from "./engine/render-states.js";
-import type { PickOptions, WindowPosition } from "./layer-options.js";
+import type { WindowPosition } from "./layer-options.js";
 import { type CesiumNode, type CesiumView, matrixOf, NodeDrawable } from "./node-drawable.js";
 import { NumberPicture } from "./number-picture.js";
 import { OffscreenPass } from "./offscreen-pass.js";

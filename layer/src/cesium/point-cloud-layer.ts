@@ -1,6 +1,7 @@
 import { BoundingSphere, Cartesian3, DeveloperError, Event, SceneMode } from "cesium";
 import { ClipSet } from "../clips/index.js";
 import { POINT_CLOUD, PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
+import type { PickOptions } from "../drawing/drawing-options.js";
 import { LayerFrames } from "../drawing/frame.js";
 import { checkHeightOffset, liftOf } from "../drawing/height-offset.js";
 import {
@@ -26,7 +27,6 @@ import {
   checkOpeningOptions,
   checkPick,
   type LayerSource,
-  type PickOptions,
   type PickResult,
   type PointCloudLayerOptions,
   resolveSource,

@@ -2,7 +2,7 @@ import { CLIPS_OPTION, type ClipSet } from "../clips/index.js";
 import { CLOUD_OPTIONS } from "../cloud/index.js";
 import type { Forced, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
-import { type Kinds, number } from "../options/index.js";
+import { type Kinds, number, signal, some } from "../options/index.js";
 
 /** How a layer draws, in any view; all can be changed later. */
 export interface DrawingOptions {
@@ -31,3 +31,13 @@ export const DRAWING_KINDS: Kinds<
   pointBudget: number(0),
   budget: CLOUD_OPTIONS.budget,
 };
+
+/** How a place of the picture is asked for its point. */
+export interface PickOptions {
+  /** Edge of the square around it in which the nearest point counts, CSS pixels, at most 1000. Default: 9. */
+  readonly window?: number | undefined;
+  readonly signal?: AbortSignal | undefined;
+}
+
+/** What the options of a pick may be. */
+export const PICK_OPTIONS = some<PickOptions>({ window: number(0, 1000), signal });

@@ -3,7 +3,6 @@ export type { PointCloudLayerOptions } from "./layer-options.js";
 export { measureView } from "./measure-view.js";
 export {
   type LayerStatistics,
-  type PickOptions,
   type PickResult,
   PointCloudLayer,
 } from "./point-cloud-layer.js";

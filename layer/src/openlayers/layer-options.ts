@@ -1,6 +1,11 @@
 import type { Options as LayerOptions } from "ol/layer/Layer.js";
-import { DRAWING_KINDS, type DrawingOptions } from "../drawing/drawing-options.js";
-import { optionPlace, some } from "../options/index.js";
+import {
+  DRAWING_KINDS,
+  type DrawingOptions,
+  PICK_OPTIONS,
+  type PickOptions,
+} from "../drawing/drawing-options.js";
+import { kindOf, optionPlace, some } from "../options/index.js";
 import type { PointCloudSource } from "./point-cloud-source.js";
 
 /** Options of a layer: those of any layer of OpenLayers, and how points are drawn. */
@@ -31,4 +36,16 @@ export function checkDrawingOption<Name extends keyof typeof DRAWING_KINDS>(
   return DRAWING_KINDS[name].read(given, optionPlace(name, "PointCloudLayer")) as NonNullable<
     DrawingOptions[Name]
   >;
+}
+
+const pixelKind = kindOf(
+  "[x, y], finite CSS pixels",
+  (given): given is readonly number[] =>
+    Array.isArray(given) && given.length >= 2 && [given[0], given[1]].every(Number.isFinite),
+);
+
+/** Place and options of a pick. @throws StyleError STYLE_OPTION */
+export function checkPick(pixel: readonly number[], options: PickOptions, file: string): PickOptions {
+  pixelKind.read(pixel, optionPlace("pixel", file));
+  return PICK_OPTIONS.read(options, optionPlace("options", file));
 }

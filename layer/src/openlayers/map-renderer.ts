@@ -32,6 +32,8 @@ const PATIENCE = 50;
 interface Found {
   readonly drawn: DrawnNode<MapView>;
   readonly index: number;
+  /** Where it is drawn, in the world in which it was found, units of the projection. */
+  readonly coordinate: readonly [number, number];
 }
 
 /** A layer of points, as OpenLayers knows it. */
@@ -72,7 +74,13 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
   }
 
   override prepareFrame(): boolean {
-    return this.getLayer().getSource()?.cloud !== undefined;
+    const cloud = this.getLayer().getSource()?.cloud;
+    // What is left of another data set is not to be seen in its place.
+    if (this.#cloud && cloud !== this.#cloud) {
+      this.#release();
+      this.#cloud = undefined;
+    }
+    return cloud !== undefined;
   }
 
   override renderFrame(frameState: FrameState): HTMLElement {
@@ -110,14 +118,14 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     const pixel = apply(frameState.coordinateToPixelTransform, [...coordinate]);
     const found = this.#find(pixel, 2 * hitTolerance + 1);
     if (!found) return undefined;
-    const feature = this.#featureOf(found);
+    const feature = featureOf(found);
     return callback(feature, this.getLayer(), feature.getGeometry() as Point);
   }
 
   override async getFeatures(pixel: number[]): Promise<Feature[]> {
     const found = this.#find(pixel, 1);
     if (!found || !this.#placed) return [];
-    const feature = this.#featureOf(found);
+    const feature = featureOf(found);
     const record = await this.#read(found);
     feature.setProperties({ ...record.attributes, record }, true);
     return [feature];
@@ -135,7 +143,7 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     const cloud = this.#cloud;
     if (!found || !cloud) return undefined;
     const record = await this.#read(found, signal);
-    return { ...record, cloud, coordinate: this.#coordinateOf(found) };
+    return { ...record, cloud, coordinate: found.coordinate };
   }
 
   override disposeInternal(): void {
@@ -159,8 +167,7 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     if (!placed || !settings || placed.octree.plane?.code !== viewState.projection.getCode()) return;
     const key = this.#keyOf(frameState);
     if (this.#shown === key) return;
-    const extent = viewState.projection.canWrapX() ? viewState.projection.getExtent() : undefined;
-    const worldWidth = extent ? getWidth(extent) : undefined;
+    const worldWidth = worldWidthOf(viewState.projection);
     const view = { view: viewState, size, pixelRatio, worldWidth };
     const report = placed.draw(settings, view, this.#cornersIn(frameState));
     this.#tell(placed.frames.takeFailure());
@@ -264,35 +271,38 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
   #find([x, y]: number[], window: number): Found | undefined {
     const [width, height] = this.#frameState?.size ?? [0, 0];
     if (x < 0 || y < 0 || x >= width || y >= height) return undefined;
-    const found = this.#placed?.renderer.pick({ x, y }, window);
-    const extent = this.#frameState && extentIn(this.#frameState);
-    return found && extent && !containsCoordinate(extent, this.#coordinateOf(found)) ? undefined : found;
+    const point = this.#placed?.renderer.pick({ x, y }, window);
+    const frameState = this.#frameState;
+    if (!point || !frameState) return undefined;
+    const coordinate = this.#coordinateOf(point, apply(frameState.pixelToCoordinateTransform, [x, y]));
+    const extent = extentIn(frameState);
+    return extent && !containsCoordinate(extent, coordinate) ? undefined : { ...point, coordinate };
   }
 
   #read({ drawn, index }: Found, signal?: AbortSignal): Promise<PointRecord> {
     return this.#placed!.cloud.readPoint(drawn.node, index, { signal });
   }
 
-  /** Where a point is drawn, units of the projection. */
-  #coordinateOf({ drawn, index }: Found): [number, number] {
+  /** Where a point is drawn, units of the projection. @param near a place in the world in which it was found */
+  #coordinateOf({ drawn, index }: Omit<Found, "coordinate">, near: readonly number[]): [number, number] {
     const { positions, frame } = drawn.uploaded.vertices;
     const { metresPerUnit = 1 } = this.#placed?.octree.plane ?? {};
-    const at = (axis: number) => (frame.origin[axis] + positions[3 * index + axis]) / metresPerUnit;
-    return [at(0), at(1)];
+    const [x, y] = [0, 1].map((axis) => (frame.origin[axis] + positions[3 * index + axis]) / metresPerUnit);
+    const width = this.#projection && worldWidthOf(this.#projection);
+    return [width ? x + width * Math.round((near[0] - x) / width) : x, y];
   }
+}
 
-  #featureOf(found: Found): Feature {
-    const { drawn, index } = found;
-    const { node, uploaded } = drawn;
-    const record = uploaded.vertices.order[index];
-    const feature = new Feature({
-      geometry: new Point(this.#coordinateOf(found)),
-      node: node.name,
-      index: record,
-    });
-    feature.setId(`${node.name}/${record}`);
-    return feature;
-  }
+function featureOf({ drawn: { node, uploaded }, index, coordinate }: Found): Feature {
+  const record = uploaded.vertices.order[index];
+  const feature = new Feature({ geometry: new Point([...coordinate]), node: node.name, index: record });
+  feature.setId(`${node.name}/${record}`);
+  return feature;
+}
+
+/** Width of the world, units of the projection, where the map shows one beside the other. */
+function worldWidthOf(projection: Projection): number | undefined {
+  return projection.canWrapX() ? getWidth(projection.getExtent()) : undefined;
 }
 
 /** Beyond which nothing of the layer is to show, units of the projection. */

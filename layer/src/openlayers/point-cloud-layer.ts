@@ -2,11 +2,12 @@ import Layer from "ol/layer/Layer.js";
 import type OlLayerRenderer from "ol/renderer/Layer.js";
 import type { ClipSet } from "../clips/index.js";
 import type { PointCloud, PointRecord } from "../cloud/index.js";
+import type { PickOptions } from "../drawing/drawing-options.js";
 import { type GpuCounts, NO_OBJECTS } from "../drawing/gpu.js";
 import type { Forced, LedgerRow, PointCloudStyle, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
 import { LayerDrawing } from "./layer-drawing.js";
-import { drawingOptions, type PointCloudLayerOptions } from "./layer-options.js";
+import { checkPick, drawingOptions, type PointCloudLayerOptions } from "./layer-options.js";
 import { MapRenderer } from "./map-renderer.js";
 import { PointCloudErrorEvent, type PointCloudSource } from "./point-cloud-source.js";
 
@@ -32,15 +33,8 @@ export interface LayerStatistics {
 /** A point that was picked on a map, as it is recorded. */
 export interface PickResult extends PointRecord {
   readonly cloud: PointCloud;
-  /** Where the map shows it, units of the map's projection. */
+  /** Where the map shows it, in the world in which it was picked, units of the map's projection. */
   readonly coordinate: readonly [number, number];
-}
-
-/** How a place of the map is asked for its point. */
-export interface PickOptions {
-  /** Edge of the square around it in which the nearest point counts, CSS pixels. Default: 9. */
-  readonly window?: number | undefined;
-  readonly signal?: AbortSignal | undefined;
 }
 
 /** A georeferenced point cloud as a layer of OpenLayers, seen from above, in any projection that proj4 knows. */
@@ -155,12 +149,15 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
    * The point that the map shows nearest to a place, as it is recorded in the file.
    * @param pixel CSS pixels from the upper left of the map
    * @returns undefined where there is no point
+   * @throws StyleError STYLE_OPTION
    * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
    */
-  async pick(
-    pixel: readonly number[],
-    { window = 9, signal }: PickOptions = {},
-  ): Promise<PickResult | undefined> {
+  async pick(pixel: readonly number[], given: PickOptions = {}): Promise<PickResult | undefined> {
+    const { window = 9, signal } = checkPick(
+      pixel,
+      given,
+      this.getSource()?.cloud?.name ?? "PointCloudLayer",
+    );
     return this.#renderer?.pick([...pixel], window, signal);
   }
 

@@ -45,7 +45,7 @@ export class PointCloudSource extends Source {
   #footprint: Footprint | undefined;
 
   /** @throws StyleError STYLE_OPTION where not exactly one of `url`, `file` and `cloud` is given */
-  constructor({ url, file, cloud, attributions, ...options }: PointCloudSourceOptions) {
+  constructor({ url, file, cloud, attributions, ...options }: PointCloudSourceOptions = {}) {
     const given = [url, file, cloud].filter((from) => from !== undefined);
     if (given.length !== 1) throw notOne(given.length);
     const checked = checkCloudOptions(options);
@@ -58,14 +58,16 @@ export class PointCloudSource extends Source {
     this.#opened.catch(() => undefined);
   }
 
-  /** The data set; undefined until it is open. */
+  /** The data set; undefined until it is open, and when the source is disposed of. */
   get cloud(): PointCloud | undefined {
     return this.#cloud;
   }
 
-  /** The data set once it is open. @throws what kept it from being opened */
-  opened(): Promise<PointCloud> {
-    return this.#opened;
+  /** The data set once it is open. @throws what kept it from being opened; an AbortError when the source is disposed of */
+  async opened(): Promise<PointCloud> {
+    const cloud = await this.#opened;
+    this.#stop.signal.throwIfAborted();
+    return cloud;
   }
 
   /**
@@ -90,6 +92,7 @@ export class PointCloudSource extends Source {
   override disposeInternal(): void {
     this.#stop.abort(new DOMException("The source was disposed of.", "AbortError"));
     if (this.#owned) this.#cloud?.destroy();
+    this.#cloud = undefined;
     super.disposeInternal();
   }
 
