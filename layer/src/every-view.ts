@@ -35,6 +35,7 @@ export {
   writePermalink,
 } from "./permalink/index.js";
 export type {
+  DatasetName,
   MeasuredCloud,
   ScreenPoint,
   Terrain,

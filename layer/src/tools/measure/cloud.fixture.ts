@@ -30,6 +30,7 @@ export function cloudOf(
     name,
     crs,
     scale: [scale, scale, scale],
+    offset: [0, OFFSET, 0],
     accuracy: statedAccuracy(parts),
     bounds: { radius: 1000 },
     place(x: number, y: number, z: number) {

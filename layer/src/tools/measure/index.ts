@@ -38,6 +38,7 @@ export { type ReadableCloud, verifyRecords } from "./save/verify.js";
 export { measurementsToGeoJson, type SaveOptions } from "./save/write.js";
 export { MeasureUnits, type MeasureUnitsOptions, type Words } from "./units/measure-units.js";
 export type { AngleUnit, AreaUnit, LengthUnit, SlopeUnit, VolumeUnit } from "./units/tables.js";
+export type { DatasetName } from "./vertex/dataset.js";
 export {
   attached,
   ecefVertex,

@@ -1,4 +1,5 @@
 import type { Measurement } from "../measurement/measurement.js";
+import { datasetNameOf } from "../vertex/vertex.js";
 import { knownValues, type SaveOptions } from "./write.js";
 
 const COLUMNS = "measurement,kind,value_name,value,unit,uncertainty95,at_least,unknown_parts";
@@ -21,13 +22,17 @@ export function valuesToCsv(measurements: readonly Measurement[], options: SaveO
 /** A row for each vertex of each measurement, with the record that it stands on. */
 export function verticesToCsv(measurements: readonly Measurement[]): string {
   const rows = measurements.flatMap(({ name, kind, vertices }) =>
-    vertices.map(({ longitude, latitude, height, record, source, cloud }, i) => [
-      ...[name, kind, i + 1, (longitude * 180) / Math.PI, (latitude * 180) / Math.PI, height],
-      ...[record?.dataset ?? cloud?.name, record?.node, record?.index],
-      ...(record?.integers ?? EMPTY),
-      ...(source ?? EMPTY),
-      record ? record.identity : cloud?.identity,
-    ]),
+    vertices.map((vertex, i) => {
+      const { longitude, latitude, height, record, source } = vertex;
+      const named = datasetNameOf(vertex);
+      return [
+        ...[name, kind, i + 1, (longitude * 180) / Math.PI, (latitude * 180) / Math.PI, height],
+        ...[named?.dataset, record?.node, record?.index],
+        ...(record?.integers ?? EMPTY),
+        ...(source ?? EMPTY),
+        named?.identity,
+      ];
+    }),
   );
   return table(VERTEX_COLUMNS, rows);
 }

@@ -1,15 +1,10 @@
 import { MeasureError } from "../../../errors/index.js";
 import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind } from "../measurement/measurement.js";
-import { volumeSettingsOf } from "../measurement/volume-settings.js";
-import { datasetAmong, whyNotAmong } from "../vertex/dataset.js";
-import {
-  type MeasuredCloud,
-  placeVertex,
-  recordVertex,
-  sourceVertex,
-  type Vertex,
-} from "../vertex/vertex.js";
+import { isObject, volumeSettingsOf } from "../measurement/volume-settings.js";
+import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
 import { FORMAT, VERSION } from "./document.js";
+import { figuresIn } from "./foreign.js";
+import { placeOf, SavedVertices } from "./saved-vertices.js";
 
 /** What a file of measurements holds. */
 export interface ReadMeasurements {
@@ -27,7 +22,8 @@ const LONGEST = 300_000_000;
  *
  * @param clouds data sets that are open: vertices on their records have their places and what these are worth
  * @param file name for messages
- * @throws MeasureError MEASURE_FILE where it is no GeoJSON, MEASURE_VERSION where a later version of this project wrote it
+ * @throws MeasureError MEASURE_FILE where it is no GeoJSON in longitude and latitude, MEASURE_VERSION where a later version
+ *   of this project wrote it
  */
 export function readMeasurements(
   text: string,
@@ -36,28 +32,36 @@ export function readMeasurements(
 ): ReadMeasurements {
   const root = parsed(text, file);
   checkVersion(root.groma, file);
-  const features = root.type === "Feature" ? [root] : root.features;
-  if (!Array.isArray(features) || (root.type !== "FeatureCollection" && root.type !== "Feature")) {
-    throw refused(file, "it is no feature or feature collection of GeoJSON");
-  }
+  checkSystem(root.crs, file);
+  const features = featuresOf(root, file);
   const notes = new Set<string>();
-  const reader = new Reader(clouds, notes);
+  const saved = isObject(root.groma) ? root.groma.datasets : undefined;
+  const reader = new Reader(new SavedVertices(clouds, saved, notes), notes);
   const measurements = features.flatMap((feature, i) => {
-    const found = isObject(feature) && reader.feature(feature, i);
-    if (!found)
-      notes.add(`feature ${i + 1} is left out: ${found === undefined ? UNFIT : "it is no feature"}`);
-    return found || [];
+    const found = isObject(feature) ? reader.feature(feature, i) : "it is no feature";
+    if (typeof found !== "string") return found;
+    notes.add(`feature ${i + 1} is left out: ${found}`);
+    return [];
   });
   return { measurements, notes: [...notes] };
 }
 
-const UNFIT = "its geometry is none that can be measured, or its vertices are not as many as its kind needs";
+function featuresOf(root: Readonly<Record<string, unknown>>, file: string): readonly unknown[] {
+  if (root.type === "Feature") return [root];
+  if (root.type === "FeatureCollection" && Array.isArray(root.features)) return root.features;
+  // A geometry alone is GeoJSON too (RFC 7946, 2).
+  if (Array.isArray(root.coordinates)) return [{ geometry: root }];
+  if (root.type === "GeometryCollection" && Array.isArray(root.geometries)) {
+    return root.geometries.map((geometry) => ({ geometry }));
+  }
+  throw refused(file, "it is no feature or feature collection of GeoJSON");
+}
 
 function parsed(text: string, file: string): Record<string, unknown> {
   if (text.length > LONGEST) throw refused(file, "it is longer than any file of measurements");
   let root: unknown;
   try {
-    root = JSON.parse(text);
+    root = JSON.parse(text.replace(/^\uFEFF/, ""));
   } catch {
     throw refused(file, "it is no JSON");
   }
@@ -78,6 +82,18 @@ function checkVersion(groma: unknown, file: string): void {
   });
 }
 
+/** Coordinates in another system than that of RFC 7946, as GeoJSON of 2008 could name it. */
+function checkSystem(crs: unknown, file: string): void {
+  const name = isObject(crs) && isObject(crs.properties) ? crs.properties.name : undefined;
+  if (typeof name !== "string" || /(CRS84h?|EPSG:{1,2}(4326|4979))$/i.test(name)) return;
+  throw new MeasureError({
+    code: "MEASURE_FILE",
+    file,
+    cause: `its coordinates are in ${name.slice(0, 80)}, not in longitude and latitude of WGS 84`,
+    fix: "save it as GeoJSON of RFC 7946, in EPSG:4326",
+  });
+}
+
 function refused(file: string, cause: string): MeasureError {
   return new MeasureError({
     code: "MEASURE_FILE",
@@ -88,90 +104,70 @@ function refused(file: string, cause: string): MeasureError {
 }
 
 class Reader {
-  constructor(
-    readonly clouds: readonly MeasuredCloud[],
-    readonly notes: Set<string>,
-  ) {}
+  readonly #vertices: SavedVertices;
+  readonly #notes: Set<string>;
 
-  /** @returns undefined where nothing can be measured of it */
-  feature({ id, geometry, properties, groma }: Record<string, unknown>, at: number): Measurement | undefined {
-    const saved = isObject(groma) && Array.isArray(groma.vertices) ? groma.vertices : undefined;
-    const found = isObject(geometry) ? fromGeometry(geometry) : undefined;
-    const kind = isObject(groma) && isKind(groma.kind) ? groma.kind : found?.kind;
-    const vertices = saved
-      ? saved.map((one) => this.vertex(one))
-      : found?.positions.map((one) => this.place(one));
-    if (!kind || !vertices?.every((vertex) => vertex !== undefined)) return undefined;
+  constructor(vertices: SavedVertices, notes: Set<string>) {
+    this.#vertices = vertices;
+    this.#notes = notes;
+  }
+
+  /** @returns what was measured, or why nothing was */
+  feature(feature: Readonly<Record<string, unknown>>, at: number): readonly Measurement[] | string {
+    const { groma } = feature;
+    const own = isObject(groma) && Array.isArray(groma.vertices);
+    return own ? this.#own(feature, groma, at) : this.#foreign(feature, at);
+  }
+
+  #own(
+    feature: Readonly<Record<string, unknown>>,
+    { kind, vertices, volume: settings }: Readonly<Record<string, unknown>>,
+    at: number,
+  ): readonly Measurement[] | string {
+    if (!isKind(kind)) return `it is of a kind that is not known here: ${JSON.stringify(kind)?.slice(0, 40)}`;
+    const found = (vertices as readonly unknown[]).map((one) => this.#vertices.vertex(one));
+    if (!found.every((vertex) => vertex !== undefined)) return NO_PLACE;
     const { least, most, title } = MEASUREMENT_KINDS[kind];
-    if (vertices.length < least || vertices.length > most) return undefined;
-    const named = isObject(properties) && typeof properties.name === "string" ? properties.name : undefined;
-    const own = isObject(groma) ? groma.volume : undefined;
-    const volume = own === undefined ? undefined : volumeSettingsOf(own);
-    if (own !== undefined && !volume) {
-      this.notes.add(
+    if (found.length < least || found.length > most) return "its vertices are not as many as its kind needs";
+    const volume = settings === undefined ? undefined : volumeSettingsOf(settings);
+    if (settings !== undefined && !volume) {
+      this.#notes.add(
         `feature ${at + 1}: what its volume is measured against is not known here; its lowest vertex is taken`,
       );
     }
-    if (!saved) this.notes.add("vertices of other programs are places, no records of a scan");
-    return {
-      id: typeof id === "string" || typeof id === "number" ? String(id) : `feature-${at + 1}`,
-      ...{ kind, vertices, name: named ?? `${title} ${at + 1}` },
-      ...(volume && { volume }),
-    };
+    const name = nameOf(feature) ?? `${title} ${at + 1}`;
+    return [{ id: idOf(feature, at), kind, vertices: found, name, ...(volume && { volume }) }];
   }
 
-  vertex(saved: unknown): Vertex | undefined {
-    if (!isObject(saved)) return undefined;
-    const { dataset, identity, node, index, integers, source, place } = saved;
-    const there = this.place(place);
-    if (!there || typeof dataset !== "string") return there;
-    const named = { dataset, ...(typeof identity === "string" && { identity }) };
-    const cloud = datasetAmong(this.clouds, named);
-    const recorded = isTriple(integers) && typeof node === "string" && Number.isInteger(index);
-    const record = recorded && { ...named, node, index: Number(index), integers };
-    if (!cloud) {
-      this.notes.add(`${whyNotAmong(this.clouds, named)}: its vertices stand at their saved places`);
-      return { ...there, ...(record && { record }), ...(isTriple(source) && { source }) };
+  #foreign(feature: Readonly<Record<string, unknown>>, at: number): readonly Measurement[] | string {
+    const { geometry, properties } = feature;
+    if (!isObject(geometry)) return "it has no geometry";
+    const named = isObject(properties) && isKind(properties.kind) ? properties.kind : undefined;
+    const figures = figuresIn(geometry, named);
+    if (typeof figures === "string") return figures;
+    const measurements: Measurement[] = [];
+    for (const [i, { kind, positions }] of figures.entries()) {
+      const vertices = positions.map(placeOf);
+      if (!vertices.every((vertex): vertex is Vertex => vertex !== undefined)) return NO_PLACE;
+      const part = figures.length > 1 ? `, part ${i + 1}` : "";
+      const name = (nameOf(feature) ?? `${MEASUREMENT_KINDS[kind].title} ${at + 1}`) + part;
+      measurements.push({ id: idOf(feature, at) + part, kind, vertices, name });
     }
-    if (!isTriple(source)) return there;
-    // Its place as the data set has it now; the record stays what it was.
-    return record ? recordVertex(cloud, { ...record, source }) : sourceVertex(cloud, source);
-  }
-
-  place(position: unknown): Vertex | undefined {
-    if (!Array.isArray(position)) return undefined;
-    const [longitude, latitude, height = 0] = position;
-    if (![longitude, latitude, height].every(Number.isFinite) || Math.abs(latitude) > 90) return undefined;
-    return placeVertex((longitude * Math.PI) / 180, (latitude * Math.PI) / 180, height);
+    this.#notes.add("vertices of other programs are places, no records of a scan");
+    return measurements;
   }
 }
 
-/** Positions of a geometry of another program, and what is measured of them. */
-function fromGeometry({
-  type,
-  coordinates,
-}: Record<string, unknown>):
-  | { readonly kind: MeasurementKind; readonly positions: readonly unknown[] }
-  | undefined {
-  if (!Array.isArray(coordinates)) return undefined;
-  if (type === "Point") return { kind: "point", positions: [coordinates] };
-  if (type === "LineString") {
-    return { kind: coordinates.length === 2 ? "distance" : "polyline", positions: coordinates };
-  }
-  const [ring] = coordinates;
-  // Holes would have to be taken off the area.
-  if (type !== "Polygon" || coordinates.length !== 1 || !Array.isArray(ring)) return undefined;
-  return { kind: "area", positions: ring.slice(0, -1) };
+const NO_PLACE = "its coordinates are no longitudes and latitudes of WGS 84 in degrees";
+
+function nameOf({ properties }: Readonly<Record<string, unknown>>): string | undefined {
+  return isObject(properties) && typeof properties.name === "string" ? properties.name : undefined;
+}
+
+function idOf({ id }: Readonly<Record<string, unknown>>, at: number): string {
+  return typeof id === "string" || typeof id === "number" ? String(id) : `feature-${at + 1}`;
 }
 
 function isKind(value: unknown): value is MeasurementKind {
   return typeof value === "string" && Object.hasOwn(MEASUREMENT_KINDS, value);
-}
-
-function isTriple(value: unknown): value is [number, number, number] {
-  return Array.isArray(value) && value.length === 3 && value.every(Number.isFinite);
-}
-
-function isObject(value: unknown): value is Record<string, unknown> {
-  return typeof value === "object" && value !== null && !Array.isArray(value);
 }

@@ -1,5 +1,6 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { PlacementError } from "@groma/georef";
 import { Ajv2020 } from "ajv/dist/2020.js";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
@@ -12,6 +13,7 @@ import {
   measurementsToGeoJson,
   placeVertex,
   readMeasurements,
+  sourceVertex,
   valuesOf,
   valuesToCsv,
   verifyRecords,
@@ -67,6 +69,11 @@ describe("measurements saved and read again", () => {
     const later = saved([{ ...one("volume", ring), volume: { base: { kind: "plane" } } }]);
     const odd = readMeasurements(later.replace('"plane"', '"sphere"'), [cloud]);
     expect(odd.measurements).toEqual([one("volume", ring)]);
+    const kind = saved([one("area", ring)]).replaceAll('"kind":"area"', '"kind":"toString"');
+    expect(readMeasurements(kind, [cloud])).toEqual({
+      measurements: [],
+      notes: [expect.stringContaining('a kind that is not known here: "toString"')],
+    });
     expect(odd.notes).toEqual([expect.stringContaining("its lowest vertex is taken")]);
   });
 
@@ -162,6 +169,70 @@ describe("measurements saved and read again", () => {
     expect(measurements[0].vertices[0].record).toEqual(before.vertices[0].record);
   });
 
+  it("go by their integers, whatever else a file says", () => {
+    const before = one("distance", [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 1)]);
+    const changed = (change: (vertex: Record<string, unknown>) => void) => {
+      const document = JSON.parse(saved([before]));
+      change(document.features[0].groma.vertices[0]);
+      return readMeasurements(JSON.stringify(document), [cloud]);
+    };
+    const edited = changed((vertex) => {
+      vertex.source = [500000, 5300000, 999];
+    });
+    expect(edited.measurements).toEqual([before]);
+    expect(edited.notes).toEqual([expect.stringContaining("not those of its integers")]);
+    for (const wrong of [
+      { integers: [1.5, 2, 3] },
+      { integers: [1e300, 2, 3] },
+      { index: -1 },
+      { node: "../x" },
+    ]) {
+      const { measurements, notes } = changed((vertex) => Object.assign(vertex, wrong));
+      expect(measurements[0].vertices[0].record).toBeUndefined();
+      expect(notes).toEqual([expect.stringContaining("that vertex is a place")]);
+    }
+  });
+
+  it("are not lost where a data set, as it is open, has no place for one", () => {
+    const vertices = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 1)];
+    const before = one("distance", vertices);
+    const fence = Object.assign(cloudOf(UTM, { name: "__proto__" }), {
+      place: () => {
+        throw new PlacementError({ code: "PLACE_DOMAIN", file: "scan", cause: "no", fix: "none" });
+      },
+    });
+    const { measurements, notes } = readMeasurements(saved([before, one("point", [vertices[0]])]), [fence]);
+    expect(notes).toEqual([expect.stringContaining("they stand at their saved places")]);
+    expect(measurements).toHaveLength(2);
+    expect(valuesOf(measurements[0])[0].quantity.value).toBeCloseTo(10 / 0.9996, 4);
+    expect(measurements[0].vertices[0].record).toEqual(vertices[0].record);
+    expect(attached(measurements[0].vertices[0], [fence])).toBe(measurements[0].vertices[0]);
+    expect(readMeasurements(saved(measurements), [cloud]).measurements[0]).toEqual(before);
+  });
+
+  it("keep the data set of a place that is no record, without the scan too", () => {
+    const before = one("distance", [
+      sourceVertex(cloud, [500000, 5300000, 1]),
+      cloud.vertex(500010, 5300000, 1),
+    ]);
+    const without = readMeasurements(saved([before])).measurements;
+    const again = readMeasurements(saved(without), [cloud]);
+    expect([again.measurements, again.notes]).toEqual([[before], []]);
+    expect(attached(without[0].vertices[0], [cloud])).toMatchObject({ cloud, source: [500000, 5300000, 1] });
+  });
+
+  it("of names alone do not stand on a scan of another scale or system", () => {
+    const text = saved([one("point", [cloud.vertex(500000, 5300000, 1)])]);
+    for (const [other, why] of [
+      [cloudOf(UTM, { name: "__proto__", scale: 0.01 }), "another scale"],
+      [cloudOf(UTM.replace("32", "33"), { name: "__proto__" }), "was measured in"],
+    ] as const) {
+      const { measurements, notes } = readMeasurements(text, [other]);
+      expect(notes).toEqual([expect.stringContaining(why)]);
+      expect(measurements[0].vertices[0].cloud).toBeUndefined();
+    }
+  });
+
   it("are saved without values where they have none, and not lost", () => {
     const [a, b] = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300010, 1)];
     const [c, d] = [cloud.vertex(500010, 5300000, 1), cloud.vertex(500000, 5300010, 1)];
@@ -254,95 +325,16 @@ describe("every value of every kind", () => {
   });
 });
 
-describe("GeoJSON of other programs", () => {
-  it("is measured, and said to have no records", () => {
-    const features = [
-      { type: "Feature", geometry: { type: "Point", coordinates: [7, 47] }, properties: { name: "pole" } },
-      {
-        type: "Feature",
-        geometry: {
-          type: "LineString",
-          coordinates: [
-            [7, 47],
-            [7, 48, 3],
-          ],
-        },
-        properties: null,
-      },
-      {
-        type: "Feature",
-        geometry: {
-          type: "Polygon",
-          coordinates: [
-            [
-              [7, 47],
-              [8, 47],
-              [8, 48],
-              [7, 47],
-            ],
-          ],
-        },
-        properties: {},
-      },
-      { type: "Feature", geometry: { type: "Point", coordinates: [7, 97] }, properties: {} },
-      { type: "Feature", geometry: null, properties: {} },
-      7,
-    ];
-    const { measurements, notes } = readMeasurements(JSON.stringify({ type: "FeatureCollection", features }));
-    expect(measurements.map(({ kind, name, vertices }) => [kind, name, vertices.length])).toEqual([
-      ["point", "pole", 1],
-      ["distance", "Distance 2", 2],
-      ["area", "Area 3", 3],
-    ]);
-    expect(notes).toHaveLength(4);
-    expect(notes[0]).toMatch("no records of a scan");
-    expect(notes[1]).toMatch("feature 4 is left out");
-  });
-
-  it.each([
-    ["no JSON", "{", "MEASURE_FILE"],
-    ["no object", "[]", "MEASURE_FILE"],
-    ["no features", '{"type": "Point", "coordinates": [1, 2]}', "MEASURE_FILE"],
-    ["another member groma", '{"type": "FeatureCollection", "features": [], "groma": 1}', "MEASURE_FILE"],
-    [
-      "a later version",
-      '{"type": "FeatureCollection", "features": [], "groma": {"format": "measurements", "version": 2}}',
-      "MEASURE_VERSION",
-    ],
-  ])("is refused by name: %s", (_, text, code) => {
-    expect(() => readMeasurements(text, [], "a.geojson")).toThrow(new RegExp(`^${code}: a.geojson: `));
-  });
-
-  it("whatever it holds, gives measurements or one clear error", () => {
-    const feature = fc.record({
-      type: fc.constant("Feature"),
-      geometry: fc.jsonValue(),
-      groma: fc.record({
-        kind: fc.constantFrom("area", "constructor", "__proto__"),
-        vertices: fc.array(
-          fc.record({ place: fc.jsonValue(), dataset: fc.constant("__proto__"), source: fc.jsonValue() }),
-        ),
-      }),
-    });
-    fc.assert(
-      fc.property(fc.array(feature), (features) => {
-        const { measurements } = readMeasurements(JSON.stringify({ type: "FeatureCollection", features }), [
-          cloud,
-        ]);
-        for (const { kind } of measurements) expect(kind in MEASUREMENT_KINDS).toBe(true);
-      }),
-    );
-  });
-});
-
 describe("records", () => {
   it("are held against the file, and told where they are others", async () => {
     const a = cloud.vertex(500000, 5300000, 1);
     const measurements = [one("point", [a])];
-    const reading = (integers: readonly [number, number, number]) => ({
+    const reading = (integers: readonly [number, number, number], source = a.source!) => ({
       name: cloud.name,
-      readPoint: async () => ({ node: "0-0-0-0", index: 0, integers, source: a.source! }),
+      readPoint: async () => ({ node: "0-0-0-0", index: 0, integers, source }),
     });
+    const elsewhere = reading(a.record!.integers, [a.source![0], a.source![1], 999]);
+    await expect(verifyRecords(measurements, [elsewhere])).rejects.toMatchObject({ code: "MEASURE_RECORD" });
     await verifyRecords(measurements, [reading(a.record!.integers)]);
     await expect(verifyRecords(measurements, [reading([1, 2, 3])])).rejects.toMatchObject({
       code: "MEASURE_RECORD",

@@ -5,8 +5,7 @@ import {
   type NamedValue,
   valuesOf,
 } from "../measurement/measurement.js";
-import { datasetOf } from "../vertex/dataset.js";
-import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
+import { datasetNameOf, type MeasuredCloud, type Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import {
   FORMAT,
@@ -89,16 +88,15 @@ function savedDataset({ name, identity, crs, scale }: MeasuredCloud): SavedDatas
   return { name, ...(identity !== undefined && { identity }), crs: { ...names, proj4 }, height, scale };
 }
 
-const NONE = { dataset: undefined, identity: undefined };
-
 function savedVertex(vertex: Vertex): SavedVertex {
-  const { cloud, source, record } = vertex;
-  const { dataset, identity } = record ?? (cloud ? datasetOf(cloud) : NONE);
+  const { source, record } = vertex;
+  const named = datasetNameOf(vertex);
+  const { dataset, identity } = named ?? { dataset: undefined, identity: undefined };
   return {
     place: positionOf(vertex),
     ...(dataset !== undefined && { dataset }),
     ...(identity !== undefined && { identity }),
-    ...(source && { source: [source[0], source[1], source[2]] }),
+    ...(named && source && { source: [source[0], source[1], source[2]] }),
     ...(record && { node: record.node, index: record.index, integers: record.integers }),
   };
 }

@@ -1,5 +1,12 @@
-import { type Crs, ecefToGeodetic, geodeticToEcef, type StatedAccuracy, type Vector } from "@groma/georef";
-import { datasetAmong, datasetOf } from "./dataset.js";
+import {
+  type Crs,
+  ecefToGeodetic,
+  geodeticToEcef,
+  PlacementError,
+  type StatedAccuracy,
+  type Vector,
+} from "@groma/georef";
+import { type DatasetName, datasetAmong, datasetOf } from "./dataset.js";
 
 /** What measuring must know of a data set; a `PointCloud` is one. */
 export interface MeasuredCloud {
@@ -9,6 +16,8 @@ export interface MeasuredCloud {
   readonly crs: Crs;
   /** Source units per step of the recorded integers, per axis. */
   readonly scale: readonly [number, number, number];
+  /** Source units, per axis: source coordinate = integer · scale + offset. */
+  readonly offset?: readonly [number, number, number] | undefined;
   /** What a place is worth: named parts, metres. */
   readonly accuracy: StatedAccuracy;
   /** Sphere around all points; radius in metres. */
@@ -37,6 +46,8 @@ export interface Vertex {
   readonly record?: VertexRecord | undefined;
   /** The data set that `record` or `source` belong to; undefined where it is not at hand. */
   readonly cloud?: MeasuredCloud | undefined;
+  /** What is known of that data set where it is not at hand and the vertex is no record. */
+  readonly dataset?: DatasetName | undefined;
   /** x, y, z in the units of the data set's coordinate system. */
   readonly source?: Vector | undefined;
   /** EPSG:4978, metres. */
@@ -74,14 +85,24 @@ export function sourceVertex(cloud: MeasuredCloud, source: Vector): Vertex {
 
 /**
  * A vertex with the data set that it stands on, where that is among those at hand: its place is that set's own, and the
- * record stays what it was.
+ * record stays what it was. It stays as it is where that data set, as it is open, has no such place.
  */
 export function attached(vertex: Vertex, clouds: readonly MeasuredCloud[]): Vertex {
   const { record, source } = vertex;
-  const named = record ?? (vertex.cloud && datasetOf(vertex.cloud));
+  const named = datasetNameOf(vertex);
   const cloud = named && datasetAmong(clouds, named);
   if (!cloud || !source || cloud === vertex.cloud) return vertex;
-  return record ? recordVertex(cloud, { ...record, source }) : sourceVertex(cloud, source);
+  try {
+    return record ? recordVertex(cloud, { ...record, source }) : sourceVertex(cloud, source);
+  } catch (thrown) {
+    if (thrown instanceof PlacementError) return vertex;
+    throw thrown;
+  }
+}
+
+/** The data set that a vertex belongs to, at hand or not. */
+export function datasetNameOf({ record, cloud, dataset }: Vertex): DatasetName | undefined {
+  return record ?? (cloud ? datasetOf(cloud) : dataset);
 }
 
 /**
