@@ -266,6 +266,95 @@ describe.skipIf(missing)(`globe and map in step${unless}`, () => {
     expect([seen.apart, seen.pointers]).toEqual([seen.alone, false]);
   });
 
+  it("takes what a map cannot show for no wish of its user's, and moves nothing to a place that it does not have", {
+    timeout: 120_000,
+  }, async () => {
+    const seen = await linked.page.evaluate(async () => {
+      const { stage, synchronize, ol, Cesium } = window.linked;
+      const map = stage.addMap({ projection: "EPSG:3857", center: [0, 0], resolution: 1 });
+      // Turned to within 5° of north it is turned to north, and it has the resolutions of its levels alone.
+      const view = new ol.View({ center: [0, 0], zoom: 3, constrainResolution: true });
+      map.map.setView(view);
+      const { camera } = stage.globe.scene;
+      const link = synchronize({ viewer: stage.globe.widget, map: map.map });
+      window.linked.link = link;
+      const moves: string[] = [];
+      link.onMove(({ origin, target }) => moves.push(`${origin} > ${target}`));
+      const look = (heading: number, range: number) => {
+        stage.globe.look({ heading, pitch: -60, range });
+        stage.globe.frame();
+      };
+      /** Heading (degrees), height of the camera, and place on the map. */
+      const onGlobe = () => {
+        const { longitude, latitude, height } = camera.positionCartographic;
+        const degrees = [longitude, latitude].map((angle) => (angle * 180) / Math.PI);
+        const [x, y] = ol.fromLonLat(degrees);
+        return { heading: (camera.heading * 180) / Math.PI, height, x: x!, y: y! };
+      };
+      const panned = async (east: number) => {
+        const before = onGlobe();
+        const [x, y] = view.getCenter()!;
+        view.setCenter([x! + east, y!]);
+        await stage.frames(3);
+        const after = onGlobe();
+        return {
+          turn: after.heading - before.heading,
+          scale: after.height / before.height,
+          east: after.x - before.x,
+        };
+      };
+      look(3, 90);
+      const [rotation, zoom] = [view.getRotation(), view.getZoom()! % 1];
+      const pan = await panned(40);
+      // What the user turns and zooms is as the map has it, and the rest stays.
+      view.setZoom(view.getZoom()! - 1);
+      await stage.frames(3);
+      const zoomed = await panned(0.1);
+      const away = onGlobe();
+      view.setRotation(-0.5);
+      await stage.frames(3);
+      const turned = onGlobe();
+      // A view that the edge of the world keeps in the middle.
+      camera.setView({ destination: Cesium.Cartesian3.fromDegrees(9, 60, 4e7) });
+      stage.globe.frame();
+      const low = onGlobe();
+      const clamped = await panned(1e6);
+      const high = onGlobe();
+      // Poles.
+      const still = [view.getCenter()!.join()];
+      moves.length = 0;
+      for (const latitude of [89.9, 90, -90]) {
+        camera.setView({ destination: Cesium.Cartesian3.fromDegrees(9, latitude, 4000) });
+        stage.globe.frame();
+        still.push(view.getCenter()!.join());
+      }
+      map.map.setView(new ol.View({ projection: "EPSG:3413", center: [1000, 2000], resolution: 10 }));
+      await stage.frames(3);
+      const polar = map.map.getView();
+      moves.length = 0;
+      camera.setView({ destination: Cesium.Cartesian3.fromDegrees(9, -89.999, 4000) });
+      stage.globe.frame();
+      return {
+        ...{ rotation, zoom, pan, zoomed, turn: turned.heading - away.heading, away: away.heading },
+        ...{ clamped, north: high.y - low.y, still, moves, polar: polar.getCenter() },
+      };
+    });
+    expect([seen.rotation, seen.zoom]).toEqual([0, 0]);
+    for (const { turn, scale } of [seen.pan, seen.zoomed]) {
+      expect(Math.abs(turn)).toBeLessThan(1e-3);
+      expect(Math.abs(scale - 1)).toBeLessThan(1e-3);
+    }
+    expect(seen.pan.east).toBeCloseTo(40, 1);
+    expect(seen.away).toBeCloseTo(3, 2);
+    // On the ellipsoid the map is not quite conformal.
+    expect(Math.abs(seen.turn - ((0.5 * 180) / Math.PI - 3))).toBeLessThan(0.2);
+    expect(seen.clamped.east).toBeCloseTo(1e6, -3);
+    expect(Math.abs(seen.north)).toBeLessThan(1000);
+    expect(new Set(seen.still).size).toBe(1);
+    expect(seen.moves).toEqual([]);
+    expect(seen.polar).toEqual([1000, 2000]);
+  });
+
   it("refuses what is no globe, no map and no mode by name", async () => {
     const codes = await linked.page.evaluate(() => {
       const { stage, synchronize } = window.linked;

@@ -49,7 +49,8 @@ export class MapView {
     this.map = new OlMap({
       target,
       layers: [baseMap()],
-      view: new View({ center: [0, 0], zoom: 1, maxZoom: 26 }),
+      // Turned as the globe is, also by a degree.
+      view: new View({ center: [0, 0], zoom: 1, maxZoom: 26, constrainRotation: false }),
     });
     this.map.addOverlay(this.#mark);
     viewer.scene.postRender.addEventListener(() => this.#follow());

@@ -1,4 +1,5 @@
 import type { Vector } from "@groma/georef";
+import type { Extent } from "ol/extent.js";
 import type OlMap from "ol/Map.js";
 import { unByKey } from "ol/Observable.js";
 import { getTransform, get as projectionOf } from "ol/proj.js";
@@ -17,6 +18,8 @@ export class MapSide {
   readonly #keys: Parameters<typeof unByKey>[0];
   /** The view, as it was told last. */
   #known: MapView | undefined;
+  /** The view that was asked for, of which the map's constraints may have let it show less. */
+  #wanted: MapView | undefined;
   #view: View | undefined;
   #viewKey: Parameters<typeof unByKey>[0] | undefined;
   #plane: { readonly code: string; readonly plane: Plane } | undefined;
@@ -26,6 +29,7 @@ export class MapSide {
     this.map = map;
     this.#moved = moved;
     this.#keys = map.on("change:view", () => {
+      this.#wanted = undefined;
       this.#follow();
       moved();
     });
@@ -40,6 +44,23 @@ export class MapSide {
     const resolution = view.getResolution();
     if (!view.isDef() || !center || !resolution) return undefined;
     return { center: [center[0], center[1]], resolution, rotation: view.getRotation() };
+  }
+
+  /**
+   * The view as it is wanted. A map may be kept from showing what it is asked to: turned by 2°, at a resolution between two
+   * levels, beyond its extent. What of that nobody has changed since is still wanted; what was changed is as the map has it.
+   */
+  get wanted(): MapView | undefined {
+    const { view } = this;
+    const [known, wanted] = [this.#known, this.#wanted];
+    if (!view || !known || !wanted) return view;
+    const choose = (now: number, before: number, then: number) => (now === before ? then : now);
+    const along = (axis: 0 | 1) => choose(view.center[axis], known.center[axis], wanted.center[axis]);
+    return {
+      center: [along(0), along(1)],
+      resolution: choose(view.resolution, known.resolution, wanted.resolution),
+      rotation: choose(view.rotation, known.rotation, wanted.rotation),
+    };
   }
 
   /** Whether the view is another than the one known. */
@@ -63,7 +84,8 @@ export class MapSide {
     view.setCenter([...center]);
     view.setResolution(resolution);
     if (turns) view.setRotation(rotation);
-    this.know();
+    this.#known = this.view;
+    this.#wanted = { center, resolution, rotation: turns ? rotation : view.getRotation() };
   }
 
   /** Moves the middle to a place, which is a move of the map's own. @param seconds 0: at once */
@@ -74,6 +96,7 @@ export class MapSide {
 
   /** Takes the view as it is for known. */
   know(): void {
+    this.#wanted = this.wanted;
     this.#known = this.view;
   }
 
@@ -82,9 +105,10 @@ export class MapSide {
     const projection = this.map.getView().getProjection();
     const code = projection.getCode();
     if (this.#plane?.code !== code) {
-      const extent = projection.canWrapX() ? projection.getExtent() : undefined;
-      const worldWidth = extent ? extent[2] - extent[0] : undefined;
-      this.#plane = { code, plane: planeOf(code, worldWidth) };
+      this.#plane = {
+        code,
+        plane: planeOf(code, projection.canWrapX() ? projection.getExtent() : undefined),
+      };
     }
     return this.#plane.plane;
   }
@@ -152,7 +176,8 @@ export class MapSide {
   }
 }
 
-function planeOf(code: string, worldWidth: number | undefined): Plane {
+/** @param world extent of the world, where it repeats */
+function planeOf(code: string, world: Extent | undefined): Plane {
   const degrees = projectionOf("EPSG:4326")?.getCode() ?? "EPSG:4326";
   const forward = getTransform(degrees, code);
   const inverse = getTransform(code, degrees);
@@ -169,7 +194,8 @@ function planeOf(code: string, worldWidth: number | undefined): Plane {
     }
   };
   return {
-    worldWidth,
+    worldWidth: world && world[2] - world[0],
+    limits: world && [world[1], world[3]],
     forward: (longitude, latitude) => convert(forward, longitude / DEGREE, latitude / DEGREE),
     inverse(x, y) {
       const [longitude, latitude] = convert(inverse, x, y);

@@ -106,7 +106,7 @@ export class ViewLink {
 
   #showOnGlobe(origin: MoveOrigin, height?: number): boolean {
     const [globe, map] = [this.#globe, this.#map];
-    const { view } = map;
+    const view = map.wanted;
     if (!view || !globe.shown || (this.mode !== "both" && this.mode !== "to-globe")) return false;
     const [longitude, latitude] = map.plane.inverse(...view.center);
     const ground = toGroundView(map.plane, view, height ?? globe.heightAt(longitude, latitude));

@@ -8,6 +8,8 @@ export interface Plane {
   inverse(x: number, y: number): readonly [number, number];
   /** Width of the world where it repeats. */
   readonly worldWidth: number | undefined;
+  /** Least and greatest y of such a world. */
+  readonly limits?: readonly [number, number] | undefined;
 }
 
 /** A view of a map, as OpenLayers has it. */
@@ -28,6 +30,12 @@ export interface GroundView {
   /** Metres of ground per CSS pixel in the middle, across the line of sight. */
   readonly metresPerPixel: number;
 }
+
+/**
+ * Units of the map per metre above which a place is none to show, as the pole in Mercator's projection, or the far one in a
+ * polar projection: a degree from that there are 1e4.
+ */
+const GREATEST_SCALE = 1e4;
 
 /** Metres to either side over which the plane's scale and turn are taken. */
 const REACH = 10;
@@ -68,9 +76,12 @@ export function toMapView(plane: Plane, ground: GroundView, near = 0): MapView |
   const [x, y] = plane.forward(longitude, latitude);
   const [sine, cosine] = [Math.sin(heading), Math.cos(heading)];
   const [upX, upY] = [sine * east[0] + cosine * north[0], sine * east[1] + cosine * north[1]];
-  const resolution = metresPerPixel * scaleOf({ east, north });
+  const scale = scaleOf({ east, north });
+  const resolution = metresPerPixel * scale;
   const rotation = Math.atan2(-upX, upY);
   if (![x, y, resolution, rotation].every(Number.isFinite) || resolution <= 0) return undefined;
+  if (scale > GREATEST_SCALE || (plane.limits && !(plane.limits[0] <= y && y <= plane.limits[1])))
+    return undefined;
   return { center: [near + unwrapped(x - near, plane.worldWidth), y], resolution, rotation };
 }
 
