@@ -72,6 +72,26 @@ describe.skipIf(missing)(
       expect(report.accuracy ?? 999).toBeGreaterThan(1);
       expect(report.notes.join()).toMatch(/points are placed by another operation, as PROJ does/);
     });
+    it("one operation of two with one name is taken everywhere: the one for the smaller area", async () => {
+      const code = "EPSG:4901";
+      const domain = { minX: 0, minY: 53, minZ: 0, maxX: 0.3, maxY: 53.3, maxZ: 100 };
+      const crs = { name: code, code, proj4: "", horizontalUnit: METRE, verticalUnit: METRE } as const;
+      const whole = { ...crs, height: { kind: "unknown" } } as const;
+      const { transformation } = await projTransformation(proj!, whole, domain);
+      const points = raster(domain);
+      const theirs = runPython<number[][]>(
+        "interop/point_by_point.py",
+        [code, database()],
+        JSON.stringify(points),
+      );
+      const { forward } = compileTransformation(transformation);
+      const ecef = new Float64Array(3);
+      for (const [i, [x, y, z]] of points.entries()) {
+        forward(x!, y!, z!, ecef);
+        expect(distance([...ecef], theirs[i]!)).toBeLessThan(1e-3);
+      }
+    });
+
     it("goes by the grid as far as that reaches, and by what PROJ takes beyond", async () => {
       const folder = mkdtempSync(join(tmpdir(), "groma-grid-end-"));
       try {

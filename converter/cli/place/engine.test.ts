@@ -1,11 +1,13 @@
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { resolveCrs } from "@groma/georef";
+import { compileTransformation, ecefToGeodetic, resolveCrs } from "@groma/georef";
+import proj4 from "proj4";
 import { afterAll, describe, expect, it } from "vitest";
 import { findProj } from "../proj/program/find.js";
 import { chosenProj, engineTransformation } from "./engine.js";
 import { epsg } from "./epsg.js";
+import { georeference } from "./georeference.js";
 
 const folder = mkdtempSync(join(tmpdir(), "groma-engine-"));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
@@ -36,6 +38,38 @@ describe("the engine", () => {
   it.skipIf(!here)(`is PROJ where it is found${absent}`, async () => {
     const { report } = await engineTransformation(crs, domain, {}, { file });
     expect(report.engine.name).toBe("PROJ");
+  });
+
+  it.skipIf(!here).each([
+    ["+proj=utm +zone=33 +south +datum=WGS84 +geoidgrids=@null", 500_123, 7_788_876],
+    [
+      "+proj=merc +a=6378137 +b=6378137 +nadgrids=@null +wktext +no_defs +geoidgrids=@null",
+      1_669_792,
+      6_446_275,
+    ],
+    ["+proj=utm +zone=33 +ellps=bessel +nadgrids=@nosuch.gsb,null", 500_123, 5_499_876],
+  ])(`lifts and shifts nothing for %s, as PROJ does${absent}`, async (text, x, y) => {
+    const { crs: named } = await georeference({ file }, { crs: text });
+    const around = { minX: x - 50, minY: y - 50, minZ: 400, maxX: x + 50, maxY: y + 50, maxZ: 420 };
+    const { transformation, report } = await engineTransformation(
+      named,
+      around,
+      { engine: "proj" },
+      { file, text },
+    );
+    expect(named.height.kind).toBe("unknown");
+    expect(report).toMatchObject({ ballpark: false, grids: [], lacking: [] });
+    const ecef = new Float64Array(3);
+    const geodetic = new Float64Array(3);
+    compileTransformation(transformation).forward(x, y, 412.5, ecef);
+    ecefToGeodetic(ecef[0]!, ecef[1]!, ecef[2]!, geodetic);
+    expect(geodetic[2]).toBeCloseTo(412.5, 6);
+    const [longitude, latitude] = proj4(text.replace(/\+nadgrids=@nosuch\S*|\+geoidgrids=\S+/, "")).inverse([
+      x,
+      y,
+    ]);
+    expect((geodetic[0]! * 180) / Math.PI).toBeCloseTo(longitude, 9);
+    expect((geodetic[1]! * 180) / Math.PI).toBeCloseTo(latitude, 9);
   });
 
   it.skipIf(!here)(`gives way to proj4js where PROJ refuses, and says why${absent}`, async () => {

@@ -1,4 +1,4 @@
-import { resolveCrs, truthOf } from "@groma/georef";
+import { type ExactTransform, resolveCrs, truthOf } from "@groma/georef";
 import { expect, it } from "vitest";
 import { proj4jsTransformation } from "../proj/fallback.js";
 import { epsg } from "./epsg.js";
@@ -28,6 +28,32 @@ it("the ensemble of WGS 84 is never worth less than its two metres, and a better
     operation: "PROJ's",
   });
   expect(withKnownShift({ ...zero, accuracy: 5 }, wgs84, truth(wgs84), DOMAIN).accuracy).toBe(5);
+});
+
+it.each([
+  ["at 180°", "EPSG:4979", { minX: 179.99, minY: -17.01, minZ: 0, maxX: 180.01, maxY: -16.99, maxZ: 9 }],
+  ["around a pole", "EPSG:3413", { minX: -100, minY: -100, minZ: 0, maxX: 100, maxY: 100, maxZ: 9 }],
+])(
+  "%s too, where longitudes jump: a way that nobody has stated leads to the same place",
+  (_, given, domain) => {
+    const wgs84 = resolved(given);
+    const own = truth(wgs84) as ExactTransform;
+    for (const nanometres of [-1, 1]) {
+      const other: ExactTransform = (x, y, out, offset) => {
+        own(x, y, out, offset);
+        out[offset + 1] += 1e-9 * nanometres;
+      };
+      expect(withKnownShift(unstated, wgs84, other, domain)).toMatchObject({ accuracy: 2 });
+    }
+  },
+);
+
+it("a conversion alone is worth what its datum is, also where proj4js does not know the projection", () => {
+  const wgs84 = resolved("EPSG:32618");
+  const crs = { ...wgs84, proj4: "+proj=igh +datum=WGS84" };
+  const zero = { ...unstated, operation: "PROJ's", accuracy: 0 };
+  expect(withKnownShift(zero, crs, truth(wgs84), DOMAIN)).toMatchObject({ accuracy: 2, operation: "PROJ's" });
+  expect(withKnownShift(unstated, crs, truth(wgs84), DOMAIN)).toBe(unstated);
 });
 
 it("nothing is known of a way to another place, of a ballpark, or of a shift that nobody has published", () => {

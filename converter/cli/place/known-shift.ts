@@ -4,6 +4,7 @@ import {
   type Domain,
   EGM96,
   ecefToGeodetic,
+  geodeticToEcef,
   pointTransform,
   publishedAccuracy,
   type Truth,
@@ -15,8 +16,6 @@ import { geoidsOf } from "./geoids.js";
 
 /** Metres in plane up to which two ways lead to one place; both are fitted or computed to some hundredths of a millimetre. */
 const SAME = 1e-3;
-/** Metres per radian, near enough to tell a millimetre. */
-const RADIUS = 6.4e6;
 
 /**
  * The report of an engine with what is known of the datum shift of the CRS itself, where both lead to the same places in
@@ -33,7 +32,9 @@ export function withKnownShift(report: EngineReport, crs: Crs, truth: Truth, dom
   // The accuracy of a way through a country's geoid is that of heights too, which the shift says nothing of.
   const ownGeoid = geoidsOf(truth).some((grid) => grid !== EGM96);
   if (report.accuracy === null && ownGeoid) return report;
-  if (!isSamePlace(truth, crs, domain)) return report;
+  // A way of no worth at all is a conversion alone: what the datum itself is worth is not in it.
+  const isConversion = report.accuracy === 0;
+  if (!isConversion && !isSamePlace(truth, crs, domain)) return report;
   if (report.accuracy !== null) return { ...report, accuracy: published };
   const accuracy = withWorthThere(crs, truth, domain).datum?.accuracy ?? null;
   return { ...report, operation: datum.operation, accuracy };
@@ -52,9 +53,11 @@ function isSamePlace(truth: Truth, crs: Crs, { minX, minY, minZ, maxX, maxY, max
       way(x, y, z, ecef, 0);
       const geodetic = new Float64Array(3);
       ecefToGeodetic(ecef[0]!, ecef[1]!, ecef[2]!, geodetic);
-      return geodetic;
+      // In space, on the ellipsoid: longitudes jump at 180°, and are none at a pole.
+      geodeticToEcef(geodetic[0]!, geodetic[1]!, 0, ecef);
+      return ecef;
     }) as [Float64Array, Float64Array];
-    return RADIUS * Math.hypot((a[0]! - b[0]!) * Math.cos(a[1]!), a[1]! - b[1]!) < SAME;
+    return Math.hypot(...a.map((value, axis) => value - b[axis]!)) < SAME;
   });
 }
 

@@ -4,7 +4,6 @@ import {
   type EllipsoidAxes,
   fitPatchwork,
   type GeocentricStep,
-  type GridWindow,
   type Patchwork,
   type Rectangle,
   type ShiftStep,
@@ -12,14 +11,13 @@ import {
 } from "@groma/georef";
 import type { Candidate, Choice } from "./candidate.js";
 import { runProjection } from "./cct.js";
+import { constantShift, constantWindow } from "./constant-window.js";
 import { ellipsoidAxes } from "./ellipsoid.js";
 import type { EllipsoidText, PlannedStep } from "./plan.js";
 import type { Proj } from "./program/find.js";
 import { pipelineWords } from "./step-text.js";
 
 const ARC_SECOND = Math.PI / 648_000;
-/** In place of a grid's file name. */
-export const CONSTANT = "constant offset";
 
 export interface AssembleOptions {
   readonly domain: Domain;
@@ -114,21 +112,6 @@ async function stepsOf(
     }
   }
   throw new RangeError("a pipeline that does not end in ECEF");
-}
-
-/** A grid of one cell round the earth with the same values everywhere: what a step adds that needs no grid. */
-function constantWindow(values: readonly number[]): GridWindow {
-  return {
-    grid: CONSTANT,
-    ...{ west: -Math.PI, south: -Math.PI / 2, stepLongitude: 2 * Math.PI, stepLatitude: Math.PI },
-    ...{ columns: 2, rows: 2, channels: values.length, unit: 1 },
-    values: Float32Array.from(values.flatMap((value) => [value, value, value, value])),
-  };
-}
-
-/** Two of them, since the values of a grid are float32: the shift (radians), and what rounding it to float32 leaves. */
-function constantShift(...shift: readonly [number, number]): GridWindow[] {
-  return [constantWindow(shift), constantWindow(shift.map((value) => value - Math.fround(value)))];
 }
 
 /** The axes of every ellipsoid that the steps name; equal ones are asked for once. */

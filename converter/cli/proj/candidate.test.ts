@@ -45,6 +45,25 @@ describe.skipIf(!proj)(`of the operations that PROJ proposes${absent}`, () => {
     expect((await chosen(unreadable, ballpark)).blocked).toMatchObject({ code: "PROJ_FAILED" });
   });
 
+  it("one whose optional grids are not there shifts nothing: PROJ's null grid says so, any other is a ballpark", async () => {
+    const shifted = (grids: string, kind = "hgridshift") =>
+      operation(grids, `${UTM} +step +proj=${kind} +grids=${grids} ${CART}`);
+    const meant = await chosen(ballpark, shifted("@not-there.gsb,null"));
+    expect(meant.choice).toMatchObject({
+      candidate: { operation: { name: "@not-there.gsb,null" } },
+      leftOut: [],
+    });
+    expect([...meant.choice!.windows[0].values]).toEqual([0, 0, 0, 0, 0, 0, 0, 0]);
+    const without = shifted("@not-there.gtx", "vgridshift");
+    expect((await chosen(without, good)).choice?.candidate.operation.name).toBe("good");
+    const { choice, passedOver } = await chosen(without, unreadable);
+    expect(choice).toBeUndefined();
+    expect(passedOver).toHaveLength(1);
+    expect((await chosen(without, ballpark)).choice?.leftOut).toEqual([
+      { kind: "vertical", grids: ["not-there.gtx"] },
+    ]);
+  });
+
   it("none is taken from nothing, or from one that PROJ cannot write down", async () => {
     expect((await chosen()).choice).toBeUndefined();
     const { pipeline: _, ...silent } = good;

@@ -9,6 +9,7 @@ import {
   spread,
 } from "@groma/georef";
 import { runPipeline, runToRadians } from "./cct.js";
+import { constantWindow } from "./constant-window.js";
 import { faultOf } from "./faulty.js";
 import { cutFrom } from "./grids/cut.js";
 import { type GridImage, type GridKind, unreadable } from "./grids/grid-image.js";
@@ -81,32 +82,51 @@ async function cutWindows(
   { plan, zScale }: Candidate,
   domain: Domain,
   signal?: AbortSignal,
-): Promise<GridWindow[]> {
+): Promise<Pick<Choice, "windows" | "leftOut">> {
   const points = spread(domain);
   for (let i = 2; i < points.length; i += 3) points[i] *= zScale;
   const windows: GridWindow[] = [];
+  const leftOut: LeftOut[] = [];
   for (const step of gridSteps(plan)) {
     const places = await runToRadians(proj, plan.pipeline.slice(0, step.before), points, signal);
     const bounds = boundsOfPlaces(places);
     const kind = step.kind === "verticalShift" ? "vertical" : "horizontal";
-    windows.push(await windowOf(proj, step.grids, kind, bounds));
+    const window = await windowOf(proj, step.grids, kind, bounds);
+    if (!window && !step.grids.some(isNull))
+      leftOut.push({ kind, grids: step.grids.map(({ name }) => name) });
+    windows.push(window ?? constantWindow(kind === "vertical" ? [0] : [0, 0]));
   }
-  return windows;
+  return { windows, leftOut };
 }
 
+/** A shift that PROJ does without, since all of its grids are optional and none is there. */
+export interface LeftOut {
+  readonly kind: GridKind;
+  readonly grids: readonly string[];
+}
+
+/** PROJ's grid that covers the earth and shifts nothing. */
+function isNull({ name }: GridName): boolean {
+  return name === "null";
+}
+
+/** The part of a step's grids that the bounds need; nothing where nothing is shifted. */
 async function windowOf(
   proj: Proj,
   names: readonly GridName[],
   kind: GridKind,
   bounds: Bounds | undefined,
-): Promise<GridWindow> {
+): Promise<GridWindow | undefined> {
   const roots: GridImage[] = [];
-  for (const { name, optional } of names) {
+  const named = names.findIndex(isNull);
+  for (const { name, optional } of named < 0 ? names : names.slice(0, named)) {
     const path = await locateGrid(proj, name);
     if (path) roots.push(...(await openGrid(path, basename(path), kind)));
     else if (!optional) throw unreadable(name, "it is in none of PROJ's data folders");
   }
+  if (roots.length === 0) return undefined;
   const window = bounds && (await cutFrom(roots, bounds));
+  if (!window && named >= 0) return undefined;
   if (!window) throw unreadable(names.map(({ name }) => name).join(", "), "it does not reach the data set");
   return window;
 }
@@ -121,6 +141,7 @@ export interface PassedOver {
 export interface Choice {
   readonly candidate: Candidate;
   readonly windows: readonly GridWindow[];
+  readonly leftOut: readonly LeftOut[];
   /** Of the steps that are taken as PROJ gives them, in their order. */
   readonly sampled: readonly Sampled[];
 }
@@ -146,12 +167,12 @@ export async function prepared(
   domain: Domain,
   signal?: AbortSignal,
 ): Promise<Choice> {
-  const windows = await cutWindows(proj, candidate, domain, signal);
+  const { windows, leftOut } = await cutWindows(proj, candidate, domain, signal);
   const sampled: Sampled[] = [];
   for (const step of candidate.plan.steps) {
     if (step.kind === "sampled") sampled.push(await sampleSteps(proj, candidate, step, domain, signal));
   }
-  return { candidate, windows, sampled };
+  return { candidate, windows, leftOut, sampled };
 }
 
 /** Faults of one operation that leave the others as they are; the last means that it is not for this place. */
@@ -171,11 +192,12 @@ export async function choose(
   signal?: AbortSignal,
 ): Promise<Selection> {
   const passedOver: PassedOver[] = [];
+  const withoutShift = new Set(operations.filter((operation) => operation.ballpark));
   for (const ballpark of [false, true]) {
     let partial: Choice | undefined;
     let blocked: GromaError | undefined;
     for (const operation of operations) {
-      if (operation.ballpark !== ballpark || operation.missingGrids.length > 0) continue;
+      if (withoutShift.has(operation) !== ballpark || operation.missingGrids.length > 0) continue;
       const { name, accuracy } = operation;
       const fault = faultOf(name);
       if (fault !== undefined) {
@@ -190,6 +212,10 @@ export async function choose(
         const candidate = await tryOperation(proj, operation, domain, metresPerUnit, signal);
         if (!candidate.covers && partial) continue;
         const choice = await prepared(proj, candidate, domain, signal);
+        if (choice.leftOut.length > 0 && !ballpark) {
+          withoutShift.add(operation);
+          continue;
+        }
         if (candidate.covers) return { choice, passedOver };
         partial = choice;
       } catch (error) {

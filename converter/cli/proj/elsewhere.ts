@@ -79,20 +79,22 @@ export async function pointByPoint(
   metresPerUnit: number,
   signal?: AbortSignal,
 ): Promise<PointByPoint | undefined> {
-  const usable = operations.filter(
-    (one) =>
-      !one.ballpark && one.missingGrids.length === 0 && one.pipeline !== undefined && !faultOf(one.name),
-  );
+  const isUsable = (one: Operation) =>
+    !one.ballpark && one.missingGrids.length === 0 && one.pipeline !== undefined && !faultOf(one.name);
+  const usable = operations.filter(isUsable);
   if (candidate.operation.ballpark || usable.length < 2) return undefined;
   let order: readonly Operation[] | undefined;
   const inOrder = async () => {
-    const named = new Map(usable.map((operation) => [operation.name, operation]));
-    order ??= (await listOperations(proj, source, { signal })).flatMap(({ name }) => named.get(name) ?? []);
+    const known = new Map(usable.map((operation) => [identityOf(operation), operation]));
+    order ??= (await listOperations(proj, source, { signal })).flatMap(
+      (one) => known.get(identityOf(one)) ?? [],
+    );
     return order;
   };
   // Only those that never take the place of another ask for PROJ's own order.
   const listed = usable.some(isLast) ? await inOrder() : usable;
-  const list = ranked(listed, await operationAreas(proj, source, { box, signal }));
+  const areasOfUse = await operationAreas(proj, source, { box, signal });
+  const list = ranked(listed, new Map(operations.map((operation, i) => [operation, areasOfUse[i]])));
   const { plan, places: own } = candidate;
   const rectangles = await rectanglesFor(list.map(({ area }) => area));
   if (!rectangles) return undefined;
@@ -147,9 +149,7 @@ export async function pointByPoint(
   }
 
   async function candidateOf(operation: Operation): Promise<Candidate | undefined> {
-    const known = [candidate, ...ways.map((way) => way.candidate)].find(
-      (one) => one.operation.name === operation.name,
-    );
+    const known = [candidate, ...ways.map((way) => way.candidate)].find((one) => one.operation === operation);
     if (known) return known;
     try {
       return await tryOperation(proj, operation, domain, metresPerUnit, signal);
@@ -171,22 +171,25 @@ export function holds({ minX, minY, maxX, maxY }: Rectangle, x: number, y: numbe
   return x >= minX && x <= maxX && y >= minY && y <= maxY;
 }
 
-interface Ranked {
+export interface Ranked {
   readonly operation: Operation;
   readonly area: AreaOfUse;
 }
 
 /**
  * In the order in which PROJ takes them for a point within. It goes through its list, which is the same for all places: the
- * first that is for a point gives way to a later one that is more accurate, or as accurate and for a smaller area; never to one
- * of unknown accuracy, or for the sea alone.
+ * first that is for a point gives way to a later one that is more accurate, or as accurate and for a smaller area that has a
+ * name; never to one for the sea alone. Unknown accuracies are equal to each other, and give way to no other.
  *
  * @param list in the order for all places
  */
-function ranked(list: readonly Operation[], areas: ReadonlyMap<string, AreaOfUse>): Ranked[] {
+export function ranked(
+  list: readonly Operation[],
+  areas: ReadonlyMap<Operation, AreaOfUse | undefined>,
+): Ranked[] {
   const order: Ranked[] = [];
   for (const operation of list) {
-    const area = areas.get(operation.name);
+    const area = areas.get(operation);
     if (!area) continue;
     const one = { operation, area };
     let at = order.length;
@@ -197,14 +200,25 @@ function ranked(list: readonly Operation[], areas: ReadonlyMap<string, AreaOfUse
 }
 
 function goesBefore(later: Ranked, earlier: Ranked): boolean {
-  if (isLast(later.operation)) return false;
-  // PROJ's tables have 999 m where nobody knows.
-  const difference = later.operation.accuracy! - (earlier.operation.accuracy ?? 999);
-  return difference < 0 || (difference === 0 && extentOf(later.area) < extentOf(earlier.area));
+  if (later.operation.area.includes("- offshore")) return false;
+  const [before, after] = [earlier, later].map(({ operation }) => operation.accuracy ?? -1);
+  if (after! >= 0 && after! < before!) return true;
+  if (after !== before || (isNameless(later.operation) && !isNameless(earlier.operation))) return false;
+  return extentOf(later.area) < extentOf(earlier.area);
 }
 
+function isNameless({ area }: Operation): boolean {
+  return area === "unknown domain of validity";
+}
+
+/** Whether PROJ's own order may matter for an operation: it never takes the place of some others, whatever its area. */
 function isLast({ accuracy, area }: Operation): boolean {
   return accuracy === null || area.includes("- offshore");
+}
+
+/** What tells operations of two lists apart: several may have one name. */
+function identityOf({ name, pipeline }: Operation): string {
+  return `${name}\n${pipeline}`;
 }
 
 /** Metres; two ways that are closer lead to the same place. */

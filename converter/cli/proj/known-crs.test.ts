@@ -67,6 +67,24 @@ describe.skipIf(!proj)(`a CRS by PROJ${absent}`, () => {
     });
   });
 
+  it("takes heights as they are where its geoid is PROJ's grid of nothing", async () => {
+    const none = await known("+proj=igh +datum=WGS84 +geoidgrids=@null");
+    expect(none.height).toEqual({ kind: "unknown" });
+    const some = await known("+proj=igh +datum=WGS84 +geoidgrids=@egm96_15.gtx");
+    expect(some.height.kind).toBe("geoid");
+  });
+
+  it.each([
+    ["OGC:CRS84h", 6326],
+    ["ESRI:54030", 6326],
+    ["+proj=igh +datum=WGS84", 6326],
+    ["+proj=ob_tran +o_proj=longlat +o_lon_p=0 +o_lat_p=39 +lon_0=18 +datum=WGS84", 6326],
+    ["EPSG:7665", undefined],
+    ["EPSG:2385", undefined],
+  ])("%s: whether it stands on the ensemble of WGS 84, which is worth 2 m", async (text, datum) => {
+    expect((await known(text)).datum?.datum).toBe(datum);
+  });
+
   it.each([
     ["nothing", "EPSG:999999", "CRS_UNKNOWN"],
     ["a height system alone", "EPSG:5728", "CRS_UNSUPPORTED"],

@@ -38,8 +38,24 @@ export async function knownCrs(proj: Proj, source: CrsText, signal?: AbortSignal
     horizontalUnit,
     verticalUnit: { ...(declared ?? fallback), declared: declared !== undefined },
     height: heightOf(vertical, z),
-    datum: { operation: `as PROJ knows "${plane.name}"`, accuracy: null },
+    datum: {
+      operation: `as PROJ knows "${plane.name}"`,
+      accuracy: null,
+      ...(isOfWgs84(plane) && { datum: WGS84_ENSEMBLE }),
+    },
   };
+}
+
+/** EPSG code of the ensemble of all realisations of WGS 84. */
+const WGS84_ENSEMBLE = 6326;
+
+function isOfWgs84(crs: ProjJson): boolean {
+  const { base_crs: base, datum_ensemble: ensemble, datum = ensemble } = inside(crs);
+  if (base) return isOfWgs84(base);
+  return (
+    datum !== undefined &&
+    (idOf(datum) === WGS84_ENSEMBLE || /^World Geodetic System 1984( ensemble)?$/.test(datum.name ?? ""))
+  );
 }
 
 const ON_EARTH: ReadonlySet<string> = new Set([
@@ -78,9 +94,15 @@ function codeOf(whole: ProjJson, plane: ProjJson, vertical: ProjJson | undefined
 
 function heightOf(vertical: ProjJson | undefined, z: ProjAxis | undefined): Crs["height"] {
   const system = vertical && inside(vertical);
+  if (system && isUnshifted(vertical)) return { kind: "unknown" };
   if (!system) return { kind: z ? "ellipsoidal" : "unknown" };
   const epsg = idOf(system);
   return { kind: "geoid", model: system.name ?? "unnamed", ...(epsg !== undefined && { epsg }) };
+}
+
+/** Whether the grid of a bound CRS is PROJ's `@null`: heights are to be taken as they are. */
+function isUnshifted({ transformation }: ProjJson): boolean {
+  return (transformation?.parameters ?? []).some(({ value }) => /^@?null(,|$)/.test(`${value}`));
 }
 
 /** In place of the PROJ string of a derived CRS, which has none: what proj4js refuses by name. */

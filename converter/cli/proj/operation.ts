@@ -14,6 +14,7 @@ export interface Operation {
   readonly area: string;
   /** It passes over a difference of datums that it knows nothing about. */
   readonly ballpark: boolean;
+  /** Without those that its CRS calls optional (`@name`). */
   readonly missingGrids: readonly string[];
   /** Absent when PROJ cannot write it as a pipeline. */
   readonly pipeline?: string;
@@ -82,8 +83,8 @@ async function ask(
 }
 
 /**
- * The rectangles around the areas of use of the operations that {@link listOperations} lists, by the operations' names;
- * without those that PROJ cannot write as PROJJSON.
+ * The rectangles around the areas of use of the operations that {@link listOperations} lists, in the same order: names do not
+ * tell them apart. Undefined of those that PROJ cannot write as PROJJSON.
  *
  * @throws CrsError CRS_UNKNOWN; ProjError PROJ_FAILED
  */
@@ -91,21 +92,25 @@ export async function operationAreas(
   proj: Proj,
   source: CrsText,
   options: ListOptions,
-): Promise<Map<string, AreaOfUse>> {
+): Promise<(AreaOfUse | undefined)[]> {
   return readAreas(await ask(proj, source, "PROJJSON", options));
 }
 
 /** Reads the answer of `projinfo -s … -t … -o PROJJSON --single-line`. */
-export function readAreas(text: string): Map<string, AreaOfUse> {
-  const areas = new Map<string, AreaOfUse>();
-  for (const line of text.split("\n")) {
-    const { name, bbox } = line.startsWith("{") ? parsed(line) : {};
-    if (name === undefined || !bbox) continue;
+export function readAreas(text: string): (AreaOfUse | undefined)[] {
+  return sectionsOf(text).map((section) => {
+    const line = section.split("\n").find((one) => one.startsWith("{"));
+    const { bbox } = line === undefined ? {} : parsed(line);
+    if (!bbox) return undefined;
     const { west_longitude: west, south_latitude: south, east_longitude: east, north_latitude: north } = bbox;
     const area: AreaOfUse = [west, south, east, north];
-    if (area.every(Number.isFinite)) areas.set(name, area);
-  }
-  return areas;
+    return area.every(Number.isFinite) ? area : undefined;
+  });
+}
+
+/** The parts of an answer of `projinfo`, one for each operation. */
+function sectionsOf(text: string): string[] {
+  return text.split(/^Operation No\. \d+:\s*$/m).slice(1);
 }
 
 /** The area of use of PROJJSON, degrees. */
@@ -114,7 +119,7 @@ type Box = Readonly<
 >;
 
 /** What is read here of an operation in PROJJSON; nothing of a line that is none. */
-function parsed(line: string): { readonly name?: string; readonly bbox?: Box } {
+function parsed(line: string): { readonly bbox?: Box } {
   try {
     return JSON.parse(line);
   } catch {
@@ -126,9 +131,7 @@ function parsed(line: string): { readonly name?: string; readonly bbox?: Box } {
 export function readOperations(text: string): Operation[] | undefined {
   const count = /^Candidate operations found: (\d+)/m.exec(text);
   if (!count) return undefined;
-  const operations = text
-    .split(/^Operation No\. \d+:\s*$/m)
-    .slice(1)
+  const operations = sectionsOf(text)
     .map(readOperation)
     .filter((operation) => operation !== undefined);
   return operations.length === Number(count[1]) ? operations : undefined;
@@ -143,7 +146,7 @@ function readOperation(text: string): Operation | undefined {
   const rest = summary.slice(accuracy.index + accuracy[0].length);
   const marks = /(?:, (?:at least one grid missing|has ballpark transformation|time-dependent operation))*$/;
   const pipeline = lines[lines.indexOf("PROJ string:") + 1];
-  const missing = lines.map((line) => /^Grid (\S+) needed but not found/.exec(line)?.[1]);
+  const missing = lines.map((line) => /^Grid ([^@\s]\S*) needed but not found/.exec(line)?.[1]);
   return {
     name: summary.slice(name[0].length, accuracy.index),
     accuracy: accuracy[1] === undefined ? null : Number(accuracy[1]),

@@ -125,6 +125,11 @@ export interface ProjJson {
   readonly components?: readonly [ProjJson, ProjJson];
   /** Of a BoundCRS. */
   readonly source_crs?: ProjJson;
+  readonly transformation?: { readonly parameters?: readonly { readonly value?: unknown }[] };
+  /** Of a projected or derived CRS. */
+  readonly base_crs?: ProjJson;
+  readonly datum?: ProjJson;
+  readonly datum_ensemble?: ProjJson;
   readonly coordinate_system?: { readonly subtype?: string; readonly axis?: readonly ProjAxis[] };
   readonly id?: { readonly authority?: string; readonly code?: number };
 }

@@ -19,11 +19,12 @@ import {
   type Transformation,
 } from "@groma/georef";
 import { degreeBox } from "./area.js";
-import { type AssembledWay, assemble, CONSTANT, isSameGround } from "./assemble.js";
+import { type AssembledWay, assemble, isSameGround } from "./assemble.js";
 import { type Beyond, beyondNote, goingOn } from "./beyond.js";
 import { type Candidate, type Choice, choose, type PassedOver, prepared } from "./candidate.js";
 import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
+import { CONSTANT } from "./constant-window.js";
 import { egm96 } from "./egm96.js";
 import {
   around,
@@ -75,10 +76,15 @@ export async function projTransformation(
   const source = await sourceTexts(proj, crs, options.text, signal);
   const box = await boxOf(proj, source, domain, file, signal);
   const chosen = await chooseFor(proj, crs, source, domain, box, signal);
-  const { choice, operations, passedOver, substitute, from } = chosen;
-  const { candidate } = choice;
+  const { operations, passedOver, substitute, from } = chosen;
   const { tolerance = PATCHWORK_TOLERANCE } = options;
-  const byPoint = await pointByPoint(proj, from, candidate, domain, box, crs.verticalUnit.size, signal);
+  const taken = await pointByPoint(
+    ...([proj, from, chosen.choice.candidate, domain, box, crs.verticalUnit.size, signal] as const),
+  );
+  const sole = taken && (await soleWay(proj, taken, domain, signal));
+  const choice = sole ?? chosen.choice;
+  const byPoint = sole ? undefined : taken;
+  const { candidate } = choice;
   const several = byPoint && (await waysOf(proj, choice, byPoint, domain, signal));
   const ways = several ?? ([{ ...choice, areas: [] }] as const);
   const { transformation, patchwork } = await assemble(proj, ways, { domain, tolerance, file, signal });
@@ -113,7 +119,7 @@ export async function projTransformation(
       engine: { name: "PROJ", version: proj.version },
       operation: operation.name,
       accuracy: worst.includes(null) ? null : Math.max(...(worst as number[]), counted?.worth ?? 0),
-      ballpark: operation.ballpark,
+      ballpark: operation.ballpark || choice.leftOut.length > 0,
       grids: substitute || whole ? [...grids, EGM96] : grids,
       lacking: lackingIn(operations, operation, substitute),
       passedOver,
@@ -122,6 +128,34 @@ export async function projTransformation(
       notes,
     },
   };
+}
+
+/** The one operation that PROJ takes for every point of a data set, where it is not the first that it proposes. */
+async function soleWay(
+  proj: Proj,
+  { ways }: PointByPoint,
+  domain: Domain,
+  signal?: AbortSignal,
+): Promise<Choice | undefined> {
+  const [way] = ways;
+  if (ways.length !== 1 || way?.share !== 1) return undefined;
+  return preparedOrNone(proj, way.candidate, domain, signal);
+}
+
+/** An operation with its grids; nothing where one cannot be read, or its steps cannot be followed. */
+async function preparedOrNone(
+  proj: Proj,
+  candidate: Candidate,
+  domain: Domain,
+  signal?: AbortSignal,
+): Promise<Choice | undefined> {
+  try {
+    return await prepared(proj, candidate, domain, signal);
+  } catch (error) {
+    if (error instanceof GromaError && ["PROJ_GRID", "CRS_OPERATION_UNSUPPORTED"].includes(error.code))
+      return undefined;
+    throw error;
+  }
 }
 
 /**
@@ -140,16 +174,11 @@ async function waysOf(
   const { candidate } = choice;
   if (ways.length < 2 || !ways.every((way) => isSameGround(way.candidate, candidate))) return undefined;
   const found: AssembledWay[] = [];
-  try {
-    for (const { candidate: its, areas } of ways) {
-      const own = its === candidate ? choice : await prepared(proj, its, domain, signal);
-      found.push({ ...own, areas: areas.filter((area) => meets(area, domain)) });
-    }
-  } catch (error) {
-    // A grid that cannot be read, steps that cannot be followed: what lies there is told, and counted.
-    if (error instanceof GromaError && ["PROJ_GRID", "CRS_OPERATION_UNSUPPORTED"].includes(error.code))
-      return undefined;
-    throw error;
+  for (const { candidate: its, areas } of ways) {
+    const own = its === candidate ? choice : await preparedOrNone(proj, its, domain, signal);
+    // What lies there is told, and counted.
+    if (!own) return undefined;
+    found.push({ ...own, areas: areas.filter((area) => meets(area, domain)) });
   }
   found.push({ ...choice, areas: [around(domain)] });
   return found as [AssembledWay, ...AssembledWay[]];
@@ -176,7 +205,8 @@ async function beyondGrids(
 ): Promise<Beyond | undefined> {
   const operations = await listOperations(proj, source.horizontal, { box, signal });
   const { choice } = await choose(proj, operations, domain, crs.verticalUnit.size, signal);
-  if (!choice?.candidate.covers || choice.candidate.operation.ballpark) return undefined;
+  if (!choice?.candidate.covers || choice.candidate.operation.ballpark || choice.leftOut.length > 0)
+    return undefined;
   const { operation, plan, zScale, places } = choice.candidate;
   const ways = [{ ...choice, areas: [] }] as const;
   const { transformation } = await assemble(proj, ways, { domain, tolerance, file, signal });
@@ -252,7 +282,7 @@ async function chooseFor(
   const list = (text: SourceTexts["horizontal"]) => listOperations(proj, text, { box, signal });
   const withHeights = source.compound ? await list(source.compound) : [];
   const best = await choose(proj, withHeights, domain, metresPerUnit, signal);
-  if (best.choice && !best.choice.candidate.operation.name.includes(BALLPARK_HEIGHT)) {
+  if (best.choice && !takesHeightsOver(best.choice)) {
     const from = { source: source.compound!, operations: withHeights };
     return { ...best, choice: best.choice, operations: withHeights, from, substitute: false };
   }
@@ -266,6 +296,13 @@ async function chooseFor(
     from: { source: source.horizontal, operations: flat },
     substitute: isAboveGeoid(crs),
   };
+}
+
+/** Whether PROJ takes heights above a geoid for heights above the ellipsoid, for want of a grid or of an operation. */
+function takesHeightsOver({ candidate, leftOut }: Choice): boolean {
+  return (
+    candidate.operation.name.includes(BALLPARK_HEIGHT) || leftOut.some(({ kind }) => kind === "vertical")
+  );
 }
 
 function lackingIn(operations: readonly Operation[], chosen: Operation, substitute: boolean): Lacking[] {
@@ -285,7 +322,7 @@ function lackingIn(operations: readonly Operation[], chosen: Operation, substitu
 
 function notesFor(
   crs: Crs,
-  { candidate }: Choice,
+  { candidate, leftOut }: Choice,
   substitute: boolean,
   elsewhere: string | undefined,
   several: boolean,
@@ -296,6 +333,12 @@ function notesFor(
   if (candidate.operation.ballpark) {
     notes.push(
       "PROJ knows no shift of this datum for this place: expect errors of up to some hundred metres",
+    );
+  }
+  if (leftOut.length > 0) {
+    const names = leftOut.flatMap((part) => part.grids).join(", ");
+    notes.push(
+      `the coordinate system takes ${names} for optional, and PROJ does not have it: nothing is shifted in its place`,
     );
   }
   if (elsewhere) notes.push(elsewhere);

@@ -4,6 +4,7 @@ import type { CrsModel, HorizontalModel, VerticalModel } from "./model.js";
 import { readProjString } from "./proj-string.js";
 import { type Refusal, unknown, unsupported } from "./refusal.js";
 import { parseWkt } from "./tree.js";
+import { GRAD } from "./units.js";
 import { readWkt } from "./wkt.js";
 import { readVertical, VERTICAL } from "./wkt-vertical.js";
 
@@ -42,7 +43,7 @@ function readEpsgHorizontal(code: number, lookup: EpsgLookup | undefined): CrsMo
     );
   }
   const model = entry.wkt ? readWkt(parseWkt(entry.wkt)) : readProjString(required(entry.proj4, code));
-  const horizontal = ownShift(model.horizontal);
+  const horizontal = inGrads(code, ownShift(model.horizontal));
   if (entry.kind === "CRS-COMPOUNDCRS") return { ...model, name: entry.name, code, horizontal };
   const heightUnit = horizontal.heightUnit ?? thirdAxis(entry);
   return {
@@ -51,6 +52,16 @@ function readEpsgHorizontal(code: number, lookup: EpsgLookup | undefined): CrsMo
     code,
     horizontal: { ...horizontal, name: entry.name, code, heightUnit },
   };
+}
+
+/**
+ * Geographic systems of EPSG that count in grads (coordinate system 6403) and that tables have as PROJ strings alone, which
+ * cannot say so: NTF, Tananarive 1925, Voirol 1875 and Carthage, all from Paris.
+ */
+const IN_GRADS: ReadonlySet<number> = new Set([4807, 4810, 4811, 4816]);
+
+function inGrads(code: number, model: HorizontalModel): HorizontalModel {
+  return IN_GRADS.has(code) ? { ...model, unit: GRAD } : model;
 }
 
 /**

@@ -73,6 +73,8 @@ function heightReference(
     return { kind: threeDimensional ? "ellipsoidal" : "unknown" };
   }
   if (vertical.reference !== "geoid") return { kind: vertical.reference };
+  // Nothing is known of heights that are to be taken as they are.
+  if (isNullGrid(vertical.name)) return { kind: "unknown" };
   const geoid = { kind: "geoid", model: vertical.name } as const;
   return vertical.code === undefined ? geoid : { ...geoid, epsg: vertical.code };
 }
@@ -116,8 +118,13 @@ function findShift(model: HorizontalModel, lookup?: EpsgLookup): Shift {
   const { datum } = model;
   const webMercator = model.kind === "projected" && projectionOf(model) === WEB_MERCATOR;
   if (webMercator) return { datum: { operation: "none: Web Mercator stands on WGS 84", accuracy: 2 } };
-  if (datum.grid !== undefined) throw unsupported(`its datum shift needs the grid ${datum.grid}`);
   const known = findDatumShift(datum.name, datum.code);
+  const unshifted = datum.grid !== undefined && isNullGrid(datum.grid);
+  if (unshifted && !known?.towgs84.every((value) => value === 0)) {
+    return { datum: { operation: "none: the CRS says that its datum is not to be shifted", accuracy: null } };
+  }
+  if (datum.grid !== undefined && !unshifted)
+    throw unsupported(`its datum shift needs the grid ${datum.grid}`);
   if (known && (!datum.towgs84 || sameShift(datum.towgs84, known.towgs84))) {
     const code = known.operation === 0 ? "" : ` (EPSG:${known.operation})`;
     const operation = `${known.names[0]} to WGS 84${code}`;
@@ -151,6 +158,14 @@ function findShift(model: HorizontalModel, lookup?: EpsgLookup): Shift {
     `no shift from the datum "${datum.name}" to WGS 84 is known`,
     "give the coordinate reference system as a PROJ string with +towgs84, or as an EPSG code",
   );
+}
+
+/**
+ * Whether a list of grids is PROJ's way to say that nothing is shifted: the grid `null` covers the earth, and those after it
+ * are never taken.
+ */
+function isNullGrid(grids: string): boolean {
+  return /^@?null(,|$)/.test(grids.trim());
 }
 
 /** Equal parameters, three or seven of them: absent rotations and scale are zero. */

@@ -131,7 +131,7 @@ export function readProjString(text: string): CrsModel {
         name: known?.name ?? datum ?? NO_DATUM,
         figure: figure(keys, known?.ellps),
         towgs84: shift(keys) ?? known?.towgs84,
-        grid: keys.get("nadgrids") === "@null" ? undefined : keys.get("nadgrids"),
+        grid: keys.get("nadgrids"),
       },
       projection: kind === "projected" ? projectionText(projection, keys) : undefined,
     },

@@ -49,6 +49,40 @@ describe("traps of proj4js that are closed", () => {
     );
   });
 
+  it.each([
+    ["+proj=utm +zone=33 +datum=WGS84 +geoidgrids=@null", true],
+    ["+proj=utm +zone=33 +datum=WGS84 +geoidgrids=null", true],
+    ["+proj=utm +zone=33 +datum=WGS84 +geoidgrids=@null,egm96_15.gtx", true],
+    ["+proj=utm +zone=33 +datum=WGS84 +geoidgrids=egm96_15.gtx,null", false],
+    [
+      `COMPD_CS["a",${wkt1()},VERT_CS["b",VERT_DATUM["c",2005,EXTENSION["PROJ4_GRIDS","@null"]],${METRE}]]`,
+      true,
+    ],
+    [
+      `COMPD_CS["a",${wkt1()},VERT_CS["b",VERT_DATUM["c",2005,EXTENSION["PROJ4_GRIDS","a.gtx"]],${METRE}]]`,
+      false,
+    ],
+  ])("knows PROJ's geoid of nothing, heights as they are: %s", (text, none) => {
+    const { height } = read(text.startsWith("+") ? { given: text } : { wkt: text });
+    expect(height.kind).toBe(none ? "unknown" : "geoid");
+  });
+
+  it("knows PROJ's grid of nothing in place of a datum's shift, and not in place of the ensemble's accuracy", () => {
+    const NAD27 = `DATUM["North_American_Datum_1927",SPHEROID["Clarke 1866",6378206.4,294.978698213898],EXTENSION["PROJ4_GRIDS","@null"]]`;
+    const crs = read({ wkt: wkt1({ datum: NAD27 }) });
+    expect(crs.proj4).not.toContain("towgs84");
+    expect(crs.datum).toEqual({ operation: expect.stringMatching(/^none/), accuracy: null });
+    expect(read({ given: "+proj=utm +zone=33 +ellps=bessel +nadgrids=null" }).proj4).not.toContain("towgs84");
+    expect(read({ given: "+proj=utm +zone=33 +datum=WGS84 +nadgrids=@null" }).datum?.accuracy).toBe(2);
+    expect(refusal({ given: "+proj=utm +zone=33 +ellps=bessel +nadgrids=a.gsb" })).toMatch(
+      /needs the grid a.gsb/,
+    );
+  });
+
+  it.each([4807, 4810, 4811, 4816])("counts EPSG:%i in grads", (code) => {
+    expect(read({ given: `EPSG:${code}` }).horizontalUnit.size).toBeCloseTo(Math.PI / 200, 12);
+  });
+
   it("does not believe the rotations of an EPSG table: RD New has microradians there", () => {
     expect(lookup(28992)?.wkt).toContain("1.9342,-1.6677,9.1019");
     expect(read({ given: "EPSG:28992" }).proj4).toContain(

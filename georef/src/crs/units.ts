@@ -8,7 +8,7 @@ export const FOOT: Unit = { name: "foot", kind: "linear", size: 0.3048 };
 const US_SURVEY_FOOT: Unit = { name: "US survey foot", kind: "linear", size: 1200 / 3937 };
 export const DEGREE: Unit = { name: "degree", kind: "angular", size: Math.PI / 180 };
 export const RADIAN: Unit = { name: "radian", kind: "angular", size: 1 };
-const GRAD: Unit = { name: "grad", kind: "angular", size: Math.PI / 200 };
+export const GRAD: Unit = { name: "grad", kind: "angular", size: Math.PI / 200 };
 
 /** EPSG unit codes as they stand in GeoTIFF keys and in WKT. */
 const BY_CODE: ReadonlyMap<number, Unit> = new Map([

@@ -96,7 +96,7 @@ function readDatum(base: WktNode, bound: Bound): DatumModel {
   const node = child(base, "DATUM", "GEODETICDATUM", "TRF", "ENSEMBLE", "DATUMENSEMBLE");
   if (!node) throw unknown(`"${text(base, 1)}" has no datum`);
   const extension = children(node, "EXTENSION").find((item) => text(item, 1) === "PROJ4_GRIDS");
-  const grid = bound.grid ?? (extension && text(extension, 2) !== "@null" ? text(extension, 2) : undefined);
+  const grid = bound.grid ?? (extension && text(extension, 2));
   const shift = child(node, "TOWGS84")?.slice(1).map(Number);
   if (shift && !([3, 7].includes(shift.length) && shift.every(Number.isFinite))) {
     throw unknown(`TOWGS84 of "${text(node, 1)}" has not three or seven numbers`);

@@ -141,6 +141,7 @@ describe("a transformation derived for geographic coordinates", () => {
   it.each([
     [-90, 90, "EPSG:4326"],
     [89.99, 90, "EPSG:4326"],
+    [99.99, 100, "EPSG:4807"],
   ])(
     "from %d to %d of %s holds on the pole, and one step of integers around is no latitude",
     async (low, high, code) => {
