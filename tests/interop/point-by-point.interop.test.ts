@@ -46,6 +46,8 @@ describe.skipIf(missing)(
       ["EPSG:26707", 450_000, 6_900_000, 100_000, 100_000],
       // Sinai, Israel and Jordan.
       ["EPSG:23036", 550_000, 3_300_000, 250_000, 300_000],
+      // Six operations of ED50; one for the sea stands between them in PROJ's list.
+      ["EPSG:4230", -1.2, 42.8, 22.4, 14.4],
     ])("%s at %i, %i: every point lies where PROJ puts it", async (code, minX, minY, width, height) => {
       const domain = { minX, minY, minZ: 0, maxX: minX + width, maxY: minY + height, maxZ: 100 };
       const crs = { name: code, code, proj4: "", horizontalUnit: METRE, verticalUnit: METRE } as const;
@@ -72,9 +74,13 @@ describe.skipIf(missing)(
       expect(report.accuracy ?? 999).toBeGreaterThan(1);
       expect(report.notes.join()).toMatch(/points are placed by another operation, as PROJ does/);
     });
-    it("one operation of two with one name is taken everywhere: the one for the smaller area", async () => {
-      const code = "EPSG:4901";
-      const domain = { minX: 0, minY: 53, minZ: 0, maxX: 0.3, maxY: 53.3, maxZ: 100 };
+    it.each([
+      // Two operations with one name; that for the smaller area is taken.
+      ["EPSG:4901", 0, 53, 0.3],
+      // Where the first that PROJ proposes is for the sea.
+      ["EPSG:20255", 300_000, 6_679_000, 2_000],
+    ])("%s: the one operation that PROJ takes everywhere is taken", async (code, minX, minY, size) => {
+      const domain = { minX, minY, minZ: 0, maxX: minX + size, maxY: minY + size, maxZ: 100 };
       const crs = { name: code, code, proj4: "", horizontalUnit: METRE, verticalUnit: METRE } as const;
       const whole = { ...crs, height: { kind: "unknown" } } as const;
       const { transformation } = await projTransformation(proj!, whole, domain);

@@ -6,9 +6,10 @@ import {
   type Transformation,
 } from "@groma/georef";
 import { runPipeline } from "./cct.js";
-import { holds } from "./elsewhere.js";
+
 import type { Proj } from "./program/find.js";
 import type { StepText } from "./step-text.js";
+import { holds } from "./taken-areas.js";
 
 /** A pipeline of PROJ, and where it is taken; source units. */
 export interface CheckedWay {

@@ -1,10 +1,11 @@
-import { type AreaOfUse, type Domain, extentOf, GromaError, type Rectangle, spread } from "@groma/georef";
+import { type AreaOfUse, type Domain, GromaError, type Rectangle, spread } from "@groma/georef";
 import { type Candidate, tryOperation } from "./candidate.js";
 import { faultOf } from "./faulty.js";
 import { type DegreeBox, listOperations, type Operation, operationAreas } from "./operation.js";
 import type { Proj } from "./program/find.js";
 import type { CrsText } from "./source.js";
 import { rectanglesOf } from "./source-areas.js";
+import { holds, type Proposal, takenAreas } from "./taken-areas.js";
 
 /** An operation, and where PROJ takes it. */
 export interface TakenWay {
@@ -94,10 +95,10 @@ export async function pointByPoint(
   // Only those that never take the place of another ask for PROJ's own order.
   const listed = usable.some(isLast) ? await inOrder() : usable;
   const areasOfUse = await operationAreas(proj, source, { box, signal });
-  const list = ranked(listed, new Map(operations.map((operation, i) => [operation, areasOfUse[i]])));
+  const areaOf = new Map(operations.map((operation, i) => [operation, areasOfUse[i]]));
   const { plan, places: own } = candidate;
-  const rectangles = await rectanglesFor(list.map(({ area }) => area));
-  if (!rectangles) return undefined;
+  const proposals = await proposalsOf(listed, areaOf);
+  if (!proposals) return undefined;
   const points = spread(domain);
   const total = points.length / 3;
   // Points that no operation has placed as PROJ would, so far.
@@ -105,7 +106,7 @@ export async function pointByPoint(
   const ways: TakenWay[] = [];
   let farthest: Omit<Farthest, "share"> | undefined;
   let beyond = false;
-  for (const [rank, { operation }] of list.entries()) await take(operation, rectangles[rank]!);
+  for (const { operation, areas } of takenAreas(proposals, around(domain))) await take(operation, areas);
   // A point in no area goes by the first that needs no grid.
   if (open.size > 0) {
     for (const operation of await inOrder()) {
@@ -138,9 +139,20 @@ export async function pointByPoint(
     return true;
   }
 
-  async function rectanglesFor(areasOfUse: readonly AreaOfUse[]): Promise<Rectangle[][] | undefined> {
+  async function proposalsOf(
+    list: readonly Operation[],
+    areas: ReadonlyMap<Operation, AreaOfUse | undefined>,
+  ): Promise<Proposal[] | undefined> {
+    const known = list.flatMap((operation) => {
+      const area = areas.get(operation);
+      return area ? [{ operation, area }] : [];
+    });
     try {
-      return await rectanglesOf(proj, plan.pipeline.slice(0, plan.projection), areasOfUse, signal);
+      const projection = plan.pipeline.slice(0, plan.projection);
+      const rectangles = await rectanglesOf(
+        ...([proj, projection, known.map(({ area }) => area), signal] as const),
+      );
+      return known.map((one, i) => ({ ...one, areas: rectangles[i]! }));
     } catch (error) {
       // A projection that PROJ has no way back to: it cannot choose by area either.
       if (error instanceof GromaError && error.code === "PROJ_FAILED") return undefined;
@@ -165,50 +177,6 @@ export async function pointByPoint(
 export function around({ minX, minY, maxX, maxY }: Domain): Rectangle {
   const [width, height] = [maxX - minX + 1, maxY - minY + 1];
   return { minX: minX - width, minY: minY - height, maxX: maxX + width, maxY: maxY + height };
-}
-
-export function holds({ minX, minY, maxX, maxY }: Rectangle, x: number, y: number): boolean {
-  return x >= minX && x <= maxX && y >= minY && y <= maxY;
-}
-
-export interface Ranked {
-  readonly operation: Operation;
-  readonly area: AreaOfUse;
-}
-
-/**
- * In the order in which PROJ takes them for a point within. It goes through its list, which is the same for all places: the
- * first that is for a point gives way to a later one that is more accurate, or as accurate and for a smaller area that has a
- * name; never to one for the sea alone. Unknown accuracies are equal to each other, and give way to no other.
- *
- * @param list in the order for all places
- */
-export function ranked(
-  list: readonly Operation[],
-  areas: ReadonlyMap<Operation, AreaOfUse | undefined>,
-): Ranked[] {
-  const order: Ranked[] = [];
-  for (const operation of list) {
-    const area = areas.get(operation);
-    if (!area) continue;
-    const one = { operation, area };
-    let at = order.length;
-    while (at > 0 && goesBefore(one, order[at - 1]!)) at--;
-    order.splice(at, 0, one);
-  }
-  return order;
-}
-
-function goesBefore(later: Ranked, earlier: Ranked): boolean {
-  if (later.operation.area.includes("- offshore")) return false;
-  const [before, after] = [earlier, later].map(({ operation }) => operation.accuracy ?? -1);
-  if (after! >= 0 && after! < before!) return true;
-  if (after !== before || (isNameless(later.operation) && !isNameless(earlier.operation))) return false;
-  return extentOf(later.area) < extentOf(earlier.area);
-}
-
-function isNameless({ area }: Operation): boolean {
-  return area === "unknown domain of validity";
 }
 
 /** Whether PROJ's own order may matter for an operation: it never takes the place of some others, whatever its area. */
