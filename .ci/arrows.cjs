@@ -161,7 +161,9 @@ module.exports = {
       "errors",
       "every-view.ts",
     ]),
+    layer("webgl2", ["drawing", "effects", "workers", "errors"]),
     layer("openlayers", [
+      "webgl2",
       "tools",
       "drawing",
       "permalink",

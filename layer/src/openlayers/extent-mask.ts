@@ -1,8 +1,8 @@
 import type { PointShader } from "../effects/index.js";
-import type { GlObjects } from "./engine/gl-objects.js";
-import type { GlProgram } from "./engine/gl-program.js";
-import { GlUniforms } from "./engine/gl-uniforms.js";
-import { drawQuad, type PassTarget } from "./point-passes.js";
+import type { GlObjects } from "../webgl2/gl-objects.js";
+import type { GlProgram } from "../webgl2/gl-program.js";
+import { GlUniforms } from "../webgl2/gl-uniforms.js";
+import { drawQuad, type PassTarget } from "../webgl2/point-passes.js";
 
 /** Corners of an extent in CSS pixels from the upper left of the map, in order. */
 export type Corners = readonly (readonly number[])[];
@@ -32,17 +32,19 @@ void main() {
  * either where an application copies the canvases of a map for a print.
  */
 export class ExtentMask {
+  readonly #gl: WebGL2RenderingContext;
   readonly #program: GlProgram;
   readonly #values = new GlUniforms();
 
   constructor(objects: GlObjects) {
+    this.#gl = objects.gl;
     this.#program = objects.program(SHADER);
   }
 
-  draw(gl: WebGL2RenderingContext, target: PassTarget, corners: Corners, pixelRatio: number): void {
+  draw(target: PassTarget, corners: Corners, pixelRatio: number): void {
     this.#values.set({ u_sides: sidesOf(corners, pixelRatio, target.viewport[3]) });
     this.#program.use(this.#values);
-    drawQuad(gl, target);
+    drawQuad(this.#gl, target);
   }
 }
 

@@ -1,5 +1,6 @@
 import type { FrameCamera } from "../drawing/frame-camera.js";
 import type { NodeBounds } from "../octree/index.js";
+import type { FlatCamera } from "../webgl2/flat-camera.js";
 
 /** What a frame of a map shows. */
 export interface MapViewState {
@@ -26,24 +27,11 @@ export interface MapFrame {
 }
 
 /** A camera that looks straight down on a map, without perspective. */
-export interface MapCamera {
+export interface MapCamera extends FlatCamera {
   readonly frame: FrameCamera;
-  /** Pixels of the canvas. */
-  readonly width: number;
-  readonly height: number;
-  /** Nominal metres by which the worlds that show are moved to the east. */
-  readonly worlds: readonly number[];
-  /** Eye → clip, column-major. */
-  readonly projection: readonly number[];
   /** Distances of the near and far planes, metres. */
   readonly near: number;
   readonly far: number;
-  /**
-   * Node frame → eye, column-major: differences are formed in float64.
-   * @param origin of the node frame, nominal metres
-   * @param world one of {@link worlds}
-   */
-  modelView(origin: ArrayLike<number>, world: number): number[];
 }
 
 /** Metres between the camera and the highest point, and below the lowest. */
@@ -88,7 +76,7 @@ export function mapCamera({
     pose: () => `${center} ${resolution} ${rotation} ${size} ${pixelRatio}`,
   };
   return {
-    ...{ frame, width, height, worlds, near, far },
+    ...{ frame, width, height, pixelRatio, worlds, near, far },
     projection: [
       ...[1 / halfX, 0, 0, 0],
       ...[0, 1 / halfY, 0, 0],

@@ -1,4 +1,4 @@
-import { DrawError } from "../errors/index.js";
+import { contextOf } from "../webgl2/context.js";
 
 /** The element that a layer puts into a map: a canvas with a WebGL 2 context of its own. */
 export class MapCanvas {
@@ -25,14 +25,8 @@ export class MapCanvas {
    * @throws DrawError DRAW_WEBGL2 where the browser has no WebGL 2
    */
   get gl(): WebGL2RenderingContext | undefined {
-    this.#gl ??= this.canvas.getContext("webgl2", OPTIONS) ?? undefined;
-    if (this.#gl) return this.#gl.isContextLost() ? undefined : this.#gl;
-    throw new DrawError({
-      code: "DRAW_WEBGL2",
-      file: "map",
-      cause: "the browser gives no WebGL 2 context",
-      fix: "Use a browser with WebGL 2, and see that hardware acceleration is on",
-    });
+    this.#gl ??= contextOf(this.canvas, "map");
+    return this.#gl.isContextLost() ? undefined : this.#gl;
   }
 
   /** @param size CSS pixels */
@@ -59,13 +53,3 @@ export class MapCanvas {
 
   readonly #onRestored = (): void => this.#events.restored();
 }
-
-/** What was drawn stays until something else is drawn; colours are as they are, whatever the opacity. */
-const OPTIONS: WebGLContextAttributes = {
-  alpha: true,
-  antialias: false,
-  depth: true,
-  stencil: false,
-  premultipliedAlpha: false,
-  preserveDrawingBuffer: true,
-};

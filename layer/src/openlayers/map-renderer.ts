@@ -17,10 +17,10 @@ import { apply } from "ol/transform.js";
 import type { PointCloud, PointRecord } from "../cloud/index.js";
 import type { DrawnNode } from "../drawing/drawn-node.js";
 import { FrameFailures } from "../drawing/frame-failures.js";
+import type { GlView } from "../webgl2/node-drawable.js";
 import type { Corners } from "./extent-mask.js";
 import type { LayerDrawing } from "./layer-drawing.js";
 import { MapCanvas } from "./map-canvas.js";
-import type { MapView } from "./node-drawable.js";
 import { PlacedFrames } from "./placed-frames.js";
 import type { PointCloudSource } from "./point-cloud-source.js";
 import { projectionOfMap } from "./projections.js";
@@ -30,7 +30,7 @@ const PATIENCE = 50;
 
 /** A point that was found on the map. */
 interface Found {
-  readonly drawn: DrawnNode<MapView>;
+  readonly drawn: DrawnNode<GlView>;
   readonly index: number;
   /** Where it is drawn, in the world in which it was found, units of the projection. */
   readonly coordinate: readonly [number, number];

@@ -1,16 +1,17 @@
 import type { PlacedOctree, PointCloud } from "../cloud/index.js";
 import { type FrameReport, LayerFrames, type LayerSettings } from "../drawing/frame.js";
-import type { Corners } from "./extent-mask.js";
-import { LayerRenderer } from "./layer-renderer.js";
+import { LayerRenderer } from "../webgl2/layer-renderer.js";
+import type { GlView } from "../webgl2/node-drawable.js";
+import { type Corners, ExtentMask } from "./extent-mask.js";
 import { type MapFrame, mapCamera } from "./map-camera.js";
-import type { MapView } from "./node-drawable.js";
 
 /** The frames of a layer in one projection of a map, and what it has on the GPU for them. */
 export class PlacedFrames {
   readonly cloud: PointCloud;
   readonly octree: PlacedOctree;
-  readonly frames: LayerFrames<MapView>;
+  readonly frames: LayerFrames<GlView>;
   readonly renderer: LayerRenderer;
+  readonly #mask: ExtentMask;
   readonly #unsubscribe: () => void;
 
   /**
@@ -29,6 +30,7 @@ export class PlacedFrames {
     this.octree = octree;
     this.frames = new LayerFrames(cloud, owner, octree);
     this.renderer = new LayerRenderer(gl);
+    this.#mask = new ExtentMask(this.renderer.objects);
     this.#unsubscribe = octree.stream.subscribe({
       nodeLoaded: changed,
       nodeFailed: (_node, error) => {
@@ -49,7 +51,7 @@ export class PlacedFrames {
     if (!plane || !bounds) throw new TypeError("a map needs an octree in its plane");
     const camera = mapCamera({ ...frame, metresPerUnit: plane.metresPerUnit, bounds });
     return this.frames.draw(settings, camera.frame, () => {
-      this.renderer.begin(camera, extent);
+      this.renderer.begin(camera, extent && ((screen) => this.#mask.draw(screen, extent, camera.pixelRatio)));
       return this.renderer;
     });
   }

@@ -1,5 +1,5 @@
-import type { GlObjects } from "./engine/gl-objects.js";
-import type { GlFramebuffer, GlTexture, PictureFormat } from "./engine/gl-types.js";
+import type { GlObjects } from "./gl-objects.js";
+import type { GlFramebuffer, GlTexture, PictureFormat } from "./gl-types.js";
 import type { PassTarget } from "./point-passes.js";
 
 /** What can be drawn into, and its textures. */

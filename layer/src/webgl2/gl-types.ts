@@ -1,4 +1,4 @@
-import type { Destroyable, GpuBuffer, GpuTexture } from "../../drawing/gpu.js";
+import type { Destroyable, GpuBuffer, GpuTexture } from "../drawing/gpu.js";
 
 /** A buffer of WebGL 2. */
 export interface GlBuffer extends GpuBuffer {

@@ -7,9 +7,9 @@ import {
   NO_OBJECTS,
   type Texels,
   type VertexInput,
-} from "../../drawing/gpu.js";
-import { type PointShader, type ShaderTarget, WEBGL2 } from "../../effects/index.js";
-import type { ColumnData } from "../../workers/index.js";
+} from "../drawing/gpu.js";
+import { type PointShader, type ShaderTarget, WEBGL2 } from "../effects/index.js";
+import type { ColumnData } from "../workers/index.js";
 import { GlProgram } from "./gl-program.js";
 import type { GlBuffer, GlFramebuffer, GlTexture, GlVertexArray, PictureFormat } from "./gl-types.js";
 import { GlUniforms } from "./gl-uniforms.js";

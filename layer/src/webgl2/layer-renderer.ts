@@ -5,19 +5,18 @@ import { nearestId, windowPixels } from "../drawing/pick-window.js";
 import { quadProgramOf } from "../drawing/program-needs.js";
 import type { Program } from "../drawing/programs.js";
 import { type EffectPlan, type PointPass, passesOf } from "../effects/index.js";
-import { GlObjects, type GlTypes } from "./engine/gl-objects.js";
-import { GlUniforms } from "./engine/gl-uniforms.js";
-import { type Corners, ExtentMask } from "./extent-mask.js";
-import type { MapCamera } from "./map-camera.js";
-import { type MapView, NodeDrawable } from "./node-drawable.js";
+import type { FlatCamera } from "./flat-camera.js";
+import { GlObjects, type GlTypes } from "./gl-objects.js";
+import { GlUniforms } from "./gl-uniforms.js";
+import { type GlView, NodeDrawable } from "./node-drawable.js";
 import { Picture } from "./picture.js";
 import { clear, drawPoints, drawQuad, type PassTarget, placeNodes } from "./point-passes.js";
 
 const UNMEASURED: GpuMilliseconds = { points: undefined, picture: undefined };
 
 /** All that a layer has and does on the GPU, in a context of its own. */
-export class LayerRenderer implements Renderer<MapView> {
-  readonly content: LayerContent<MapView>;
+export class LayerRenderer implements Renderer<GlView> {
+  readonly content: LayerContent<GlView>;
   readonly blends: boolean;
   readonly silhouettes = undefined;
   readonly measuresGpu = false;
@@ -28,9 +27,8 @@ export class LayerRenderer implements Renderer<MapView> {
   readonly #view = new GlUniforms();
   readonly #picture: Picture;
   readonly #numbers: Picture;
-  readonly #mask: ExtentMask;
-  #camera: MapCamera | undefined;
-  #extent: Corners | undefined;
+  #camera: FlatCamera | undefined;
+  #finish: ((screen: PassTarget) => void) | undefined;
   /** Frames in which something was drawn, for tests and benches. */
   #drawn = 0;
 
@@ -41,8 +39,7 @@ export class LayerRenderer implements Renderer<MapView> {
     this.blends = float !== null;
     this.#picture = new Picture(this.objects);
     this.#numbers = new Picture(this.objects);
-    this.#mask = new ExtentMask(this.objects);
-    this.content = new LayerContent<MapView>(
+    this.content = new LayerContent<GlView>(
       this.objects,
       this.#view,
       (vertices) => new NodeDrawable(this.objects, vertices),
@@ -54,10 +51,13 @@ export class LayerRenderer implements Renderer<MapView> {
     return this.#drawn;
   }
 
-  /** What is drawn from now on is seen by this camera, as far as it lies within an extent. */
-  begin(camera: MapCamera, extent: Corners | undefined): void {
+  /**
+   * What is drawn from now on is seen by this camera.
+   * @param finish draws over it
+   */
+  begin(camera: FlatCamera, finish?: (screen: PassTarget) => void): void {
     this.#camera = camera;
-    this.#extent = extent;
+    this.#finish = finish;
   }
 
   draw(): void {
@@ -66,7 +66,7 @@ export class LayerRenderer implements Renderer<MapView> {
     this.#drawn++;
     const screen: PassTarget = { framebuffer: undefined, viewport: [0, 0, camera.width, camera.height] };
     this.#drawPoints(camera, screen);
-    if (this.#extent) this.#mask.draw(this.#gl, screen, this.#extent, camera.frame.pixelRatio);
+    this.#finish?.(screen);
   }
 
   probe(_asked: boolean, _request: ContentRequest): boolean {
@@ -90,7 +90,7 @@ export class LayerRenderer implements Renderer<MapView> {
     const { nodes } = this.content;
     const gl = this.#gl;
     if (!camera || nodes.length === 0 || gl.isContextLost()) return undefined;
-    const { pixelRatio } = camera.frame;
+    const { pixelRatio } = camera;
     const edge = windowPixels(window, pixelRatio);
     const reach = (edge - 1) / 2;
     const x = Math.floor(position.x * pixelRatio) - reach;
@@ -113,7 +113,7 @@ export class LayerRenderer implements Renderer<MapView> {
     const camera = this.#camera;
     const gl = this.#gl;
     if (!camera || gl.isContextLost()) return undefined;
-    const { pixelRatio } = camera.frame;
+    const { pixelRatio } = camera;
     const pixel = new Uint8Array(4);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     const y = camera.height - 1 - Math.floor(position.y * pixelRatio);
@@ -127,7 +127,7 @@ export class LayerRenderer implements Renderer<MapView> {
     this.objects.destroy();
   }
 
-  #drawPoints(camera: MapCamera, screen: PassTarget): void {
+  #drawPoints(camera: FlatCamera, screen: PassTarget): void {
     const gl = this.#gl;
     const { canvas } = gl;
     if (canvas.width !== camera.width || canvas.height !== camera.height) {
@@ -163,11 +163,11 @@ export class LayerRenderer implements Renderer<MapView> {
     drawQuad(gl, screen);
   }
 
-  #setView({ projection, frame }: MapCamera, width: number, height: number): void {
+  #setView({ projection, pixelRatio }: FlatCamera, width: number, height: number): void {
     this.#view.set({
       u_projection: projection,
       u_viewport: [0, 0, width, height],
-      u_pixelRatio: frame.pixelRatio,
+      u_pixelRatio: pixelRatio,
     });
   }
 

@@ -5,15 +5,15 @@ import type { UploadedNode } from "../drawing/node-uploads.js";
 import type { AttributeSet } from "../drawing/vertex-attributes.js";
 import { columnMajor } from "../effects/index.js";
 import type { NodeVertices } from "../workers/index.js";
-import type { GlTypes } from "./engine/gl-objects.js";
+import type { GlTypes } from "./gl-objects.js";
 
-/** What a map draws with. */
-export interface MapView extends GlTypes {
+/** What is drawn with. */
+export interface GlView extends GlTypes {
   readonly node: NodeDrawable;
 }
 
-/** A node as a frame shows it on a map. */
-export type MapNode = DrawnNode<MapView>;
+/** A node as a frame shows it. */
+export type GlNode = DrawnNode<GlView>;
 
 /** Places as they are: 3 rows of 4. */
 const STAYS = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
@@ -28,7 +28,7 @@ export class NodeDrawable extends NodeBuffers<GlTypes> implements UploadedNode {
     this.onGlobe = columnMajor(vertices.onGlobe?.fromMap ?? STAYS);
   }
 
-  /** From above, a height that all points are lifted by does not show. */
+  /** From above, a height that all points are lifted by does not show; sections show heights as they are recorded. */
   lift(): void {}
 
   /** Has its points drawn next, by a program that reads these attributes. */

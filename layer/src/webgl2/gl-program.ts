@@ -1,6 +1,6 @@
-import type { Destroyable } from "../../drawing/gpu.js";
-import type { PointShader, UniformDeclaration } from "../../effects/index.js";
-import { DrawError } from "../../errors/index.js";
+import type { Destroyable } from "../drawing/gpu.js";
+import type { PointShader, UniformDeclaration } from "../effects/index.js";
+import { DrawError } from "../errors/index.js";
 import type { GlTexture } from "./gl-types.js";
 import type { GlUniforms, GlValue } from "./gl-uniforms.js";
 

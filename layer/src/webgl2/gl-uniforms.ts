@@ -1,4 +1,4 @@
-import type { UniformNumbers, Uniforms } from "../../drawing/gpu.js";
+import type { UniformNumbers, Uniforms } from "../drawing/gpu.js";
 import type { GlTexture } from "./gl-types.js";
 
 /** What a uniform is set to. */

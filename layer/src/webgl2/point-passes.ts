@@ -2,10 +2,10 @@ import { byGroup } from "../drawing/drawn-node.js";
 import type { NodeGroup } from "../drawing/node-group.js";
 import type { Program } from "../drawing/programs.js";
 import { type EffectPlan, NODE_NUMBER, type PointPass } from "../effects/index.js";
-import type { GlTypes } from "./engine/gl-objects.js";
-import type { GlFramebuffer } from "./engine/gl-types.js";
-import type { MapCamera } from "./map-camera.js";
-import type { MapNode, MapView } from "./node-drawable.js";
+import type { FlatCamera } from "./flat-camera.js";
+import type { GlTypes } from "./gl-objects.js";
+import type { GlFramebuffer } from "./gl-types.js";
+import type { GlNode, GlView } from "./node-drawable.js";
 
 /** What is drawn into, in pixels: the canvas, or a picture of the layer's own. */
 export interface PassTarget {
@@ -25,8 +25,8 @@ export function clear(gl: WebGL2RenderingContext, target: PassTarget, depth: boo
   gl.clear(depth ? gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT : gl.COLOR_BUFFER_BIT);
 }
 
-/** Has the nodes seen by a camera, once for each world of the map that shows, in whatever is drawn of them next. */
-export function placeNodes(groups: readonly NodeGroup<MapView>[], { worlds, modelView }: MapCamera): void {
+/** Has the nodes seen by a camera, once for each world that shows, in whatever is drawn of them next. */
+export function placeNodes(groups: readonly NodeGroup<GlView>[], { worlds, modelView }: FlatCamera): void {
   for (const group of groups) {
     group.place(worlds.length, ({ uploaded: { vertices, onGlobe } }, copy) => ({
       u_modelView: modelView(vertices.frame.origin, worlds[copy]),
@@ -39,14 +39,14 @@ export function placeNodes(groups: readonly NodeGroup<MapView>[], { worlds, mode
 export function drawPoints(
   gl: WebGL2RenderingContext,
   pass: PointPass,
-  nodes: Iterable<MapNode>,
-  camera: MapCamera,
+  nodes: Iterable<GlNode>,
+  camera: FlatCamera,
   target: PassTarget,
   programOf: (plan: EffectPlan) => Program<GlTypes>,
 ): void {
   bind(gl, target);
   setState(gl, pass);
-  for (const [group, members] of byGroup<MapView>(nodes)) {
+  for (const [group, members] of byGroup<GlView>(nodes)) {
     const { program, reads } = programOf(group.plan);
     program.use(group.uniforms);
     for (const { uploaded, row, count } of members) {
