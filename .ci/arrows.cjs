@@ -162,6 +162,9 @@ module.exports = {
       "every-view.ts",
     ]),
     layer("webgl2", ["drawing", "effects", "workers", "errors"]),
+    layer("plot", [
+      ...["tools", "webgl2", "drawing", "effects", "cloud", "octree", "workers", "every-view.ts"],
+    ]),
     layer("openlayers", [
       "webgl2",
       "tools",

@@ -37,9 +37,17 @@ const groupOf = new Map(
 const app = await Application.bootstrap(
   {
     name: "Groma",
-    entryPoints: ["index.ts", "cesium", "openlayers", "link", "tools", "query", "export", "sources"].map(
-      (entry) => join(root, "layer/src", entry.endsWith(".ts") ? entry : `${entry}/index.ts`),
-    ),
+    entryPoints: [
+      "index.ts",
+      "cesium",
+      "openlayers",
+      "link",
+      "tools",
+      "plot",
+      "query",
+      "export",
+      "sources",
+    ].map((entry) => join(root, "layer/src", entry.endsWith(".ts") ? entry : `${entry}/index.ts`)),
     tsconfig: join(root, "layer/tsconfig.json"),
     out: join(import.meta.dirname, "dist"),
     emit: process.argv.includes("--check") ? "none" : "docs",

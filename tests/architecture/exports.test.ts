@@ -4,9 +4,14 @@ import { describe, expect, it } from "vitest";
 import { projectRoot } from "../project.js";
 
 /** What applications import. */
-const ENTRIES = ["index.ts", "cesium/index.ts", "openlayers/index.ts", "link/index.ts", "tools/index.ts"].map(
-  (entry) => `layer/src/${entry}`,
-);
+const ENTRIES = [
+  "index.ts",
+  "cesium/index.ts",
+  "openlayers/index.ts",
+  "link/index.ts",
+  "tools/index.ts",
+  "plot/index.ts",
+].map((entry) => `layer/src/${entry}`);
 const OURS = /\/(georef|layer)\/(src|dist)\//;
 
 /**

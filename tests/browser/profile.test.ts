@@ -210,8 +210,7 @@ async function pixelOfPlottedPoint(page: Page): Promise<{ x: number; y: number; 
         if (away < found.away) found = { x, y, chainage: chainage[index]!, away };
       }
     }
-    // Margins of the axes.
-    return { x: box.left + 64 + found.x, y: box.top + 8 + found.y, chainage: found.chainage };
+    return { x: box.left + found.x, y: box.top + found.y, chainage: found.chainage };
   });
 }
 

@@ -61,7 +61,7 @@ export class Comparison {
   /** Reads the second cloud along a line. @throws as `Profile` and its points do */
   async read(
     options: ProfileOptions,
-    add: (points: ProfilePoints) => void,
+    add: (points: ProfilePoints, cloud: PointCloud) => void,
     signal: AbortSignal,
   ): Promise<void> {
     this.#parts = [];
@@ -69,7 +69,7 @@ export class Comparison {
     setText(this.#words, `reading ${this.#cloud.name}…`);
     for await (const points of new Profile(this.#cloud, options).points({ signal })) {
       this.#parts.push(points);
-      add(points);
+      add(points, this.#cloud);
     }
   }
 

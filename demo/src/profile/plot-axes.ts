@@ -3,8 +3,8 @@ import { axisBottom, axisLeft } from "d3-axis";
 import { scaleLinear } from "d3-scale";
 import { select } from "d3-selection";
 
-/** Room for the axes, CSS pixels. */
-export const MARGIN = { left: 64, right: 12, top: 8, bottom: 36 } as const;
+/** Room for the axes, CSS pixels; `style.css` leaves it around the canvas. */
+const MARGIN = { left: 64, right: 12, top: 8, bottom: 36 } as const;
 
 /** What is drawn over the points. */
 export interface PlotOverlay {

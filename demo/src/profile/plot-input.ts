@@ -32,14 +32,10 @@ const ARROWS: ReadonlyMap<string, readonly [number, number]> = new Map([
  * click fits. Keys: arrows move a crosshair, and beyond the edge the plot; + and - zoom, 0 fits, 1 shows true angles, Enter is a
  * click at the crosshair, Escape takes it away.
  */
-export function watchPlot(
-  root: HTMLElement,
-  margin: { readonly left: number; readonly top: number },
-  actions: PlotActions,
-): void {
+export function watchPlot(root: HTMLElement, actions: PlotActions): void {
   const at = ({ clientX, clientY }: MouseEvent) => {
     const { left, top } = root.getBoundingClientRect();
-    return [clientX - left - margin.left, clientY - top - margin.top] as const;
+    return [clientX - left, clientY - top] as const;
   };
   let down: { x: number; y: number; moved: boolean } | undefined;
   root.addEventListener("pointerdown", (event) => {

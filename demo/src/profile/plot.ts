@@ -1,3 +1,5 @@
+import type { PointCloud } from "@groma/layer/cesium";
+import { type PlotDrawing, PlotPicture, type PlotSeries } from "@groma/layer/plot";
 import {
   type PlotAxes,
   PlotIndex,
@@ -7,16 +9,11 @@ import {
   type ProfilePoints,
   type TerrainStation,
 } from "@groma/layer/tools";
-import { drawAxes, MARGIN } from "./plot-axes.js";
-import { PlotCanvas } from "./plot-canvas.js";
+import { drawAxes } from "./plot-axes.js";
 import { watchPlot } from "./plot-input.js";
-import { coloursOf, type PointColours } from "./point-colours.js";
 
 /** Pixels around the pointer in which a point counts as hit. */
 const REACH = 10;
-
-/** Colour of the points of a second cloud. */
-const SECOND: PointColours = { by: "second", bits: 16 };
 
 /** Words of the axes. */
 export interface AxisWords {
@@ -37,15 +34,14 @@ export interface PlotEvents {
 /** Chainage against height of the points of one profile: seen, moved, pointed at. */
 export class ProfilePlot {
   readonly view = new PlotView(1, 1);
-  readonly #canvas: PlotCanvas;
+  readonly #picture: PlotPicture;
   readonly #root: HTMLCanvasElement;
   readonly #axes: SVGSVGElement;
   readonly #events: PlotEvents;
   readonly #index = new PlotIndex<ProfilePoints>();
   readonly #parts: ProfilePoints[] = [];
-  /** Points in the order in which they came; of a second cloud those without colours of their own. */
-  readonly #drawn: { readonly points: ProfilePoints; readonly second: boolean }[] = [];
-  #colours: PointColours = { by: "rgb", bits: 16 };
+  #first: PlotSeries | undefined;
+  #second: PlotSeries | undefined;
   #words: AxisWords = { along: "chainage (m)", up: "height (m)" };
   #from = 0;
   #length = 1;
@@ -59,14 +55,14 @@ export class ProfilePlot {
   #crosshair: readonly [number, number] | undefined;
   #frame = 0;
 
-  /** @throws Error where the browser gives no WebGL 2 */
+  /** @throws DrawError DRAW_WEBGL2 */
   constructor(canvas: HTMLCanvasElement, axes: SVGSVGElement, events: PlotEvents) {
-    this.#canvas = new PlotCanvas(canvas);
+    this.#picture = new PlotPicture(canvas, () => this.#ask());
     this.#root = canvas;
     this.#axes = axes;
     this.#events = events;
     new ResizeObserver(() => this.#ask()).observe(canvas);
-    watchPlot(canvas, MARGIN, {
+    watchPlot(canvas, {
       pan: (right, down) => this.#change(() => this.view.panBy(right, down)),
       zoom: (x, y, factor, which) => this.zoom(factor, x, y, which),
       hover: (x, y) => this.#point(x, y),
@@ -93,13 +89,19 @@ export class ProfilePlot {
     return this.#parts;
   }
 
-  /** Begins another profile. @param from chainage of its start, metres @param length of its line, metres */
-  clear(from: number, length: number, words: AxisWords, colours: PointColours): void {
-    this.#canvas.clear();
+  /**
+   * Begins another profile.
+   * @param from chainage of its start, metres
+   * @param length of its line, metres
+   * @param cloud whose points come; undefined: none do
+   */
+  clear(from: number, length: number, words: AxisWords, cloud?: PointCloud, drawing?: PlotDrawing): void {
+    for (const series of [this.#first, this.#second]) if (series) this.#picture.remove(series);
+    this.#first = cloud && drawing && this.#picture.addSeries(cloud, drawing);
+    this.#second = undefined;
     this.#index.clear();
     this.#parts.length = 0;
-    this.#drawn.length = 0;
-    [this.#from, this.#length, this.#words, this.#colours] = [from, length, words, colours];
+    [this.#from, this.#length, this.#words] = [from, length, words];
     this.#least = Number.POSITIVE_INFINITY;
     this.#greatest = Number.NEGATIVE_INFINITY;
     this.#ground = [];
@@ -109,27 +111,32 @@ export class ProfilePlot {
     this.fit();
   }
 
-  /** @param second whether they are those of a second cloud, which have one colour and are not pointed at */
-  add(points: ProfilePoints, second = false): void {
-    for (const height of points.height) {
+  /** Takes points of the profile. */
+  add(points: ProfilePoints): void {
+    this.#first?.add(points);
+    this.#index.add(points);
+    this.#parts.push(points);
+    this.#reach(points);
+  }
+
+  /** Takes points of a second cloud, which are not pointed at. */
+  addSecond(points: ProfilePoints, cloud: PointCloud, drawing: PlotDrawing): void {
+    this.#second ??= this.#picture.addSeries(cloud, drawing);
+    this.#second.add(points);
+    this.#reach(points);
+  }
+
+  #reach({ height: heights }: ProfilePoints): void {
+    for (const height of heights) {
       if (height < this.#least) this.#least = height;
       if (height > this.#greatest) this.#greatest = height;
     }
-    this.#canvas.add(points, coloursOf(points, second ? SECOND : this.#colours));
-    this.#drawn.push({ points, second });
-    if (!second) {
-      this.#index.add(points);
-      this.#parts.push(points);
-    }
     if (this.view.isFitted) this.fit();
-    this.#ask();
   }
 
-  set colours(colours: PointColours) {
-    this.#colours = colours;
-    for (const [part, { points, second }] of this.#drawn.entries())
-      if (!second) this.#canvas.recolour(part, coloursOf(points, colours));
-    this.#ask();
+  /** How the points are drawn from now on. */
+  set drawing(drawing: PlotDrawing) {
+    if (this.#first) this.#first.drawing = drawing;
   }
 
   /** The ground of a second cloud. */
@@ -175,9 +182,13 @@ export class ProfilePlot {
     this.#ask();
   }
 
+  #nearest(x: number, y: number): PlottedPoint<ProfilePoints> | undefined {
+    const shows = (points: ProfilePoints, index: number) => this.#first?.shows(points, index) ?? false;
+    return this.#index.nearest(this.view, x, y, REACH, shows);
+  }
+
   #point(x: number | undefined, y: number | undefined): void {
-    const found =
-      x === undefined || y === undefined ? undefined : this.#index.nearest(this.view, x, y, REACH);
+    const found = x === undefined || y === undefined ? undefined : this.#nearest(x, y);
     if (found?.points === this.#hover?.points && found?.index === this.#hover?.index) return;
     this.#hover = found;
     this.#events.hovered(found);
@@ -185,7 +196,7 @@ export class ProfilePlot {
   }
 
   #click(x: number, y: number): void {
-    const found = this.#index.nearest(this.view, x, y, REACH);
+    const found = this.#nearest(x, y);
     this.#events.clicked(found ? placeOf(found) : this.view.placeOf(x, y), found);
   }
 
@@ -197,14 +208,13 @@ export class ProfilePlot {
   }
 
   #measure(): void {
-    const { clientWidth, clientHeight } = this.#root;
-    this.view.resize(clientWidth - MARGIN.left - MARGIN.right, clientHeight - MARGIN.top - MARGIN.bottom);
+    this.view.resize(this.#root.clientWidth, this.#root.clientHeight);
   }
 
   #draw(): void {
     if (this.#root.clientWidth === 0 || this.#root.clientHeight === 0) return;
     this.#measure();
-    this.#canvas.draw(this.view, MARGIN.left, MARGIN.bottom);
+    if (!this.#picture.draw(this.view)) this.#ask();
     drawAxes(this.#axes, this.view, {
       along: `${this.#words.along}, heights × ${this.view.exaggeration.toPrecision(3)}`,
       ...{ up: this.#words.up, ground: this.#ground, secondGround: this.#secondGround },

@@ -19,7 +19,7 @@ import { CutClips } from "./cut-clips.js";
 import { groundTable } from "./ground-table.js";
 import { LineTools } from "./line-tools.js";
 import { ProfilePlot, placeOf } from "./plot.js";
-import type { PointColours } from "./point-colours.js";
+import { PlotStyle } from "./plot-style.js";
 import { FORMATS, writeProfile } from "./profile-files.js";
 import { type GroundChoice, groundOf, intervalFor } from "./profile-ground.js";
 import { type DrawnLine, ProfileLines } from "./profile-lines.js";
@@ -62,7 +62,7 @@ export class ProfilePanel {
   readonly #format = byId("profile-format", HTMLSelectElement);
   readonly #export = byId("profile-export", HTMLButtonElement);
   readonly #stretch = byId("profile-stretch", HTMLInputElement);
-  readonly #colour = byId("profile-colour", HTMLSelectElement);
+  readonly #style: PlotStyle;
   readonly #groundBy = byId("profile-ground", HTMLSelectElement);
   readonly #groundClass = byId("profile-ground-class", HTMLInputElement);
   readonly #measure = byId("profile-measure", HTMLButtonElement);
@@ -86,6 +86,9 @@ export class ProfilePanel {
     this.#cut = new CutClips(layer);
     this.#clearance = new ClearanceWords(() => void this.#groundAnew());
     this.#mark = new PlaceMark(viewer);
+    this.#style = new PlotStyle(viewer, layer, (drawing) => {
+      if (this.#plot && !this.#panel.hidden) this.#plot.drawing = drawing;
+    });
     this.#outline = new StripOutline(viewer, layer, (width) => {
       this.#width.value = String(Number(width.toPrecision(3)));
       void this.#read();
@@ -145,9 +148,6 @@ export class ProfilePanel {
     on(byId("profile-true", HTMLButtonElement), "click", () => this.#plot?.stretch(1));
     on(this.#stretch, "change", () => {
       if (this.#stretch.valueAsNumber > 0) this.#plot?.stretch(this.#stretch.valueAsNumber);
-    });
-    on(this.#colour, "change", () => {
-      if (this.#plot) this.#plot.colours = this.#colours();
     });
     for (const field of [this.#groundBy, this.#groundClass, this.#tableShown])
       on(field, "change", () => void this.#groundAnew());
@@ -213,7 +213,8 @@ export class ProfilePanel {
   }
 
   #clearPicture(from: number, length: number): ProfilePlot {
-    const crs = this.#layer()?.cloud.crs;
+    const layer = this.#layer();
+    const crs = layer?.cloud.crs;
     const height = crs?.height.kind === "geoid" ? `, ${crs.height.model}` : "";
     const ellipsoid = crs?.height.kind === "ellipsoidal" ? ", above the ellipsoid" : "";
     const plot = this.#picture();
@@ -221,21 +222,13 @@ export class ProfilePanel {
       from,
       length,
       { along: "chainage (m)", up: `height (m${height}${ellipsoid})` },
-      this.#colours(),
+      layer?.cloud,
+      layer && this.#style.of(layer),
     );
     this.#measured = [];
     this.#ground = [];
     this.#table.replaceChildren();
     return plot;
-  }
-
-  #colours(): PointColours {
-    const layer = this.#layer();
-    const classes = new Map(
-      Object.entries(layer?.style.classes ?? {}).map(([code, one]) => [Number(code), one.color]),
-    );
-    const bits = layer?.cloud.statistics?.rgbBits === 8 ? 8 : 16;
-    return { by: this.#colour.value as PointColours["by"], bits, classes };
   }
 
   async #read(): Promise<void> {
@@ -264,7 +257,11 @@ export class ProfilePanel {
       }
       const whole = complete ? "complete" : "the coarser levels; the export has all points";
       setText(this.#status, `${told(profile, plot.count)}, ${whole}`);
-      await this.#comparison.read(cut, (points) => plot.add(points, true), signal);
+      await this.#comparison.read(
+        cut,
+        (points, cloud) => plot.addSecond(points, cloud, this.#style.ofSecond(layer)),
+        signal,
+      );
       await this.#groundAnew();
     } catch (thrown) {
       if (!signal.aborted) this.#events.failed(thrown);

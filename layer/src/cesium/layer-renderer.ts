@@ -1,8 +1,8 @@
 import { type Camera, Matrix4 } from "cesium";
 import type { PickOptions } from "../drawing/drawing-options.js";
 import { pointOf } from "../drawing/drawn-node.js";
-import type { GpuMilliseconds, LayerRenderer as Renderer } from "../drawing/frame.js";
-import { type ContentRequest, LayerContent } from "../drawing/layer-content.js";
+import type { GpuMilliseconds, ProbeRequest, LayerRenderer as Renderer } from "../drawing/frame.js";
+import { LayerContent } from "../drawing/layer-content.js";
 import { bufferPixel, nearestId, type Size, windowPixels } from "../drawing/pick-window.js";
 import { numberProgramsOf } from "../drawing/program-needs.js";
 import { type ProbedFrame, type Relief, SilhouetteProbe } from "../drawing/silhouette-probe.js";
@@ -76,7 +76,7 @@ export class LayerRenderer implements Renderer<CesiumView> {
     frameState?.commandList.push(...this.#drawing.draw(frameState, this.content));
   }
 
-  probe(asked: boolean, { allowance, facts, clips, depth }: ContentRequest): boolean {
+  probe(asked: boolean, { allowance, plan: wanted, clips, depth }: ProbeRequest): boolean {
     const frameState = this.#frameState;
     const { material, nodes, programs, heightOffset } = this.content;
     if (!asked || !material || !frameState || nodes.length === 0) {
@@ -85,7 +85,14 @@ export class LayerRenderer implements Renderer<CesiumView> {
     }
     const { plan, style } = material;
     if (!programs.prepare(numberProgramsOf(plan, depth), allowance)) return true;
-    const by = [...cameraNumbers(frameState.camera), heightOffset, plan.key, style, facts.filter, clips.held];
+    const by = [
+      ...cameraNumbers(frameState.camera),
+      heightOffset,
+      plan.key,
+      style,
+      wanted.scene.facts.filter,
+      clips.held,
+    ];
     return this.#probe.follow(this.#probedFrame(frameState, by));
   }
 

@@ -1,10 +1,10 @@
 import { BoundingSphere, Cartesian3, Matrix4 } from "cesium";
 import type { DrawnNode } from "../drawing/drawn-node.js";
+import type { DrawnVertices } from "../drawing/drawn-vertices.js";
 import type { Gpu } from "../drawing/gpu.js";
 import { NodeBuffers } from "../drawing/node-buffers.js";
 import type { UploadedNode } from "../drawing/node-uploads.js";
 import type { AttributeSet } from "../drawing/vertex-attributes.js";
-import type { NodeVertices } from "../workers/index.js";
 import type { VertexArray } from "./engine/cesium-private.js";
 import type { CesiumTypes } from "./engine/gpu-objects.js";
 
@@ -21,7 +21,7 @@ export class NodeDrawable extends NodeBuffers<CesiumTypes> implements UploadedNo
   #place: ReturnType<typeof placeOf>;
 
   /** @param heightOffset metres above its place at which it is drawn */
-  constructor(gpu: Gpu<CesiumTypes>, vertices: NodeVertices, heightOffset: number) {
+  constructor(gpu: Gpu<CesiumTypes>, vertices: DrawnVertices, heightOffset: number) {
     super(gpu, vertices);
     this.#place = placeOf(vertices, heightOffset);
   }
@@ -47,7 +47,7 @@ export class NodeDrawable extends NodeBuffers<CesiumTypes> implements UploadedNo
 }
 
 /** Where a node is drawn: so many metres above its place, along its own up. */
-function placeOf(node: Pick<NodeVertices, "frame" | "box">, heightOffset: number) {
+function placeOf(node: Pick<DrawnVertices, "frame" | "box">, heightOffset: number) {
   const modelMatrix = matrixOf(node, heightOffset);
   return { modelMatrix, sphere: sphereOf(node, modelMatrix) };
 }
@@ -57,7 +57,7 @@ function placeOf(node: Pick<NodeVertices, "frame" | "box">, heightOffset: number
  * @param heightOffset metres along the frame's up that are added, for looks only
  */
 export function matrixOf(
-  { frame: { rotation, origin } }: Pick<NodeVertices, "frame">,
+  { frame: { rotation, origin } }: Pick<DrawnVertices, "frame">,
   heightOffset = 0,
 ): Matrix4 {
   const [ex, ey, ez, nx, ny, nz, ux, uy, uz] = rotation;
@@ -71,7 +71,7 @@ export function matrixOf(
 }
 
 /** Sphere around a node's box, ECEF, metres: what Cesium culls by and fits its near and far planes to. */
-function sphereOf({ box }: Pick<NodeVertices, "box">, modelMatrix: Matrix4): BoundingSphere {
+function sphereOf({ box }: Pick<DrawnVertices, "box">, modelMatrix: Matrix4): BoundingSphere {
   const [minX, minY, minZ, maxX, maxY, maxZ] = box;
   const centre = new Cartesian3((minX + maxX) / 2, (minY + maxY) / 2, (minZ + maxZ) / 2);
   const radius = Math.hypot(maxX - minX, maxY - minY, maxZ - minZ) / 2;

@@ -218,9 +218,14 @@ export class PointCloud implements PointOrigin {
     return this.#warnings;
   }
 
+  /** What all nodes have in common, as far as it is known by now. @internal */
+  get appearance(): Appearance | undefined {
+    return this.globe.loader.appearance ?? this.maps.appearance;
+  }
+
   /** The attributes of the points, with their ranges as far as they are known. */
   get attributes(): readonly AttributeInfo[] {
-    const appearance = this.globe.loader.appearance ?? this.maps.appearance;
+    const { appearance } = this;
     if (this.#attributes?.appearance !== appearance || !this.#attributes) {
       this.#attributes = { appearance, list: this.#listAttributes(appearance) };
     }

@@ -1,6 +1,6 @@
 import type { ClipSet, ClipVolumes, NodeClips, SourceSpace, Steps } from "../clips/index.js";
 import type { NodeBounds } from "../octree/index.js";
-import type { NodeVertices } from "../workers/index.js";
+import type { DrawnVertices } from "./drawn-vertices.js";
 import type { FrameAllowance } from "./frame-allowance.js";
 
 const WHOLE: NodeClips = { state: "in", count: 0, texels: [] };
@@ -13,7 +13,7 @@ interface Answers {
   readonly revision: number;
   /** Undefined: everything stays. */
   readonly volumes: ClipVolumes | undefined;
-  readonly nodes: WeakMap<NodeVertices, NodeClips>;
+  readonly nodes: WeakMap<DrawnVertices, NodeClips>;
 }
 
 /**
@@ -33,7 +33,7 @@ export class ClipAnswers {
     | undefined;
   /** The node that is being held against volumes, which several frames may take. */
   #forming:
-    | { readonly answers: Answers; readonly node: NodeVertices; readonly steps: Steps<NodeClips> }
+    | { readonly answers: Answers; readonly node: DrawnVertices; readonly steps: Steps<NodeClips> }
     | undefined;
   /**
    * Answers to a traversal, which asks about the same spheres in every frame; outdated ones do for some frames. Volumes go
@@ -114,7 +114,7 @@ export class ClipAnswers {
   }
 
   /** What is left of a node by the volumes that hold; undefined where it has to wait. */
-  of(node: NodeVertices): NodeClips | undefined {
+  of(node: DrawnVertices): NodeClips | undefined {
     if (!this.#now) return undefined;
     return this.#now.volumes ? this.#now.nodes.get(node) : WHOLE;
   }
@@ -123,7 +123,7 @@ export class ClipAnswers {
    * Holds volumes against nodes, as far as the frame allows: those that hold, then those that are to hold next.
    * @returns nodes that have to wait
    */
-  form(nodes: readonly NodeVertices[], allowance: FrameAllowance): number {
+  form(nodes: readonly DrawnVertices[], allowance: FrameAllowance): number {
     return this.#answer(this.#now, nodes, allowance) || this.#answer(this.#next, nodes, allowance);
   }
 
@@ -188,7 +188,7 @@ export class ClipAnswers {
     }
   }
 
-  #answer(answers: Answers | undefined, nodes: readonly NodeVertices[], allowance: FrameAllowance): number {
+  #answer(answers: Answers | undefined, nodes: readonly DrawnVertices[], allowance: FrameAllowance): number {
     if (!answers?.volumes) return 0;
     const open = nodes.filter((node) => !answers.nodes.has(node));
     // What was begun is finished first, whatever the order is now.
@@ -199,7 +199,7 @@ export class ClipAnswers {
   }
 
   /** @returns whether it is done */
-  #form(answers: Answers, node: NodeVertices, allowance: FrameAllowance): boolean {
+  #form(answers: Answers, node: DrawnVertices, allowance: FrameAllowance): boolean {
     try {
       return this.#formInSteps(answers, node, allowance);
     } catch (thrown) {
@@ -216,7 +216,7 @@ export class ClipAnswers {
     }
   }
 
-  #formInSteps(answers: Answers, node: NodeVertices, allowance: FrameAllowance): boolean {
+  #formInSteps(answers: Answers, node: DrawnVertices, allowance: FrameAllowance): boolean {
     while (allowance.grants()) {
       if (this.#forming?.answers !== answers || this.#forming.node !== node) {
         this.#forming = { answers, node, steps: answers.volumes!.forNodeInSteps(node.onGlobe ?? node) };

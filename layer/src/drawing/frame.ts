@@ -43,6 +43,11 @@ export interface GpuMilliseconds {
   readonly picture: number | undefined;
 }
 
+/** What silhouettes are measured by. */
+export interface ProbeRequest extends Pick<ContentRequest, "plan" | "depth" | "allowance"> {
+  readonly clips: Pick<ClipAnswers, "held">;
+}
+
 /** What draws a layer in one context of a view. */
 export interface LayerRenderer<V extends ViewTypes> {
   readonly content: LayerContent<V>;
@@ -59,7 +64,7 @@ export interface LayerRenderer<V extends ViewTypes> {
    * Measures the silhouettes of the frame that was just drawn, or no more.
    * @returns whether an answer is awaited
    */
-  probe(asked: boolean, request: ContentRequest): boolean;
+  probe(asked: boolean, request: ProbeRequest): boolean;
 }
 
 /** What a view tells its users of a frame. */
@@ -168,8 +173,8 @@ export class LayerFrames<V extends ViewTypes> {
     const plan = this.#plan(style, facts, forced);
     if (this.#isFirst("plan")) return "unfinished";
     const request = {
-      ...{ selection, octree: this.#octree, plan, style, facts, clips, allowance },
-      depth: camera.depth,
+      ...{ selection, plan, clips, allowance, depth: camera.depth },
+      vertices: (node: OctreeNode) => stream.vertices(node),
     };
     const { content } = renderer;
     const waiting = content.prepare(request);

@@ -1,16 +1,8 @@
-import type { PlacedOctree } from "../cloud/index.js";
-import {
-  type EffectPlan,
-  nodeUniforms,
-  type PointCloudStyle,
-  type SceneFacts,
-  widestPoint,
-  withoutClips,
-} from "../effects/index.js";
+import { type EffectPlan, nodeUniforms, widestPoint, withoutClips } from "../effects/index.js";
 import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
-import type { NodeVertices } from "../workers/index.js";
 import type { ClipAnswers } from "./clip-answers.js";
 import type { DrawnNode, ViewTypes } from "./drawn-node.js";
+import type { DrawnVertices } from "./drawn-vertices.js";
 import type { FrameAllowance } from "./frame-allowance.js";
 import type { Gpu } from "./gpu.js";
 import type { Material } from "./material.js";
@@ -23,13 +15,11 @@ import type { AttributeSet } from "./vertex-attributes.js";
 
 /** What a frame is to show. */
 export interface ContentRequest {
-  readonly selection: Selection;
-  /** As it lies in the view. */
-  readonly octree: PlacedOctree;
+  readonly selection: Pick<Selection, "nodes" | "counts">;
+  /** What is here of a node. */
+  readonly vertices: (node: OctreeNode) => DrawnVertices | undefined;
   readonly plan: EffectPlan;
-  readonly style: PointCloudStyle;
-  readonly facts: SceneFacts;
-  readonly clips: ClipAnswers;
+  readonly clips: Pick<ClipAnswers, "form" | "of" | "advance">;
   readonly depth: LogarithmicDepth;
   /** What of it may be prepared in this frame. */
   readonly allowance: FrameAllowance;
@@ -53,7 +43,7 @@ export class LayerContent<V extends ViewTypes> {
   constructor(
     gpu: Gpu<V>,
     base: V["uniforms"],
-    makeNode: (vertices: NodeVertices, heightOffset: number) => V["node"],
+    makeNode: (vertices: DrawnVertices, heightOffset: number) => V["node"],
   ) {
     this.#gpu = gpu;
     this.programs = new Programs(gpu);
@@ -107,13 +97,12 @@ export class LayerContent<V extends ViewTypes> {
    * @returns steps that wait for a later frame: nodes to be uploaded or held against volumes, and a new material
    */
   prepare(request: ContentRequest): number {
-    const { selection, octree, plan, clips, depth, allowance } = request;
+    const { selection, vertices, plan, clips, depth, allowance } = request;
     this.#depth = depth;
     this.programs.nextFrame();
     const materials = this.#materials;
     const material = materials.want(plan);
     const linked = this.programs.prepare(programsOf(material.plan, depth), allowance);
-    const vertices = (node: OctreeNode) => octree.stream.vertices(node);
     const here = selection.nodes.flatMap((node) => vertices(node) ?? []);
     const unformed = clips.form(here, allowance);
     const drawn = linked ? material : materials.shown;

@@ -1,4 +1,5 @@
-import type { Column, ColumnData, NodeVertices } from "../workers/index.js";
+import type { Column, ColumnData } from "../workers/index.js";
+import type { DrawnVertices } from "./drawn-vertices.js";
 import type { Gpu, GpuTypes, VertexInput } from "./gpu.js";
 import { type AttributeSet, constantValue, POSITION } from "./vertex-attributes.js";
 
@@ -7,7 +8,7 @@ import { type AttributeSet, constantValue, POSITION } from "./vertex-attributes.
  * vertex arrays that programs read them through.
  */
 export class NodeBuffers<T extends GpuTypes> {
-  readonly vertices: NodeVertices;
+  readonly vertices: DrawnVertices;
   readonly #gpu: Gpu<T>;
   /** The colours that it was made with. */
   readonly #colours: Column | undefined;
@@ -15,7 +16,7 @@ export class NodeBuffers<T extends GpuTypes> {
   readonly #arrays = new Map<string, T["vertexArray"]>();
   #bytes = 0;
 
-  constructor(gpu: Gpu<T>, vertices: NodeVertices) {
+  constructor(gpu: Gpu<T>, vertices: DrawnVertices) {
     this.#gpu = gpu;
     this.vertices = vertices;
     this.#colours = vertices.columns.get("rgb");

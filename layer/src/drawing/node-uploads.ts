@@ -1,5 +1,5 @@
 import type { OctreeNode } from "../octree/index.js";
-import type { NodeVertices } from "../workers/index.js";
+import type { DrawnVertices } from "./drawn-vertices.js";
 import type { FrameAllowance } from "./frame-allowance.js";
 import type { AttributeSet } from "./vertex-attributes.js";
 
@@ -8,7 +8,7 @@ const BYTES = 4 * 1024 * 1024;
 
 /** A node on the GPU, as a view draws it. */
 export interface UploadedNode {
-  readonly vertices: NodeVertices;
+  readonly vertices: DrawnVertices;
   /** Whether its points have changed since it was made, so that another one has to take its place. */
   readonly outdated: boolean;
   /** Bytes on the GPU. */
@@ -27,11 +27,11 @@ export interface UploadedNode {
 /** The nodes of a layer that are on the GPU. */
 export class NodeUploads<Node extends UploadedNode> {
   readonly #nodes = new Map<OctreeNode, Node>();
-  readonly #make: (vertices: NodeVertices, heightOffset: number) => Node;
+  readonly #make: (vertices: DrawnVertices, heightOffset: number) => Node;
   #heightOffset = 0;
 
   /** @param make a node of which nothing is on the GPU yet, so many metres above its place */
-  constructor(make: (vertices: NodeVertices, heightOffset: number) => Node) {
+  constructor(make: (vertices: DrawnVertices, heightOffset: number) => Node) {
     this.#make = make;
   }
 
@@ -52,7 +52,7 @@ export class NodeUploads<Node extends UploadedNode> {
    */
   upload(
     nodes: Iterable<OctreeNode>,
-    vertices: (node: OctreeNode) => NodeVertices | undefined,
+    vertices: (node: OctreeNode) => DrawnVertices | undefined,
     sets: readonly AttributeSet[],
     allowance: FrameAllowance,
   ): number {

@@ -1,6 +1,6 @@
 import { pointOf } from "../drawing/drawn-node.js";
 import type { GpuMilliseconds, LayerRenderer as Renderer } from "../drawing/frame.js";
-import { type ContentRequest, LayerContent } from "../drawing/layer-content.js";
+import { LayerContent } from "../drawing/layer-content.js";
 import { nearestId, windowPixels } from "../drawing/pick-window.js";
 import { quadProgramOf } from "../drawing/program-needs.js";
 import type { Program } from "../drawing/programs.js";
@@ -60,16 +60,22 @@ export class LayerRenderer implements Renderer<GlView> {
     this.#finish = finish;
   }
 
-  draw(): void {
+  /**
+   * Draws what the content has prepared.
+   * @param how `over`: whether what the canvas shows stays; `kept`: how many nodes, from the first, it shows already
+   */
+  draw(how: { readonly over?: boolean; readonly kept?: number } = {}): void {
     const camera = this.#camera;
     if (!camera) return;
     this.#drawn++;
     const screen: PassTarget = { framebuffer: undefined, viewport: [0, 0, camera.width, camera.height] };
-    this.#drawPoints(camera, screen);
+    const { over = false, kept = 0 } = how;
+    if (!over) this.#clear(camera, screen);
+    this.#drawPoints(camera, screen, kept);
     this.#finish?.(screen);
   }
 
-  probe(_asked: boolean, _request: ContentRequest): boolean {
+  probe(): boolean {
     return false;
   }
 
@@ -127,19 +133,25 @@ export class LayerRenderer implements Renderer<GlView> {
     this.objects.destroy();
   }
 
-  #drawPoints(camera: FlatCamera, screen: PassTarget): void {
-    const gl = this.#gl;
-    const { canvas } = gl;
-    if (canvas.width !== camera.width || canvas.height !== camera.height) {
-      canvas.width = camera.width;
-      canvas.height = camera.height;
+  #clear({ width, height }: FlatCamera, screen: PassTarget): void {
+    const { canvas } = this.#gl;
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
     }
-    clear(gl, screen, true);
-    const { material, nodes } = this.content;
-    if (!material || nodes.length === 0) return;
+    clear(this.#gl, screen, true);
+  }
+
+  #drawPoints(camera: FlatCamera, screen: PassTarget, kept: number): void {
+    const gl = this.#gl;
+    const { material, nodes: all } = this.content;
+    if (!material || all.length === 0) return;
+    const { offscreen, points } = passesOf(material.plan);
+    // A nearer point changes what blends behind it.
+    const nodes = points.length > 1 ? all : all.slice(kept);
+    if (nodes.length === 0 && !offscreen) return;
     this.#setView(camera, camera.width, camera.height);
     placeNodes(this.content.groups, camera);
-    const { offscreen, points } = passesOf(material.plan);
     if (!offscreen) {
       this.#picture.release();
       drawPoints(gl, "color", nodes, camera, screen, this.#programs("color", "scene"));
@@ -148,7 +160,7 @@ export class LayerRenderer implements Renderer<GlView> {
     const [first, second] = points;
     this.#picture.prepare(camera.width, camera.height, second !== undefined);
     const target = this.#picture.target();
-    clear(gl, target, true);
+    if (nodes.length === all.length) clear(gl, target, true);
     drawPoints(gl, first, nodes, camera, target, this.#programs(first, "own"));
     if (second) {
       const sums = this.#picture.target("sums");

@@ -1,10 +1,10 @@
 import type { DrawnNode } from "../drawing/drawn-node.js";
+import type { DrawnVertices } from "../drawing/drawn-vertices.js";
 import type { Gpu } from "../drawing/gpu.js";
 import { NodeBuffers } from "../drawing/node-buffers.js";
 import type { UploadedNode } from "../drawing/node-uploads.js";
 import type { AttributeSet } from "../drawing/vertex-attributes.js";
 import { columnMajor } from "../effects/index.js";
-import type { NodeVertices } from "../workers/index.js";
 import type { GlTypes } from "./gl-objects.js";
 
 /** What is drawn with. */
@@ -23,7 +23,7 @@ export class NodeDrawable extends NodeBuffers<GlTypes> implements UploadedNode {
   /** Node frame → its frame on the globe, column-major. */
   readonly onGlobe: readonly number[];
 
-  constructor(gpu: Gpu<GlTypes>, vertices: NodeVertices) {
+  constructor(gpu: Gpu<GlTypes>, vertices: DrawnVertices) {
     super(gpu, vertices);
     this.onGlobe = columnMajor(vertices.onGlobe?.fromMap ?? STAYS);
   }

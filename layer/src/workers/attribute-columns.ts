@@ -7,6 +7,8 @@ export interface DrawnPoints {
   readonly count: number;
   /** Index in the chunk of each drawn point. */
   readonly order: Uint16Array | Uint32Array;
+  /** Points of the chunk, where fewer are drawn. Default: {@link count}. */
+  readonly recorded?: number;
 }
 
 /** Who receives columns as they are made. */
@@ -28,7 +30,7 @@ export function planAttribute(
   sink: ColumnSink,
 ): PlannedArray | undefined {
   const { name, components } = attribute;
-  if (isConstant(points.count, attribute)) {
+  if (isConstant(points.recorded ?? points.count, attribute)) {
     const read = valueReader(attribute);
     sink(
       constantColumn(
@@ -119,7 +121,7 @@ function planAsFloat(
   const { count, order } = points;
   const fill = (data: Float32Array) => {
     const read = valueReader(attribute);
-    const origin = given ?? leastValue(points.count, attribute);
+    const origin = given ?? leastValue(points.recorded ?? points.count, attribute);
     let bound = 0;
     for (let point = 0, to = 0; point < count; point++) {
       for (let index = 0; index < components; index++, to++) {

@@ -34,13 +34,13 @@ export function greatestColour(count: number, colours: Colours): number {
 
 /** Plans the column `rgb`: RGBA of 8 bits each; 16-bit colours are shown by their upper byte. */
 export function planColour(
-  { order, count }: DrawnPoints,
+  { order, count, recorded = count }: DrawnPoints,
   colours: Colours,
   rgbBits: 8 | 16,
   sink: ColumnSink,
 ): PlannedArray | undefined {
   const lower = rgbBits === 16 && colours[0].type === "uint16" ? 1 : 0;
-  if (colours.every((channel) => isOneByte(count, channel, lower))) {
+  if (colours.every((channel) => isOneByte(recorded, channel, lower))) {
     const constant = [...colours.map(({ bytes, at }) => bytes[at + lower]), 255];
     sink(constantColumn("rgb", constant, lower));
     return undefined;

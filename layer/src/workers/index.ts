@@ -22,5 +22,6 @@ export type {
   WorkerReply,
   WorkerRequest,
 } from "./protocol.js";
+export { colourBits, recordedColumn } from "./record-columns.js";
 export { readCoordinates } from "./records.js";
 export { exactValue, type StoredAttribute, valueReader, viewOf } from "./stored-attribute.js";

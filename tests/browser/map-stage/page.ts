@@ -2,6 +2,7 @@ import * as layer from "@groma/layer/openlayers";
 import * as tools from "@groma/layer/tools";
 import { MapStage } from "./map-stage.js";
 import * as ol from "./ol.js";
+import { PlotStage } from "./plot-stage.js";
 
 declare global {
   interface Window {
@@ -11,6 +12,9 @@ declare global {
       readonly layer: typeof layer;
       readonly tools: typeof tools;
       readonly MapStage: typeof MapStage;
+      readonly PlotStage: typeof PlotStage;
+      /** The plot of its cloud, if any. */
+      plot: PlotStage;
       /** The stage that stands, if any. */
       stage: MapStage;
       /** The tool that measures on it, if any. */
@@ -20,7 +24,8 @@ declare global {
 }
 
 window.map = {
-  ...{ ol, layer, tools, MapStage },
+  ...{ ol, layer, tools, MapStage, PlotStage },
+  plot: undefined as unknown as PlotStage,
   stage: undefined as unknown as MapStage,
   measure: undefined as unknown as tools.MeasureTool,
 };

@@ -54,8 +54,15 @@ export class PlotIndex<P extends PlottedPart = PlottedPart> {
   /**
    * The point whose dot is nearest to a pixel.
    * @param reach pixels around it in which one is looked for
+   * @param shows whether a point is in the picture. Default: all are
    */
-  nearest(view: PlotView, x: number, y: number, reach: number): PlottedPoint<P> | undefined {
+  nearest(
+    view: PlotView,
+    x: number,
+    y: number,
+    reach: number,
+    shows: (points: P, index: number) => boolean = () => true,
+  ): PlottedPoint<P> | undefined {
     const { from, to, low, high } = view.shown;
     const [along, up] = [view.width / (to - from), view.height / (high - low)];
     const [chainage, height] = view.placeOf(x, y);
@@ -72,7 +79,7 @@ export class PlotIndex<P extends PlottedPart = PlottedPart> {
         const dx = (points.chainage[point] - chainage) * along;
         const dy = (points.height[point] - height) * up;
         const square = dx * dx + dy * dy;
-        if (square > closest || (square === closest && found)) continue;
+        if (square > closest || (square === closest && found) || !shows(points, point)) continue;
         closest = square;
         found = { points, index: point };
       }

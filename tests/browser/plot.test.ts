@@ -1,0 +1,160 @@
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { pythonMissing } from "../python.js";
+import { colourDifference, screenshot } from "./harness.js";
+import { openStage, type StagePage } from "./stage.js";
+
+const UTM = { "EPSG:32632": "+proj=utm +zone=32 +datum=WGS84 +units=m +no_defs" };
+/** 20 × 20 m at 20 pixels per metre, in the plane of the scan. */
+const ABOVE = { projection: "EPSG:32632", center: [500_000, 5_200_000], resolution: 0.05 };
+/** Strips of the scan `terraces`, 4 m each, the next one 1.2 m above the one before. */
+const STRIPS = [0, 1, 2, 3, 4];
+
+/** Styles in which the strips differ, and filters that leave some of them. */
+const LOOKS: readonly (readonly [name: string, style: object, filter?: object])[] = [
+  ["the scan's colours", { color: "rgb" }],
+  ["tone", { color: "rgb", gamma: 1.8, brightness: 0.1, contrast: -0.3 }],
+  ["intensity", { color: "intensity", gamma: 1, brightness: 0, contrast: 0 }],
+  ["elevation in a gradient", { color: "elevation", gradient: "turbo" }],
+  ["height above the ellipsoid", { color: "ellipsoidalHeight", gradient: "viridis" }],
+  ["64-bit times", { color: "gpsTime", gradient: "spectral" }],
+  ["extra bytes within a range", { color: "amplitude", range: [-1, 3], gradient: "cividis" }],
+  [
+    "a gradient of stops",
+    {
+      ...{ color: "scanAngle", range: undefined },
+      gradient: [
+        { at: 0, color: [1, 0, 0] },
+        { at: 0.4, color: [1, 1, 0] },
+        { at: 1, color: [0, 0, 1] },
+      ],
+    },
+  ],
+  ["classes", { color: "classification", classes: { 6: { color: [0.2, 0.9, 0.4] } } }],
+  ["two in one", { color: "rgb", blend: { color: "classification", share: 0.4 } }],
+  ["translucency", { color: "rgb", blend: undefined, opacity: 0.5 }],
+  ["discs", { opacity: 1, shape: "disc", pointSize: 5 }],
+  ["hidden classes", { shape: "square", pointSize: 3, classes: { 3: { show: false } } }],
+  ["a filter by returns", { classes: { 3: { show: true } } }, { returns: ["first", "last"] }],
+  ["a filter by ranges", {}, { ranges: { pointSourceId: [101, 103] } }],
+  ["a filter by heights", {}, { ranges: { elevation: [500.5, 503] } }],
+];
+
+describe.skipIf(pythonMissing)(
+  `the plot of a profile${pythonMissing ? ` (skipped: ${pythonMissing})` : ""}`,
+  () => {
+    let stage: StagePage;
+
+    beforeAll(async () => {
+      stage = await openStage("map-stage");
+      const source = { url: "/clouds/terraces.copc.laz" };
+      const options = { view: ABOVE, layer: { style: { pointSize: 3 } }, source, projections: UTM };
+      await stage.page.evaluate(async (text) => {
+        const { MapStage, PlotStage, ol } = window.map;
+        window.map.stage = new MapStage(JSON.parse(text)) as typeof window.map.stage;
+        await window.map.stage.complete();
+        const toAngles = ol.proj4("EPSG:32632", "EPSG:4326");
+        const line = [-10, 10].map((east) =>
+          toAngles.forward([500_000 + east, 5_200_000]).map((degrees) => (degrees * Math.PI) / 180),
+        ) as [number, number][];
+        const cloud = window.map.stage.source.cloud!;
+        window.map.plot = new PlotStage(window.map.stage, cloud, { line, width: 4 }, [0, 20, 499.5, 505.5]);
+        await window.map.plot.read();
+      }, JSON.stringify(options));
+    }, 240_000);
+
+    afterAll(() => stage?.close());
+
+    it("looks as the layer does, in every style and with every filter", { timeout: 240_000 }, async () => {
+      for (const [name, style, filter] of LOOKS) {
+        const [plot, map] = await stage.page.evaluate(
+          async ([style, filter, strips]) => {
+            const { plot, stage } = window.map;
+            await plot.restyle(style, filter);
+            const { data, width } = stage.pixels();
+            const above = strips.map((strip) => {
+              const at = 4 * (200 * width + 300 + 20 * (4 * strip - 8));
+              return [...data.subarray(at, at + 4)];
+            });
+            const aside = strips.map((strip) =>
+              plot.colourAt(...plot.view.pixelOf(2 + 4 * strip, 500 + 1.2 * strip)),
+            );
+            return [aside, above] as const;
+          },
+          [style, filter, STRIPS] as const,
+        );
+        if (name === "the scan's colours") await screenshot(stage.page, "plot-terraces");
+        for (const strip of STRIPS) {
+          const told = `${name}, strip ${strip}: ${plot[strip]} in the plot, ${map[strip]} on the map`;
+          expect(plot[strip]![3], told).toBe(map[strip]![3]);
+          if (map[strip]![3]! > 0) expect(colourDifference(plot[strip]!, map[strip]!), told).toBeLessThan(2);
+        }
+        // A test of nothing but grey, or of nothing at all, would hold nothing.
+        expect(new Set(plot.map(String)).size, name).toBeGreaterThan(1);
+      }
+    });
+
+    it("draws each point once while nodes come, and sends nothing to the GPU to pan and zoom", {
+      timeout: 120_000,
+    }, async () => {
+      const { points, nodes, read, moved, steps, grown, anew, hovered } = await stage.page.evaluate(
+        async () => {
+          const { plot: before, stage, PlotStage } = window.map;
+          await before.restyle({ color: "rgb", classes: { 3: { show: true } } }, undefined);
+          const again = new PlotStage(stage, stage.source.cloud!, before.options, [0, 20, 499.5, 505.5]);
+          await again.read(7);
+          const read = again.asked();
+          const grown = again.picture();
+          const steps = 20;
+          for (let step = 0; step < steps; step++) {
+            again.view.panBy(5, -3);
+            again.view.zoomAt(300, 150, 1.05);
+            await again.settle();
+          }
+          const moved = again.asked();
+          again.view.fit({ from: 0, to: 20, low: 499.5, high: 505.5 });
+          await again.settle();
+          again.asked();
+          await again.settle();
+          const result = {
+            ...{ points: again.series.points, nodes: again.parts.length, steps, read, moved, grown },
+            ...{ anew: again.picture(), hovered: again.asked() },
+          };
+          again.destroy();
+          return result;
+        },
+      );
+      expect(nodes).toBe(7);
+      expect(points).toBeGreaterThan(7000);
+      expect(read.pointsDrawn).toBe(points);
+      expect(read.buffers).toBe(2 * nodes);
+      expect(moved).toEqual({ buffers: 0, pointsDrawn: steps * points, textureBytes: expect.any(Number) });
+      // What is sent is where each node lies: a row of texels.
+      expect(moved.textureBytes / steps).toBeLessThanOrEqual(4096 * Math.ceil(nodes / 16));
+      expect(anew).toBe(grown);
+      expect(hovered.pointsDrawn).toBe(0);
+    });
+
+    it("points at what is seen alone, by exact values", { timeout: 120_000 }, async () => {
+      const seen = await stage.page.evaluate(async () => {
+        const { plot } = window.map;
+        const strips = async (style: object, filter: object | undefined) => {
+          await plot.restyle(style, filter);
+          const found = new Set<number>();
+          for (const part of plot.parts) {
+            for (let index = 0; index < part.chainage.length; index++) {
+              if (plot.series.shows(part, index)) found.add(Math.floor(part.chainage[index]! / 4));
+            }
+          }
+          return [...found].sort();
+        };
+        return [
+          await strips({ classes: { 3: { show: false } } }, undefined),
+          await strips({ classes: { 3: { show: true } } }, { ranges: { elevation: [500.5, 503] } }),
+          await strips({}, { ranges: { ellipsoidalHeight: [502, 600] } }),
+          await strips({}, { returns: ["last"] }),
+        ];
+      });
+      expect(seen).toEqual([[0, 2, 3, 4], [1, 2], [2, 3, 4], [expect.any(Number)]]);
+    });
+  },
+);
