@@ -25,7 +25,9 @@ describe.skipIf(missing)(`features that map and globe share${unless}`, () => {
       map.addLayer(new ol.VectorLayer({ source: linked.features }));
       const { features } = linked;
       const viewer = stage.globe.widget;
-      linked.link = synchronize({ viewer, map, view: "none", cursor: false, camera: false, features });
+      const options = { viewer, map, cursor: false, camera: false, features };
+      // Clicks that belong to a figure are no flights.
+      linked.link = synchronize({ ...options, view: "none", click: true, flight: 0 });
     });
     return boxes;
   };
@@ -87,11 +89,19 @@ describe.skipIf(missing)(`features that map and globe share${unless}`, () => {
       [vertex, share] as const,
     );
 
-  /** The camera of the globe, and whether it takes the reader's inputs. */
+  /** The camera of the globe, whether it takes the reader's inputs, and the middle of the map. */
   const camera = () =>
     linked.page.evaluate(() => {
-      const { camera, screenSpaceCameraController: controller } = window.linked.stage.globe.scene;
-      return [camera.position.x, camera.position.y, camera.heading, Number(controller.enableInputs)];
+      const { globe, maps } = window.linked.stage;
+      const { camera, screenSpaceCameraController: controller } = globe.scene;
+      const center = maps[0]!.map.getView().getCenter()!;
+      return [
+        camera.position.x,
+        camera.position.y,
+        camera.heading,
+        Number(controller.enableInputs),
+        ...center,
+      ];
     });
 
   it("show on the globe while they are drawn on the map, and when they are moved", {
@@ -109,6 +119,7 @@ describe.skipIf(missing)(`features that map and globe share${unless}`, () => {
       stage.maps[0]!.map.addInteraction(linked.draw);
     });
     const { mouse } = linked;
+    const start = await camera();
     await mouse.click(map[0] + 280, map[1] + 190);
     await mouse.move(map[0] + 330, map[1] + 210, { steps: 3 });
     expectAlike(await both(2), 2);
@@ -130,6 +141,7 @@ describe.skipIf(missing)(`features that map and globe share${unless}`, () => {
     expect(Math.hypot(...moved)).toBeGreaterThan(1);
     expectAlike(dragged, 2);
     await mouse.up();
+    expect(await camera()).toEqual(start);
     await screenshot(linked.page, "link-features");
     const left = await linked.page.evaluate(async () => {
       const { features, link, stage } = window.linked;
@@ -144,6 +156,7 @@ describe.skipIf(missing)(`features that map and globe share${unless}`, () => {
   it("are drawn and moved on the globe, at the records there", { timeout: 120_000 }, async () => {
     const { globe } = await share();
     const { mouse } = linked;
+    const before = await camera();
     await linked.page.evaluate(() => {
       void window.linked.link.draw("LineString");
     });
@@ -152,7 +165,7 @@ describe.skipIf(missing)(`features that map and globe share${unless}`, () => {
     await linked.until(() => window.linked.features.getFeatures().length === 1, undefined);
     await mouse.dblclick(globe[0] + 220, globe[1] + 160);
     expectAlike(await both(2), 2);
-    const before = await camera();
+    expect(await camera()).toEqual(before);
     const [x, y] = await pixelOf(1);
     await mouse.move(globe[0] + x, globe[1] + y);
     await mouse.down();

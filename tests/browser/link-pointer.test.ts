@@ -78,6 +78,12 @@ describe.skipIf(missing)(`the pointer on map and globe${unless}`, () => {
     expect(told.length).toBeGreaterThan(4);
     expect(new Set(told)).toEqual(new Set(["handle > globe"]));
     await screenshot(linked.page, "link-handle-turned");
+    // The map goes on from where the handle has left the camera.
+    await linked.page.evaluate(() => window.linked.stage.maps[0]!.map.getView().adjustCenter([3, 0]));
+    const nudged = await state();
+    expect(nudged.nadir[0]! - turned.nadir[0]!).toBeCloseTo(3, 2);
+    expect(nudged.nadir[1]! - turned.nadir[1]!).toBeCloseTo(0, 2);
+    expect(nudged.heading).toBeCloseTo(turned.heading, 4);
   });
 
   it("marks the record under the pointer of one side on the other", { timeout: 120_000 }, async () => {
@@ -142,7 +148,14 @@ describe.skipIf(missing)(`the pointer on map and globe${unless}`, () => {
   });
 
   it("goes where it is clicked", { timeout: 120_000 }, async () => {
-    const { map, globe } = await linked.show({ view: "both", click: true, flight: 0, camera: false });
+    const { map, globe } = await linked.show({ view: "both", flight: 0, camera: false });
+    expect(
+      await linked.page.evaluate(() => {
+        const before = window.linked.link.click;
+        window.linked.link.click = true;
+        return before;
+      }),
+    ).toBe(false);
     /** The views, once they are elsewhere than before and rest. */
     const seen = async (before?: readonly number[]) => {
       await linked.until(
@@ -182,6 +195,60 @@ describe.skipIf(missing)(`the pointer on map and globe${unless}`, () => {
     expect(Math.hypot(back.center[0]! - back.source![0]!, back.center[1]! - back.source![1]!)).toBeLessThan(
       0.5,
     );
+  });
+
+  it("ends by itself where the globe is destroyed first, and bears a map that is", {
+    timeout: 120_000,
+  }, async () => {
+    await linked.show({});
+    const seen = await linked.page.evaluate(async () => {
+      const { Cesium, Stage, stage, link, ol, synchronize } = window.linked;
+      link.dispose();
+      const { map } = stage.maps[0]!;
+      const globe = new Stage({ width: 200, height: 150 });
+      globe.scene.camera.setView({ destination: Cesium.Cartesian3.fromDegrees(9, 47, 1000) });
+      globe.frame();
+      const features = new ol.VectorSource();
+      const count = () => {
+        const { listeners_ } = map as unknown as { readonly listeners_: object };
+        return [Object.values(listeners_).flat().length, map.getInteractions().getLength()];
+      };
+      const before = count();
+      const viewer = globe.widget;
+      const options = { viewer, map, click: true, features };
+      const ended = synchronize(options);
+      // One hears of it by the map, another by the pointer there, the third by a feature.
+      const others = [synchronize({ ...options, view: "to-map" }), synchronize({ ...options, view: "none" })];
+      viewer.destroy();
+      const { left, top } = map.getViewport().getBoundingClientRect();
+      const at = { clientX: left + 300, clientY: top + 200, bubbles: true, pointerType: "mouse" };
+      map.getViewport().firstElementChild!.dispatchEvent(new PointerEvent("pointermove", at));
+      map.getView().adjustCenter([1, 1]);
+      features.addFeature(new ol.Feature(new ol.LineString([[500_000, 5_200_000]])));
+      await stage.frames(3);
+      await new Promise((done) => setTimeout(done, 300));
+      const after = count();
+      const rejected = await ended.draw("Point").catch((thrown) => thrown.name);
+      for (const one of [ended, ...others]) one.dispose();
+      // The other way round.
+      const other = new ol.OlMap({
+        target: map.getTargetElement()!.cloneNode() as HTMLElement,
+        view: new ol.View({ projection: "EPSG:32632", center: [500_000, 5_200_000], resolution: 1 }),
+      });
+      const { scene } = stage.globe;
+      const primitives = scene.primitives.length;
+      const alone = synchronize({ viewer: stage.globe.widget, map: other, click: true, features });
+      other.setTarget(undefined);
+      other.dispose();
+      scene.camera.moveForward(1);
+      await stage.frames(3);
+      alone.dispose();
+      const left_ = [scene.primitives.length - primitives, scene.preRender.numberOfListeners];
+      return { before, after, rejected, left: left_ };
+    });
+    expect(seen.after).toEqual(seen.before);
+    expect(seen.rejected).toBe("AbortError");
+    expect(seen.left).toEqual([0, 0]);
   });
 
   it("leaves nothing behind when it is disposed of, whatever it was doing", {

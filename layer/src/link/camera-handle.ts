@@ -49,12 +49,12 @@ export class CameraHandle {
     this.#layer.setMap(map.map);
     this.#interaction = new PointerInteraction({
       handleDownEvent: ({ pixel }) => {
-        this.#held = this.#gripAt(pixel);
+        this.#held = globe.lives ? this.#gripAt(pixel) : undefined;
         if (this.#held) holds(true);
         return this.#held !== undefined;
       },
       handleDragEvent: ({ coordinate }) => {
-        if (this.#drag(coordinate)) dragged();
+        if (globe.lives && this.#drag(coordinate)) dragged();
       },
       handleUpEvent: () => {
         this.#held = undefined;
@@ -72,10 +72,11 @@ export class CameraHandle {
   /** Shows the camera where it is now. */
   update(): void {
     const { plane, view } = this.#map;
-    const { pose } = this.#globe;
-    const heading = headingAt(pose, pose.position);
-    const ground = { place: pose.position, heading, metresPerPixel: 1 };
-    const found = this.#globe.shown ? toMapView(plane, ground, view?.center[0]) : undefined;
+    const pose = this.#globe.shown ? this.#globe.pose : undefined;
+    const ground = pose && {
+      ...{ place: pose.position, heading: headingAt(pose, pose.position), metresPerPixel: 1 },
+    };
+    const found = ground && toMapView(plane, ground, view?.center[0]);
     this.#turn = -(found?.rotation ?? 0);
     this.feature.setGeometry(found && new Point([...found.center]));
     // The arm alone may have turned.

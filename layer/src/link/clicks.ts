@@ -5,27 +5,64 @@ import { unByKey } from "ol/Observable.js";
 import type { GlobeSide } from "./globe-side.js";
 import type { MapSide } from "./map-side.js";
 
-/** A click on one side takes the other there. */
+/** What flights to what is clicked go by. */
+export interface ClickOptions {
+  /** Of a flight, asked for anew each time. */
+  readonly seconds: () => number;
+  /** Whether the reader draws or changes something on the globe: clicks are for that then. */
+  readonly busy: () => boolean;
+  /** Called with what kept a record from being read. */
+  readonly failed: (thrown: unknown) => void;
+}
+
+/** A click on one side takes the other there, while it is active and the click is not part of a figure. */
 export class Clicks {
-  readonly #handler: ScreenSpaceEventHandler;
-  readonly #key: Parameters<typeof unByKey>[0];
-  readonly #failed: (thrown: unknown) => void;
+  readonly #globe: GlobeSide;
+  readonly #map: MapSide;
+  readonly #options: ClickOptions;
+  /** Ends listening. */
+  #end: (() => void) | undefined;
   #stop = new AbortController();
 
-  /**
-   * @param seconds of a flight, asked for anew each time
-   * @param failed called with what kept a record from being read
-   */
-  constructor(globe: GlobeSide, map: MapSide, seconds: () => number, failed: (thrown: unknown) => void) {
-    this.#failed = failed;
-    this.#handler = new ScreenSpaceEventHandler(globe.scene.canvas);
-    this.#handler.setInputAction(({ position }: ScreenSpaceEventHandler.PositionedEvent) => {
+  constructor(globe: GlobeSide, map: MapSide, options: ClickOptions) {
+    this.#globe = globe;
+    this.#map = map;
+    this.#options = options;
+  }
+
+  get active(): boolean {
+    return this.#end !== undefined;
+  }
+
+  set active(active: boolean) {
+    if (active) this.#end ??= this.#listen();
+    else {
+      this.#stop.abort();
+      this.#end?.();
+      this.#end = undefined;
+    }
+  }
+
+  #listen(): () => void {
+    const [globe, map] = [this.#globe, this.#map];
+    const { seconds, busy } = this.#options;
+    const handler = new ScreenSpaceEventHandler(globe.scene.canvas);
+    handler.setInputAction(({ position }: ScreenSpaceEventHandler.PositionedEvent) => {
+      if (busy() || !globe.lives) return;
       void this.#go(
         (signal) => globe.placeAt({ x: position.x, y: position.y }, signal),
         (place) => map.flyTo(place, seconds()),
       );
     }, ScreenSpaceEventType.LEFT_CLICK);
-    this.#key = map.map.on("singleclick", ({ pixel, coordinate }: MapBrowserEvent) => {
+    // What is drawn may be ended by the click, and its interaction taken away, before the map tells of it.
+    let drawing = false;
+    const viewport = map.map.getViewport();
+    const down = () => {
+      drawing = busy() || map.drawing;
+    };
+    viewport.addEventListener("pointerdown", down, { capture: true });
+    const key = map.map.on("singleclick", ({ pixel, coordinate }: MapBrowserEvent) => {
+      if (drawing || !globe.lives) return;
       const [longitude, latitude] = map.plane.inverse(coordinate[0], coordinate[1]);
       const height = globe.heightAt(longitude, latitude);
       void this.#go(
@@ -33,12 +70,11 @@ export class Clicks {
         (place) => globe.flyTo(place, seconds()),
       );
     });
-  }
-
-  dispose(): void {
-    this.#stop.abort();
-    this.#handler.destroy();
-    unByKey(this.#key);
+    return () => {
+      handler.destroy();
+      viewport.removeEventListener("pointerdown", down, { capture: true });
+      unByKey(key);
+    };
   }
 
   /** Goes to the place of the last click. */
@@ -51,9 +87,9 @@ export class Clicks {
     const { signal } = this.#stop;
     try {
       const place = await find(signal);
-      if (place && !signal.aborted) go(place);
+      if (place && !signal.aborted && this.#globe.lives) go(place);
     } catch (thrown) {
-      if (!signal.aborted) this.#failed(thrown);
+      if (!signal.aborted) this.#options.failed(thrown);
     }
   }
 }

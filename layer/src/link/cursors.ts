@@ -95,6 +95,7 @@ export class Cursors {
     unByKey(this.#key);
     this.#layer.setMap(null);
     this.#layer.dispose();
+    if (!this.#globe.lives) return;
     this.#globe.scene.primitives.remove(this.#points);
     this.#globe.scene.requestRender();
   }
@@ -106,6 +107,7 @@ export class Cursors {
   }
 
   #find(search: Search, show: (place: Vector | undefined) => void): void {
+    if (!this.#globe.lives) return;
     this.#next = { search, show };
     if (!this.#busy) void this.#work();
   }
@@ -117,7 +119,7 @@ export class Cursors {
       this.#next = undefined;
       try {
         const place = await now.search?.(signal);
-        if (!signal.aborted) now.show(place);
+        if (!signal.aborted && this.#globe.lives) now.show(place);
       } catch (thrown) {
         if (!signal.aborted) this.#failed(thrown);
       }

@@ -38,6 +38,11 @@ export class GlobeEditing {
   #next: { readonly x: number; readonly y: number } | undefined;
   #busy = false;
 
+  /** Whether the reader draws or changes a feature now. */
+  get busy(): boolean {
+    return this.#drawing > 0 || this.#held !== undefined || this.#side !== undefined;
+  }
+
   /** @param failed called with what kept a record from being read */
   constructor(globe: GlobeSide, features: SharedFeatures, failed: (thrown: unknown) => void) {
     this.#globe = globe;
@@ -160,7 +165,9 @@ export class GlobeEditing {
   }
 
   dispose(): void {
-    if (this.#held || this.#side) this.#globe.scene.screenSpaceCameraController.enableInputs = true;
+    const { scene } = this.#globe;
+    if ((this.#held || this.#side) && !scene.isDestroyed())
+      scene.screenSpaceCameraController.enableInputs = true;
     this.#end.abort();
   }
 

@@ -81,6 +81,7 @@ export class GlobeLines<Feature extends object> {
   }
 
   dispose(): void {
+    if (this.#scene.isDestroyed()) return;
     this.#scene.primitives.remove(this.#lines);
     this.#scene.primitives.remove(this.#points);
     this.#scene.requestRender();

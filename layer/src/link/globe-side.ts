@@ -40,15 +40,22 @@ export class GlobeSide {
   /** The camera, as it was told last. */
   #known: readonly number[] = [];
   readonly #middle: (() => ScreenPlace) | undefined;
+  readonly #gone: () => void;
   readonly #unwatch: () => void;
 
   /**
    * @param middle place of the picture that counts as its middle, asked for anew each time; default: half of its size
    * @param moved called within a frame whose camera is another than the one known
+   * @param gone called when the globe is found to be destroyed
    */
-  constructor(scene: Scene, middle: (() => ScreenPlace) | undefined, moved: () => void) {
+  constructor(
+    scene: Scene,
+    middle: (() => ScreenPlace) | undefined,
+    { moved, gone }: { readonly moved: () => void; readonly gone: () => void },
+  ) {
     this.scene = scene;
     this.#middle = middle;
+    this.#gone = gone;
     this.#height = this.guess() ?? 0;
     this.#known = this.#numbers();
     this.#unwatch = scene.preRender.addEventListener(() => {
@@ -56,8 +63,15 @@ export class GlobeSide {
     });
   }
 
+  /** Whether there is a globe to work with; one that was destroyed, which Cesium tells nobody, is told of here. */
+  get lives(): boolean {
+    if (this.scene.isDestroyed()) this.#gone();
+    return !this.scene.isDestroyed();
+  }
+
   /** Whether the globe is drawn as a globe now, and has a size. */
   get shown(): boolean {
+    if (!this.lives) return false;
     const { mode, canvas } = this.scene;
     return mode === SceneMode.SCENE3D && canvas.clientWidth > 0 && canvas.clientHeight > 0;
   }

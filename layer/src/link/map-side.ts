@@ -20,6 +20,8 @@ export class MapSide {
   #known: MapView | undefined;
   /** The view that was asked for, of which the map's constraints may have let it show less. */
   #wanted: MapView | undefined;
+  /** Whether that one's middle is beside the map's by the user's will, and goes along with it. */
+  #apart = false;
   #view: View | undefined;
   #viewKey: Parameters<typeof unByKey>[0] | undefined;
   #plane: { readonly code: string; readonly plane: Plane } | undefined;
@@ -30,6 +32,7 @@ export class MapSide {
     this.#moved = moved;
     this.#keys = map.on("change:view", () => {
       this.#wanted = undefined;
+      this.#apart = false;
       this.#follow();
       moved();
     });
@@ -55,7 +58,10 @@ export class MapSide {
     const [known, wanted] = [this.#known, this.#wanted];
     if (!view || !known || !wanted) return view;
     const choose = (now: number, before: number, then: number) => (now === before ? then : now);
-    const along = (axis: 0 | 1) => choose(view.center[axis], known.center[axis], wanted.center[axis]);
+    const along = (axis: 0 | 1) => {
+      if (this.#apart) return wanted.center[axis] + view.center[axis] - known.center[axis];
+      return choose(view.center[axis], known.center[axis], wanted.center[axis]);
+    };
     return {
       center: [along(0), along(1)],
       resolution: choose(view.resolution, known.resolution, wanted.resolution),
@@ -86,12 +92,28 @@ export class MapSide {
     if (turns) view.setRotation(rotation);
     this.#known = this.view;
     this.#wanted = { center, resolution, rotation: turns ? rotation : view.getRotation() };
+    this.#apart = false;
+  }
+
+  /** Stands still while another view is what the user wants of the globe: moves of the map go on from that one. */
+  stayBeside(wanted: MapView): void {
+    this.#known = this.view;
+    this.#wanted = wanted;
+    this.#apart = true;
   }
 
   /** Moves the middle to a place, which is a move of the map's own. @param seconds 0: at once */
   flyTo(place: Vector, seconds: number): void {
     const coordinate = this.coordinateOf(place);
     if (coordinate) this.map.getView().animate({ center: [...coordinate], duration: 1000 * seconds });
+  }
+
+  /** Whether an interaction of the map draws figures: each that can finish a drawing and is active. */
+  get drawing(): boolean {
+    return this.map
+      .getInteractions()
+      .getArray()
+      .some((one) => one.getActive() && "finishDrawing" in one);
   }
 
   /** Takes the view as it is for known. */

@@ -177,6 +177,7 @@ export class SharedFeatures {
     this.#changed.add(feature);
     this.#frame ??= requestAnimationFrame(() => {
       this.#frame = undefined;
+      if (!this.#globe.lives) return;
       const changed = [...this.#changed];
       this.#changed.clear();
       for (const one of changed) {

@@ -122,7 +122,7 @@ export class Link {
   readonly #footprint: FootprintLayer | undefined;
   readonly #handle: CameraHandle | undefined;
   readonly #cursors: Cursors | undefined;
-  readonly #clicks: Clicks | undefined;
+  readonly #clicks: Clicks;
   readonly #shared: SharedFeatures | undefined;
   readonly #editing: GlobeEditing | undefined;
   readonly #listeners = new Set<(move: Move) => void>();
@@ -132,24 +132,27 @@ export class Link {
   constructor(options: LinkOptions) {
     const given = parts(KINDS, DEFAULTS).read(options, optionPlace("options", PLACE));
     const { view: mode, northUp, onError } = given;
-    const globe = new GlobeSide(given.viewer.scene, given.middle, () => this.#views.globeMoved());
+    const globe = new GlobeSide(given.viewer.scene, given.middle, {
+      moved: () => this.#views.globeMoved(),
+      gone: () => this.dispose(),
+    });
     const map = new MapSide(given.map, () => this.#views.mapMoved());
     const views = new ViewLink(globe, map, { mode, northUp }, (move) => this.#told(move), onError);
     [this.#globe, this.#map, this.#views] = [globe, map, views];
     if (given.footprint) this.#footprint = new FootprintLayer(globe, map);
     if (given.camera) {
       const dragged = () => this.#told({ origin: "handle", target: "globe" });
-      this.#handle = new CameraHandle(globe, map, dragged, (held) => {
-        views.held = held;
-      });
+      this.#handle = new CameraHandle(globe, map, dragged, (held) => views.hold(held));
     }
     if (given.cursor) this.#cursors = new Cursors(globe, map, onError);
     const seconds = () => (matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : given.flight);
-    if (given.click) this.#clicks = new Clicks(globe, map, seconds, onError);
     if (given.features) {
       this.#shared = new SharedFeatures(globe, map, given.features, onError);
       this.#editing = new GlobeEditing(globe, this.#shared, onError);
     }
+    const busy = () => this.#editing?.busy ?? false;
+    this.#clicks = new Clicks(globe, map, { seconds, busy, failed: onError });
+    this.#clicks.active = given.click;
     views.carry();
   }
 
@@ -173,6 +176,16 @@ export class Link {
     if (!this.#disposed) this.#views.carry();
   }
 
+  /** Whether a click on one side takes the other there, unless something is drawn. @throws StyleError STYLE_OPTION */
+  get click(): boolean {
+    return this.#clicks.active;
+  }
+
+  set click(click: boolean) {
+    const checked = KINDS.click.read(click, optionPlace("click", PLACE));
+    if (!this.#disposed) this.#clicks.active = checked;
+  }
+
   /** The ground that the globe's camera sees, in the projection of the map; undefined where it is not shown. */
   get footprint(): Feature<Polygon> | undefined {
     return this.#footprint?.feature;
@@ -191,9 +204,10 @@ export class Link {
   /**
    * Shows on the globe what an interaction of the map draws, while it is drawn.
    * @returns what ends that
-   * @throws StyleError STYLE_OPTION where the link has no features
+   * @throws StyleError STYLE_OPTION where the link has no features; an AbortError where it has ended
    */
   follow(draw: Draw): () => void {
+    this.#mustLive();
     return this.#mustShare(this.#shared).follow(draw);
   }
 
@@ -201,10 +215,12 @@ export class Link {
    * Has the reader draw a feature by clicks on the globe; it is among the features from its first vertex on. A double click
    * or Enter ends it, Escape gives it up.
    * @returns undefined where the reader gives it up
-   * @throws StyleError STYLE_OPTION where the link has no features; the signal's reason when aborted
+   * @throws StyleError STYLE_OPTION where the link has no features; the signal's reason when aborted; an
+   *   AbortError where the link has ended
    */
   async draw(kind: DrawnKind, options: { readonly signal?: AbortSignal } = {}): Promise<Feature | undefined> {
     const checked = oneOf("Point", "LineString", "Polygon").read(kind, optionPlace("kind", PLACE));
+    this.#mustLive();
     return this.#mustShare(this.#editing).draw(checked, options.signal);
   }
 
@@ -227,12 +243,17 @@ export class Link {
     if (this.#disposed) return;
     this.#disposed = true;
     this.#views.dispose();
-    for (const part of [this.#footprint, this.#handle, this.#cursors, this.#clicks]) part?.dispose();
+    for (const part of [this.#footprint, this.#handle, this.#cursors]) part?.dispose();
+    this.#clicks.active = false;
     this.#editing?.dispose();
     this.#shared?.dispose();
     this.#globe.dispose();
     this.#map.dispose();
     this.#listeners.clear();
+  }
+
+  #mustLive(): void {
+    if (this.#disposed) throw new DOMException("The link was disposed of.", "AbortError");
   }
 
   #mustShare<Part>(part: Part | undefined): Part {

@@ -32,10 +32,9 @@ export class ViewLink {
   mode: ViewMode;
   /** Whether both sides keep their own turn. */
   northUp: boolean;
-  /** Whether the map stands still whatever the globe does: while what is on it is dragged. */
-  held = false;
   readonly #globe: GlobeSide;
   readonly #map: MapSide;
+  #held = false;
   readonly #told: (move: Move | undefined) => void;
   readonly #failed: (thrown: unknown) => void;
   #frame: number | undefined;
@@ -71,6 +70,7 @@ export class ViewLink {
 
   /** The map's view may be another; it is looked at in the next frame, however often this is called before. */
   mapMoved(): void {
+    if (!this.#globe.lives) return;
     if (this.#frame !== undefined || !this.#map.hasMoved) return;
     this.#frame = requestAnimationFrame(() => {
       this.#frame = undefined;
@@ -79,6 +79,17 @@ export class ViewLink {
       // Also where the globe stays: what is drawn on the map may have to follow to another projection.
       if (!this.#showOnGlobe("map")) this.#told(undefined);
     });
+  }
+
+  /**
+   * Has the map stand still whatever the globe does, while what is on it is dragged. Afterwards the globe is where that has left
+   * it, and goes on from there when the map is moved.
+   */
+  hold(held: boolean): void {
+    this.#held = held;
+    const [globe, map] = [this.#globe, this.#map];
+    const view = held || !globe.shown ? undefined : toMapView(map.plane, globe.view, map.view?.center[0]);
+    if (view) map.stayBeside(view);
   }
 
   /** Carries the view over as it is, in the direction of the mode; the globe's where both are possible. */
@@ -99,7 +110,7 @@ export class ViewLink {
     const before = map.view;
     const follows = this.mode === "both" || this.mode === "to-map";
     const view =
-      follows && !this.held && globe.shown ? toMapView(map.plane, globe.view, before?.center[0]) : undefined;
+      follows && !this.#held && globe.shown ? toMapView(map.plane, globe.view, before?.center[0]) : undefined;
     if (view) map.show(view, !this.northUp);
     this.#told(view && { origin, target: "map" });
   }
@@ -164,7 +175,9 @@ export class ViewLink {
   #atRest(work: () => Promise<void>): void {
     this.#looking?.abort();
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => void work(), REST);
+    this.#timer = setTimeout(() => {
+      if (this.#globe.lives) void work();
+    }, REST);
   }
 
   #cancelFrame(): void {
