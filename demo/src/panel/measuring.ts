@@ -56,6 +56,8 @@ export class Measuring {
   readonly #list: MeasurementList;
   readonly #compared: Compared;
   readonly #hint = byId("measure-hint", HTMLParagraphElement);
+  /** What has to be known of the file that was opened last. */
+  readonly #notes = byId("measure-notes", HTMLParagraphElement);
 
   /**
    * @param layer what is measured
@@ -143,7 +145,7 @@ export class Measuring {
     const clouds = [...(shown ? [shown] : []), ...this.#compared.clouds];
     const { measurements, notes } = readMeasurements(await file.text(), clouds, file.name);
     this.tool.add(measurements);
-    setText(this.#hint, notes.join("; "));
+    setText(this.#notes, [`${file.name}: ${measurements.length} read`, ...notes].join("; "));
   }
 
   #show(): void {

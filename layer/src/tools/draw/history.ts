@@ -1,4 +1,10 @@
-import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind, type Vertex } from "../measure/index.js";
+import {
+  isSameRecord,
+  MEASUREMENT_KINDS,
+  type Measurement,
+  type MeasurementKind,
+  type Vertex,
+} from "../measure/index.js";
 
 /** A figure that is being drawn. */
 export interface Draft {
@@ -108,10 +114,6 @@ export function freshName(measurements: readonly Measurement[], title: string): 
 
 /** Whether two vertices are one: the same record, or the same place where they are none. */
 export function isSame(a: Vertex, b: Vertex): boolean {
-  if (a.record && b.record) {
-    const [one, other] = [a.record, b.record];
-    const keys = ["dataset", "identity", "node", "index"] as const;
-    return keys.every((key) => one[key] === other[key]);
-  }
+  if (a.record && b.record) return isSameRecord(a, b);
   return a.ecef.every((value, axis) => value === b.ecef[axis]);
 }

@@ -26,6 +26,7 @@ export function cloudOf(
 ): FixtureCloud {
   const crs = resolveCrs({ file: name, given, ...(vertical && { givenVertical: vertical }) });
   const transform = pointTransform(truthOf({ crs }, 0, name));
+  const indices = new Map<string, number>();
   return {
     name,
     crs,
@@ -45,7 +46,10 @@ export function cloudOf(
         Math.round(z / scale),
       ] as const;
       const source = [integers[0] * scale, integers[1] * scale + OFFSET, integers[2] * scale] as const;
-      return recordVertex(this, { node: "0-0-0-0", index: 0, integers, source });
+      const key = integers.join();
+      const index = indices.get(key) ?? indices.size;
+      indices.set(key, index);
+      return recordVertex(this, { node: "0-0-0-0", index, integers, source });
     },
   };
 }

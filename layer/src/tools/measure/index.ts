@@ -42,6 +42,7 @@ export type { DatasetName } from "./vertex/dataset.js";
 export {
   attached,
   ecefVertex,
+  isSameRecord,
   type MeasuredCloud,
   placeVertex,
   type RecordedPoint,
@@ -53,9 +54,10 @@ export {
 export type { Progress, VolumeBase } from "./volume/base.js";
 export { cutAndFill, type RingVolume } from "./volume/cut-and-fill.js";
 export type { VolumeReply, VolumeWorker } from "./volume/in-worker.js";
-export { measureVolume, type Volume, type VolumeCloud, type VolumeOptions } from "./volume/measure-volume.js";
+export { measureVolume, type Volume } from "./volume/measure-volume.js";
 export type { CutAndFill } from "./volume/prisms.js";
 export type { Sensitivities, Sensitivity } from "./volume/sensitivity.js";
 export type { VolumeJob, VolumeSums } from "./volume/volume-job.js";
+export type { VolumeCloud, VolumeOptions } from "./volume/volume-options.js";
 export type { Precision, WorthOptions } from "./worth/point-errors.js";
 export type { Quantity, SiUnit, UncertaintyPart } from "./worth/quantity.js";

@@ -13,7 +13,9 @@ import {
   measurePolyline,
   placeVertex,
   readOut,
+  recordVertex,
   type Vertex,
+  valuesOf,
 } from "../index.js";
 
 const finite = (min: number, max: number) => fc.double({ min, max, noNaN: true, noDefaultInfinity: true });
@@ -74,12 +76,26 @@ describe("distances", () => {
 
   it("of coincident points are 0, and worth what their places are", () => {
     const a = utm.vertex(500000, 5300000, 10);
-    const { space, geodesic, vertical, grid } = measureDistance(a, a, { precision: 0.01 });
+    const other = recordVertex(utm, { ...a.record!, index: 1000, source: a.source! });
+    const { space, geodesic, vertical, grid } = measureDistance(a, other, { precision: 0.01 });
     for (const { value } of [space, geodesic, vertical]) expect(value).toBe(0);
     // Both have 10 mm along three axes: a band of 95 % around no distance at all.
     expect(space.atLeast).toBeGreaterThan(0.028);
     expect(space.atLeast).toBeLessThan(0.05);
     expect(grid?.scaleFactor).toBeCloseTo(0.9996, 6);
+  });
+
+  it("of a record from itself are exactly 0, however often it was picked", () => {
+    const [a, b] = [utm.vertex(500000, 5300000, 10), utm.vertex(500010, 5300000, 10)];
+    const again = recordVertex(utm, { ...a.record!, source: a.source! });
+    for (const one of [a, again]) {
+      const { space, vertical, horizontal } = measureDistance(a, one, { precision: 0.01 });
+      for (const { value, atLeast } of [space, vertical, horizontal])
+        expect([value, atLeast]).toEqual([0, 0]);
+    }
+    const there = (back: Vertex) => measurePolyline([a, b, back], { precision: 0.01 }).space.uncertainty;
+    expect(there(again)).toBe(there(a));
+    expect(there(a)).toBeCloseTo(2 * measureDistance(a, b, { precision: 0.01 }).space.uncertainty!, 6);
   });
 
   it("in the grid are those of the source, with the factor that leads to the ellipsoid", () => {
@@ -297,6 +313,15 @@ describe("circles", () => {
 });
 
 describe("planes", () => {
+  it("of three points has no deviation, however large it is", () => {
+    const plane = measurePlane([
+      beside(0.1, 0.9, 0, 0, 0, 0),
+      beside(0.1, 0.9, 0, 7000, 10, 50),
+      beside(0.1, 0.9, 0, 30, 6000, -80),
+    ]);
+    expect(plane.deviation.value).toBeLessThan(1e-9);
+  });
+
   it("of a slope to the south-east, with the residual of a point above", () => {
     const at = (e: number, n: number, above = 0) =>
       beside(0.1, 0.9, 0, e, n, -Math.tan(0.2) * ((e - n) / Math.SQRT2) + above);
@@ -309,6 +334,53 @@ describe("planes", () => {
     expect(residuals.reduce((sum, one) => sum + one, 0)).toBeCloseTo(0, 8);
     expect(() => measurePlane([at(0, 0), at(1, 1), at(2, 2)])).toThrow("MEASURE_COLLINEAR");
     expect(() => measurePlane([at(0, 0), at(1, 1)])).toThrow("MEASURE_VERTICES");
+  });
+});
+
+describe("what is no place", () => {
+  it.each<[string, () => unknown]>([
+    ["no number", () => placeVertex(Number.NaN, 0, 0)],
+    ["a latitude beyond the pole", () => placeVertex(0, 1.6, 0)],
+    ["degrees", () => placeVertex(7, 47, 0)],
+    ["degrees of longitude", () => placeVertex(17, 1, 0)],
+    ["half of ECEF", () => ecefVertex([1, 2])],
+    [
+      "a precision below 0",
+      () => measureDistance(utm.vertex(0, 0, 0), utm.vertex(1, 0, 0), { precision: -1 }),
+    ],
+    [
+      "a precision that is none",
+      () => measureDistance(utm.vertex(0, 0, 0), utm.vertex(1, 0, 0), { precision: () => Number.NaN }),
+    ],
+    [
+      "half a precision",
+      () =>
+        measureDistance(utm.vertex(0, 0, 0), utm.vertex(1, 0, 0), { precision: { horizontal: 1 } as never }),
+    ],
+    [
+      "no precision",
+      () => measureDistance(utm.vertex(0, 0, 0), utm.vertex(1, 0, 0), { precision: null as never }),
+    ],
+    ["a kind that there is not", () => valuesOf({ kind: "toString" as never, vertices: [] })],
+  ])("is refused: %s", (_, place) => {
+    expect(place).toThrow(/^MEASURE_OPTION: /);
+  });
+
+  it("is refused with too few vertices, or too many", () => {
+    const a = utm.vertex(500000, 5300000, 0);
+    expect(() => valuesOf({ kind: "distance", vertices: [a] })).toThrow("it needs 2 vertices and has 1");
+    expect(() => valuesOf({ kind: "point", vertices: [a, a] })).toThrow("it needs 1 vertices and has 2");
+    expect(() => measureArea([a, a, a])).toThrow("all its vertices stand in one place");
+  });
+
+  it("is none at the poles and past the antimeridian", () => {
+    for (const [longitude, latitude] of [
+      [Math.PI, Math.PI / 2],
+      [-Math.PI, -Math.PI / 2],
+      [1.5 * Math.PI, 0],
+    ] as const) {
+      expect(placeVertex(longitude, latitude, 0).latitude).toBeCloseTo(latitude, 12);
+    }
   });
 });
 

@@ -1,6 +1,6 @@
 import { type Geodesic, geodesicBetween, radiusAlong, type Vector } from "@groma/georef";
 import { axesAt, combined } from "../vertex/axes.js";
-import type { Vertex } from "../vertex/vertex.js";
+import { recordKey, type Vertex } from "../vertex/vertex.js";
 import type { Sensitivity } from "../worth/quantity.js";
 
 /** Two vertices with what several values of theirs need. */
@@ -108,7 +108,7 @@ export function scaled([x, y, z]: Vector, factor: number): Vector {
 
 /** Derivatives of a sum: those of its terms by vertex, and lists of their own where a term has no direction. */
 export function joined(terms: readonly Sensitivity[][][]): Sensitivity[][] {
-  const whole = new Map<Vertex, [number, number, number]>();
+  const whole = new Map<unknown, { readonly vertex: Vertex; readonly gradient: Vector }>();
   const apart: Sensitivity[][] = [];
   for (const lists of terms) {
     if (lists.length > 1) {
@@ -116,9 +116,10 @@ export function joined(terms: readonly Sensitivity[][][]): Sensitivity[][] {
       continue;
     }
     for (const { vertex, gradient } of lists[0]) {
-      const [x, y, z] = whole.get(vertex) ?? [0, 0, 0];
-      whole.set(vertex, [x + gradient[0], y + gradient[1], z + gradient[2]]);
+      const key = recordKey(vertex);
+      const [x, y, z] = whole.get(key)?.gradient ?? [0, 0, 0];
+      whole.set(key, { vertex, gradient: [x + gradient[0], y + gradient[1], z + gradient[2]] });
     }
   }
-  return [[...whole].map(([vertex, gradient]) => ({ vertex, gradient })), ...apart];
+  return [[...whole.values()], ...apart];
 }

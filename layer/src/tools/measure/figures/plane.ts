@@ -81,7 +81,13 @@ export function bestPlane(vertices: readonly Vertex[], options: WorthOptions): B
       aspect: quantity(azimuth < 0 ? azimuth + 2 * Math.PI : azimuth, "rad", [gradients(around)], options),
     }),
     residuals,
-    deviation: quantity(Math.sqrt(Math.max(0, values[0])), "m", [acrossIt(vertices, normalOut)], options),
+    // Of the residuals: the least eigenvalue is a difference of great numbers.
+    deviation: quantity(
+      Math.hypot(...residuals) / Math.sqrt(count),
+      "m",
+      [acrossIt(vertices, normalOut)],
+      options,
+    ),
   };
 }
 

@@ -10,6 +10,15 @@ export function tooFew(figure: string, needed: number, given: number): MeasureEr
   });
 }
 
+export function tooMany(figure: string, most: number, given: number): MeasureError {
+  return new MeasureError({
+    code: "MEASURE_VERTICES",
+    file: figure,
+    cause: `it needs ${most} vertices and has ${given}`,
+    fix: `leave ${given - most} out`,
+  });
+}
+
 export function coincident(figure: string, cause: string): MeasureError {
   return new MeasureError({
     code: "MEASURE_COINCIDENT",

@@ -1,6 +1,6 @@
 import { eastNorthUp, type Frame, pointIn, type Vector } from "@groma/georef";
 import type { Vertex } from "../vertex/vertex.js";
-import { crossing, tooFew } from "./refusals.js";
+import { coincident, crossing, tooFew } from "./refusals.js";
 
 /** Where gnomonic pictures still serve: cosine of 80° from their middle. */
 const FARTHEST = Math.cos((80 * Math.PI) / 180);
@@ -13,8 +13,11 @@ export function checkedRing(given: readonly Vertex[]): readonly Vertex[] {
   const first = given[0];
   const last = given[given.length - 1];
   const closed = given.length > 1 && first.ecef.every((value, axis) => value === last.ecef[axis]);
-  const ring = closed ? given.slice(0, -1) : given;
+  const ring = closed && given.length > 3 ? given.slice(0, -1) : given;
   if (ring.length < 3) throw tooFew("a polygon", 3, ring.length);
+  if (ring.every(({ ecef }) => ecef.every((value, axis) => value === ring[0].ecef[axis]))) {
+    throw coincident("polygon", "all its vertices stand in one place");
+  }
   const plan = gnomonic(ring);
   const edges = plan && crossingEdges(plan);
   if (edges) throw crossing(edges);

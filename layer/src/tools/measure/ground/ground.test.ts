@@ -115,6 +115,43 @@ describe("the volume of a data set", () => {
     expect(points).toBeGreaterThan(4096);
   });
 
+  it("is refused where an option is none, and takes classes as they are saved", async () => {
+    const cloud = withPoints(cloudOf(UTM), pile);
+    for (const options of [
+      { base: { kind: "height", height: Number.NaN } },
+      { base: { kind: "height", height: "5" } },
+      { base: { kind: "mean" } },
+      { base: { kind: "cloud" } },
+      { bsae: 1 },
+      { classes: 2 },
+      { precision: -1 },
+    ]) {
+      await expect(measureVolume(cloud, ringOf(cloud), options as never)).rejects.toMatchObject({
+        code: "MEASURE_OPTION",
+      });
+    }
+    for (const radius of [-2, Number.NaN, 0]) {
+      await expect(measureHeightAboveGround(cloud, cloud.vertex(X, Y, 5), { radius })).rejects.toMatchObject({
+        code: "MEASURE_OPTION",
+      });
+    }
+    const [listed, set] = await Promise.all(
+      [[2], new Set([2])].map((classes) => measureVolume(cloud, ringOf(cloud), { classes })),
+    );
+    expect(listed!.cut.value).toBe(set!.cut.value);
+  });
+
+  it("is worth what is not known where the scan has a gap", async () => {
+    const holed = withPoints(
+      cloudOf(UTM),
+      pile.filter(([x, y]) => Math.hypot(x + 3, y) > 3),
+    );
+    const { cut, covered, area } = await measureVolume(holed, ringOf(holed), { precision: 0.01 });
+    expect(covered).toBeLessThan(area - 20);
+    expect(cut.uncertainty).toBeNull();
+    expect(cut.parts[0]).toMatchObject({ name: "gaps", note: expect.stringContaining("% of the polygon") });
+  });
+
   it("changes between two data sets by what one has and the other lacks, with its level of detection", async () => {
     const parts = [
       { name: "datum operation", metres: 0.02 },

@@ -1,5 +1,6 @@
 import type { Vector } from "@groma/georef";
 import { MeasureError } from "../../../errors/index.js";
+import { shown } from "../../../options/index.js";
 import type { PointOrigin } from "../../../query/index.js";
 import { Plan } from "../points/local-plan.js";
 import { joined, readPoints } from "../points/read-points.js";
@@ -29,7 +30,7 @@ const STEP = 0.1;
  * ground around it, along the vertical of the data set's heights. How far these points are from the plane is part of its
  * worth.
  *
- * @throws MeasureError MEASURE_GROUND where there are not three such points, MEASURE_DATASET for vertices of no data set;
+ * @throws MeasureError MEASURE_OPTION; MEASURE_GROUND where there are not three such points, MEASURE_DATASET for vertices of no data set;
  *   SourceError, FormatError, DecodeError; the signal's reason when aborted
  */
 export async function measureHeightAboveGround(
@@ -37,6 +38,14 @@ export async function measureHeightAboveGround(
   vertex: Vertex,
   { radius, classes = GROUND, signal, ...worth }: GroundOptions = {},
 ): Promise<Quantity<"m">> {
+  if (radius !== undefined && !(radius > 0 && radius < Number.POSITIVE_INFINITY)) {
+    throw new MeasureError({
+      code: "MEASURE_OPTION",
+      file: cloud.name,
+      cause: `radius cannot be ${shown(radius)}`,
+      fix: "give a number of metres above 0, or leave it out",
+    });
+  }
   const { source } = vertex;
   if (!source || vertex.cloud !== cloud) {
     throw new MeasureError({

@@ -1,3 +1,4 @@
+import { MeasureError } from "../../../errors/index.js";
 import { measureAngle } from "../figures/angle.js";
 import { measureArea } from "../figures/area.js";
 import { measureCircle } from "../figures/circle.js";
@@ -6,6 +7,7 @@ import { measureDistance } from "../figures/distance.js";
 import { measurePlane } from "../figures/plane.js";
 import { measurePolyline } from "../figures/polyline.js";
 import { readOut } from "../figures/read-out.js";
+import { tooFew, tooMany } from "../figures/refusals.js";
 import type { MeasureUnits, Words } from "../units/measure-units.js";
 import { axesAt } from "../vertex/axes.js";
 import type { Vertex } from "../vertex/vertex.js";
@@ -208,12 +210,24 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
 
 /**
  * What a measurement comes to; the first value is what it is for.
- * @throws MeasureError where its vertices have no such value
+ * @throws MeasureError where its vertices have no such value, MEASURE_VERTICES where they are not as many as the kind needs,
+ *   MEASURE_OPTION for a kind that there is not
  */
 export function valuesOf(
   { kind, vertices }: Pick<Measurement, "kind" | "vertices">,
   options: WorthOptions = {},
 ) {
+  if (!Object.hasOwn(MEASUREMENT_KINDS, kind)) {
+    throw new MeasureError({
+      code: "MEASURE_OPTION",
+      file: "measurement",
+      cause: `there is no kind ${JSON.stringify(kind)}`,
+      fix: `use one of ${Object.keys(MEASUREMENT_KINDS).join(", ")}`,
+    });
+  }
+  const { title, least, most } = MEASUREMENT_KINDS[kind];
+  if (vertices.length < least) throw tooFew(title.toLowerCase(), least, vertices.length);
+  if (vertices.length > most) throw tooMany(title.toLowerCase(), most, vertices.length);
   return MEASUREMENT_KINDS[kind].values(vertices, options).filter((one) => one !== undefined);
 }
 

@@ -4,7 +4,8 @@ import { measureHeightAboveTerrain, type Terrain } from "../ground/height-above-
 import { datasetAmong, whyNotAmong } from "../vertex/dataset.js";
 import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
 import type { VolumeWorker } from "../volume/in-worker.js";
-import { measureVolume, type VolumeCloud, type VolumeOptions } from "../volume/measure-volume.js";
+import { measureVolume } from "../volume/measure-volume.js";
+import type { VolumeCloud, VolumeOptions } from "../volume/volume-options.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { quantity } from "../worth/quantity.js";
 import { type Measurement, type NamedValue, value } from "./measurement.js";

@@ -51,7 +51,7 @@ export interface Words {
   readonly value: string;
   /** `m` */
   readonly unit: string;
-  /** `± 0.032 m`, `at least ± 0.001 m` where a part is unknown, nothing where all parts are. */
+  /** `± 0.032 m`, `at least ± 0.001 m` where a part is unknown, `± unknown` where all parts are. */
   readonly worth: string;
   /** `1,523.847 m` */
   readonly main: string;
@@ -99,7 +99,13 @@ export class MeasureUnits {
     const { slope } = this;
     if (slope !== "percent" && slope !== "grade" && slope !== "ratio")
       return this.#angleWords(quantity, slope);
-    const tangent = Math.tan(quantity.value);
+    const { value, atLeast } = quantity;
+    // What may be vertical has no tangent, and what may be level is one in no number: as an angle they are told apart.
+    const least = slope === "ratio" ? Math.abs(value) : Math.PI / 2 - Math.abs(value);
+    if (least <= Math.max(atLeast, UPRIGHT) && (slope !== "ratio" || value !== 0)) {
+      return this.#angleWords(quantity, "degrees");
+    }
+    const tangent = Math.tan(value);
     const rate = 1 + tangent ** 2;
     if (slope === "ratio") {
       const level = Math.abs(1 / tangent);
@@ -171,11 +177,14 @@ export class MeasureUnits {
 
   #worth({ uncertainty, atLeast }: Scaled, unit: string): string {
     const decimals = decimalsOf(atLeast);
-    if (decimals === undefined) return "";
+    if (decimals === undefined) return uncertainty === null ? "± unknown" : "";
     const size = `± ${numberText(atLeast, decimals, this.locale)}${spaced(unit)}`;
     return uncertainty === null ? `at least ${size}` : size;
   }
 }
+
+/** Radians to the vertical, or the level, below which a ratio tells nothing. */
+const UPRIGHT = 1e-9;
 
 function texts(main: string, worth: string): Pick<Words, "main" | "text"> {
   return { main, text: worth === "" ? main : `${main} ${worth}` };

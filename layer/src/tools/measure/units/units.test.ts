@@ -23,17 +23,17 @@ describe("values in words", () => {
   it.each<[string, ConstructorParameters<typeof MeasureUnits>[0], Quantity, string]>([
     ["metres", {}, known(1523.8472, "m", 0.0321), "1,523.847 m ± 0.032 m"],
     ["a part unknown", {}, known(1523.8472, "m", null, 0.0321), "1,523.847 m at least ± 0.032 m"],
-    ["nothing known", {}, known(1523.8472, "m", null, 0), "1,523.847 m"],
+    ["nothing known", {}, known(1523.8472, "m", null, 0), "1,523.847 m ± unknown"],
     ["kilometres", { length: "kilometres" }, known(1523.8472, "m", 0.0321), "1.523847 km ± 0.000032 km"],
     ["a wide band", {}, known(1523.8, "m", 120), "1,520 m ± 120 m"],
     ["inches", { length: "inches" }, known(0.0254, "m", 0.0001), "1.0000 in ± 0.0039 in"],
     ["hectares", { area: "hectares" }, known(12345, "m²", 12), "1.2345 ha ± 0.0012 ha"],
-    ["acres", { area: "acres" }, known(4046.8564224, "m²", null, 0), "1.000000 ac"],
+    ["acres", { area: "acres" }, known(4046.8564224, "m²", null, 0), "1.000000 ac ± unknown"],
     ["cubic yards", { volume: "cubicYards" }, known(0.764554857984, "m³", 0.01), "1.000 yd³ ± 0.013 yd³"],
     ["degrees", {}, known(Math.PI / 6, "rad", 1e-4), "30.0000° ± 0.0057°"],
     ["gon", { angle: "gon" }, known(Math.PI / 2, "rad", 1e-4), "100.0000 gon ± 0.0064 gon"],
     ["DMS", { angle: "dms" }, known(46.952405555 * DEGREE, "rad", 1e-6), "46°57′08.66″ ± 0.21″"],
-    ["a ratio", {}, known(0.99962, "1", null, 0), "0.999620"],
+    ["a ratio", {}, known(0.99962, "1", null, 0), "0.999620 ± unknown"],
     ["German", { locale: "de-DE" }, known(-1523.8472, "m", 0.0321), "−1.523,847 m ± 0,032 m"],
     ["Hindi digits", { locale: "hi-IN-u-nu-deva" }, known(-1.5, "m", 0.1), "−१.५० m ± ०.१० m"],
   ])("%s", (_, options, quantity, text) => {
@@ -54,6 +54,20 @@ describe("values in words", () => {
       new RegExp(`^${text.replace(/(\d)( ?[%°]?| gon)$/, "$1\\d*$2")}$`),
     );
   });
+
+  it.each<[ConstructorParameters<typeof MeasureUnits>[0], number, number, string]>([
+    [{ slope: "percent" }, Math.PI / 2, 1e-3, "90.000° ± 0.057°"],
+    [{ slope: "grade" }, -Math.PI / 2, 1e-3, "−90.000° ± 0.057°"],
+    [{ slope: "percent" }, 1.57, 2e-3, "89.95° ± 0.11°"],
+    [{ slope: "ratio" }, 1e-5, 3e-3, "0.00° ± 0.17°"],
+    [{ slope: "percent" }, 1.5, 1e-3, "1,410 % ± 20 %"],
+    [{ slope: "ratio" }, 0.01, 1e-3, "1 : 100 ± 10"],
+  ])(
+    "slopes that may be vertical, or level, as angles where a ratio tells nothing: %o, %d ± %d",
+    (options, slope, band, text) => {
+      expect(plain(english(options).slopeWords(known(slope, "rad", band)).text)).toBe(text);
+    },
+  );
 
   it("coordinates with their hemispheres", () => {
     const latitude = known(-46.5 * DEGREE, "rad", 1e-9);
@@ -85,7 +99,7 @@ describe("the US survey foot", () => {
     );
     expect(
       plain(english({ area: "usSurveyAcres" }).words(known(43_560 * (1200 / 3937) ** 2, "m²", null, 0)).text),
-    ).toBe("1.000000 acUS");
+    ).toBe("1.000000 acUS ± unknown");
   });
 });
 

@@ -6,6 +6,7 @@ import {
   type StatedAccuracy,
   type Vector,
 } from "@groma/georef";
+import { MeasureError } from "../../../errors/index.js";
 import { type DatasetName, datasetAmong, datasetOf } from "./dataset.js";
 
 /** What measuring must know of a data set; a `PointCloud` is one. */
@@ -83,6 +84,30 @@ export function sourceVertex(cloud: MeasuredCloud, source: Vector): Vertex {
   return { ...placed(cloud.place(...source)), cloud, source };
 }
 
+/** Whether two vertices stand on one record. */
+export function isSameRecord({ record: a }: Vertex, { record: b }: Vertex): boolean {
+  return (
+    a !== undefined &&
+    b !== undefined &&
+    (a === b ||
+      (a.index === b.index && a.node === b.node && a.dataset === b.dataset && a.identity === b.identity))
+  );
+}
+
+const keys = new WeakMap<object, string>();
+
+/** The same for vertices on one record; a vertex that is none has its own. */
+export function recordKey(vertex: Vertex): unknown {
+  const { record } = vertex;
+  if (!record) return vertex;
+  let key = keys.get(record);
+  if (key === undefined) {
+    key = JSON.stringify([record.dataset, record.identity, record.node, record.index]);
+    keys.set(record, key);
+  }
+  return key;
+}
+
 /**
  * A vertex with the data set that it stands on, where that is among those at hand: its place is that set's own, and the
  * record stays what it was. It stays as it is where that data set, as it is open, has no such place.
@@ -109,15 +134,40 @@ export function datasetNameOf({ record, cloud, dataset }: Vertex): DatasetName |
  * A vertex that belongs to no data set.
  * @param longitude of WGS 84, radians, as `latitude`
  * @param height above the ellipsoid, metres
+ * @throws MeasureError MEASURE_OPTION for numbers that are none, and for latitudes beyond the poles
  */
 export function placeVertex(longitude: number, latitude: number, height: number): Vertex {
+  if (![longitude, latitude, height].every(Number.isFinite)) {
+    throw noPlace(`${longitude}, ${latitude}, ${height} are no longitude, latitude and height`);
+  }
+  if (Math.abs(latitude) > Math.PI / 2 + ROUNDING || Math.abs(longitude) > MOST_LONGITUDE) {
+    throw noPlace(`longitude ${longitude}, latitude ${latitude} are no radians`);
+  }
   const ecef = new Float64Array(3);
   geodeticToEcef(longitude, latitude, height, ecef);
   return { longitude, latitude, height, ecef: [ecef[0], ecef[1], ecef[2]] };
 }
 
-/** The same from ECEF, metres. */
+/** Of a latitude, radians. */
+const ROUNDING = 1e-12;
+
+/** Radians: one turn and a half, as data across the antimeridian have them. */
+const MOST_LONGITUDE = 3 * Math.PI + ROUNDING;
+
+function noPlace(cause: string): MeasureError {
+  return new MeasureError({
+    code: "MEASURE_OPTION",
+    file: "vertex",
+    cause,
+    fix: "give longitude and latitude of WGS 84 in radians and the height in metres, or ECEF in metres",
+  });
+}
+
+/** The same from ECEF, metres. @throws MeasureError MEASURE_OPTION for numbers that are none */
 export function ecefVertex(ecef: ArrayLike<number>): Vertex {
+  if (![ecef[0], ecef[1], ecef[2]].every(Number.isFinite)) {
+    throw noPlace(`${[ecef[0], ecef[1], ecef[2]].join(", ")} are no X, Y and Z`);
+  }
   return placed(ecef);
 }
 

@@ -3,6 +3,7 @@ import { MeasureError } from "../../../errors/index.js";
 import { tooFew } from "../figures/refusals.js";
 import { crossingEdges } from "../figures/ring.js";
 import { heldAgainst, noSurface, type Progress, type VolumeBase } from "./base.js";
+import { checkBase } from "./check-base.js";
 import { type CutAndFill, prismsOf } from "./prisms.js";
 import { RingIndex } from "./ring-index.js";
 import { type Sensitivities, sensitivitiesOf } from "./sensitivity.js";
@@ -24,7 +25,7 @@ export interface RingVolume extends CutAndFill {
  *
  * @param points x, y, z of each, metres in one Cartesian plan; points around the ring let the surface reach its edge
  * @param ring x, y, z of its vertices in the same plan
- * @throws MeasureError MEASURE_VERTICES, MEASURE_CROSSING for the ring; MEASURE_SURFACE where the points make no surface
+ * @throws MeasureError MEASURE_OPTION for the base; MEASURE_VERTICES, MEASURE_CROSSING for the ring; MEASURE_SURFACE where the points make no surface
  */
 export function cutAndFill(
   points: Float64Array,
@@ -32,6 +33,7 @@ export function cutAndFill(
   base: VolumeBase,
   onProgress: Progress = () => undefined,
 ): RingVolume {
+  checkBase(base);
   if (ring.length < 9) throw tooFew("a volume", 3, ring.length / 3);
   const plan = flat(ring);
   const edges = crossingEdges(plan);

@@ -1,35 +1,15 @@
 import { sameHeights, samePlane, type Vector } from "@groma/georef";
 import { MeasureError } from "../../../errors/index.js";
-import type { PointOrigin } from "../../../query/index.js";
 import { checkedRing } from "../figures/ring.js";
 import { Plan } from "../points/local-plan.js";
 import { readPoints, type SourceRectangle } from "../points/read-points.js";
-import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
+import type { Vertex } from "../vertex/vertex.js";
 import { cloudErrors, type PointError, type WorthOptions } from "../worth/point-errors.js";
 import { type OwnError, type Quantity, quantity } from "../worth/quantity.js";
-import type { VolumeBase } from "./base.js";
-import { inWorker, type VolumeWorker } from "./in-worker.js";
+import { inWorker } from "./in-worker.js";
 import type { Sensitivity } from "./sensitivity.js";
 import { runVolumeJob, type VolumeJob, type VolumeSums } from "./volume-job.js";
-
-/** A data set whose points can be asked for; a `PointCloud` is one. */
-export type VolumeCloud = MeasuredCloud & PointOrigin;
-
-export interface VolumeOptions extends WorthOptions {
-  /** Default: `lowest`. Heights are metres in the data set's own height system. */
-  readonly base?:
-    | Exclude<VolumeBase, { kind: "surface" }>
-    | { readonly kind: "cloud"; readonly cloud: VolumeCloud }
-    | undefined;
-  /** Classes of the points that make the surface; those of the ground are 2. Default: all. */
-  readonly classes?: ReadonlySet<number> | undefined;
-  /** Stops the work, that of the worker too. */
-  readonly signal?: AbortSignal | undefined;
-  /** Hears the share of the work that is done, 0 to 1; the first half is reading. */
-  readonly onProgress?: ((share: number) => void) | undefined;
-  /** Makes the worker, where the application's bundler or policy needs its own way. */
-  readonly createWorker?: (() => VolumeWorker) | undefined;
-}
+import { checkVolumeOptions, type VolumeCloud, type VolumeOptions } from "./volume-options.js";
 
 /** Volumes over a polygon. */
 export interface Volume {
@@ -65,15 +45,17 @@ const AROUND = 0.05;
  * The surfaces are made in a worker of their own; where there are none (Node), on the calling thread.
  *
  * @param ring vertices of the data set
- * @throws MeasureError MEASURE_VERTICES, MEASURE_CROSSING, MEASURE_SURFACE, MEASURE_DATASET where the ring is of another
+ * @throws MeasureError MEASURE_OPTION, MEASURE_VERTICES, MEASURE_CROSSING, MEASURE_SURFACE, MEASURE_DATASET where the ring is of another
  *   data set, MEASURE_WORKER; SourceError, FormatError, DecodeError; the signal's reason when aborted
  */
 export async function measureVolume(
   cloud: VolumeCloud,
   ring: readonly Vertex[],
-  options: VolumeOptions = {},
+  given: VolumeOptions = {},
 ): Promise<Volume> {
-  const { base = { kind: "lowest" }, classes, signal, onProgress } = options;
+  const options = checkVolumeOptions(given, cloud.name);
+  const { base = { kind: "lowest" }, signal, onProgress } = options;
+  const classes = options.classes && new Set(options.classes);
   const corners = checkedRing(ring).map(({ cloud: of, source }) => {
     if (of === cloud && source) return source;
     throw new MeasureError({
@@ -183,12 +165,24 @@ function errorsOf(
   add(ofRecords, sensitivities.surface);
   add(ofBase, sensitivities.base);
   add(ofVertices, sensitivities.ring);
-  if (!other) return [...errors.values()];
+  const gaps = gapsIn(sums);
+  if (!other) return [...errors.values(), ...gaps];
   const parts = [cloud, other].map(({ accuracy }) => accuracy.total);
   const apart = parts.every((total) => total !== null) ? covered * Math.hypot(...parts) : null;
   const note = "against each other, over the whole area";
-  return [...errors.values(), { name: "place of both data sets", standard: apart, note }];
+  return [...errors.values(), { name: "place of both data sets", standard: apart, note }, ...gaps];
 }
+
+/** What is not known where there are no points. */
+function gapsIn({ area, covered }: VolumeSums): OwnError[] {
+  const share = 1 - covered / area;
+  if (share < NO_GAP) return [];
+  const percent = (100 * share).toPrecision(2);
+  return [{ name: "gaps", standard: null, note: `${percent} % of the polygon have no points` }];
+}
+
+/** Share of a polygon that its edge may leave out. */
+const NO_GAP = 1e-3;
 
 /** 1.96 standard deviations of a difference of two heights (Lane, Westaway and Hicks 2003). */
 function levelOfDetection(a: VolumeCloud, b: VolumeCloud, { precision }: WorthOptions): number | null {

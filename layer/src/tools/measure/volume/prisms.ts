@@ -7,7 +7,10 @@ export interface CutAndFill {
   readonly cut: number;
   /** Below it. */
   readonly fill: number;
-  /** Part of the ring that the surface covers, square metres. */
+  /**
+   * Part of the ring that the points cover, square metres: where the surface goes straight across a gap, ten times as wide as
+   * most of its triangles are, it covers nothing.
+   */
   readonly covered: number;
 }
 
@@ -18,6 +21,7 @@ export interface CutAndFill {
  */
 export function prismsOf(differences: Tin, index: RingIndex): CutAndFill {
   const { triangles, xy, z } = differences;
+  const gap = gapIn(differences, index);
   let [cut, fill, covered] = [0, 0, 0];
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
@@ -38,11 +42,33 @@ export function prismsOf(differences: Tin, index: RingIndex): CutAndFill {
       total = part.volume;
       above = part.above;
     }
-    covered += area;
+    if (longestEdge(xy, a, b, c) <= gap) covered += area;
     cut += above;
     fill += above - total;
   }
   return { cut: Math.max(0, cut), fill: Math.max(0, fill), covered };
+}
+
+/** Triangles whose edges are looked at for the usual distance of points, and how many times that is a gap. */
+const [SAMPLE, WIDER] = [2000, 10];
+
+/** Length of an edge that leads across a gap, metres. */
+function gapIn({ triangles, xy }: Tin, index: RingIndex): number {
+  const count = triangles.length / 3;
+  const step = Math.max(1, Math.floor(count / SAMPLE));
+  const edges: number[] = [];
+  for (let t = 0; t < count; t += step) {
+    const [a, b, c] = triangles.subarray(3 * t, 3 * t + 3);
+    if (relationOf(index, xy, a, b, c) !== "out") edges.push(longestEdge(xy, a, b, c));
+  }
+  edges.sort((one, other) => one - other);
+  return edges.length > 0 ? WIDER * edges[edges.length >> 1] : Number.POSITIVE_INFINITY;
+}
+
+function longestEdge(xy: Float64Array, a: number, b: number, c: number): number {
+  const square = (i: number, j: number) =>
+    (xy[2 * i] - xy[2 * j]) ** 2 + (xy[2 * i + 1] - xy[2 * j + 1]) ** 2;
+  return Math.sqrt(Math.max(square(a, b), square(b, c), square(c, a)));
 }
 
 /** Area of the part of a triangle that lies within a ring. @param a, b, c its corners among `xy` */

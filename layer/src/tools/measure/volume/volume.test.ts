@@ -143,6 +143,18 @@ describe("volumes of solids", () => {
     expect([part.cut === 0 || part.cut > 0, part.fill]).toEqual([true, 0]);
   });
 
+  it("say that what lies in a gap of the points is not covered", () => {
+    const points = surface(10, 0.25, () => 1);
+    const around: number[] = [];
+    for (let i = 0; i < points.length; i += 3) {
+      if (Math.hypot(points[i], points[i + 1]) > 6) around.push(...points.subarray(i, i + 3));
+    }
+    const { cut, covered } = cutAndFill(Float64Array.from(around), square(8), { kind: "height", height: 0 });
+    expect(cut).toBeCloseTo(256, 6);
+    expect(covered).toBeGreaterThan(256 - 36 * Math.PI - 5);
+    expect(covered).toBeLessThan(256 - 36 * Math.PI + 25);
+  });
+
   it("say what of the ring the points do not cover", () => {
     const { area, covered } = cutAndFill(
       surface(5, 0.5, () => 1, 0),
@@ -186,6 +198,14 @@ describe("volumes of solids", () => {
 
   it("have rings and surfaces that are none refused", () => {
     const points = surface(2, 1, () => 0);
+    for (const base of [
+      { kind: "mean" },
+      { kind: "height", height: Number.NaN },
+      { kind: "height" },
+      undefined,
+    ]) {
+      expect(() => cutAndFill(points, square(1), base as never)).toThrow("MEASURE_OPTION: volume: ");
+    }
     const bow = ringOf([0, 0], [1, 1], [1, 0], [0, 1]);
     expect(() => cutAndFill(points, bow, { kind: "lowest" })).toThrow("MEASURE_CROSSING");
     expect(() => cutAndFill(points, bow.slice(0, 6), { kind: "lowest" })).toThrow("MEASURE_VERTICES");

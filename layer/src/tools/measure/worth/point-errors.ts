@@ -1,4 +1,6 @@
 import { type AccuracyPart, WGS84 } from "@groma/georef";
+import { MeasureError } from "../../../errors/index.js";
+import { shown } from "../../../options/index.js";
 import type { MeasuredCloud } from "../vertex/vertex.js";
 
 /** Standard deviation of recorded points, metres: along each axis, or in plane (each axis) and height. */
@@ -65,6 +67,7 @@ export function cloudErrors(cloud: MeasuredCloud | undefined, given: WorthOption
   const precision = typeof given === "function" ? given(cloud) : given;
   const found = known.get(cloud);
   if (found && found.precision === precision) return found.errors;
+  checkPrecision(precision, cloud.name);
   const step = quantisation(cloud);
   const placed = cloud.accuracy.parts.flatMap((part) => placeError(part, cloud));
   const own = placed.filter(({ reach }) => reach === 0);
@@ -75,6 +78,20 @@ export function cloudErrors(cloud: MeasuredCloud | undefined, given: WorthOption
   };
   known.set(cloud, { precision, errors });
   return errors;
+}
+
+/** @throws MeasureError MEASURE_OPTION where it is no standard deviation */
+function checkPrecision(given: unknown, file: string): void {
+  const isLength = (one: unknown) => typeof one === "number" && one >= 0 && Number.isFinite(one);
+  if (given === undefined || isLength(given)) return;
+  const both = typeof given === "object" && given !== null ? (given as Record<string, unknown>) : {};
+  if (isLength(both.horizontal) && isLength(both.vertical)) return;
+  throw new MeasureError({
+    code: "MEASURE_OPTION",
+    file,
+    cause: `the precision of its points cannot be ${shown(given)}`,
+    fix: "give one standard deviation in metres, from 0 on, or { horizontal, vertical }, or leave it out where it is not known",
+  });
 }
 
 /**

@@ -1,6 +1,6 @@
 import { dot, type Vector } from "@groma/georef";
 import { type Axes, axesAt, combined } from "../vertex/axes.js";
-import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
+import { isSameRecord, type MeasuredCloud, recordKey, type Vertex } from "../vertex/vertex.js";
 import { COVERAGE, coverageFactor, RECTANGULAR_KURTOSIS } from "./coverage.js";
 import { cloudErrors, type PointError, type WorthOptions } from "./point-errors.js";
 
@@ -99,6 +99,8 @@ interface Sum {
   known: boolean;
   correlation: number;
   note: string | undefined;
+  /** The data set whose points share it, the first of several. */
+  sharedBy: MeasuredCloud | undefined;
 }
 
 /** A derivative along the axes of its vertex. */
@@ -112,7 +114,7 @@ interface Member {
 
 function addList(sums: Map<string, Sum>, list: readonly Sensitivity[], options: QuantityOptions): void {
   const clouds = new Map<MeasuredCloud | undefined, Member[]>();
-  for (const { vertex, gradient } of list) {
+  for (const { vertex, gradient } of byRecord(list)) {
     const axes = axesAt(vertex);
     const [east, north, up] = [dot(gradient, axes.east), dot(gradient, axes.north), dot(gradient, axes.up)];
     const member = { vertex, axes, east, north, up };
@@ -128,15 +130,32 @@ function addList(sums: Map<string, Sum>, list: readonly Sensitivity[], options: 
       }
     }
     if (options.ofRecords) continue;
-    for (const error of shared) addShared(sumOf(sums, error), error, members);
+    for (const error of shared) addShared(sumOf(sums, error), error, { cloud, members });
   }
+}
+
+/** One derivative for each record: one that was picked twice is one point. */
+function byRecord(list: readonly Sensitivity[]): readonly Sensitivity[] {
+  const [first, second] = list;
+  if (list.length === 1 || (list.length === 2 && !isSameRecord(first.vertex, second.vertex))) return list;
+  const found = new Map<unknown, { readonly vertex: Vertex; readonly gradient: [number, number, number] }>();
+  for (const { vertex, gradient } of list) {
+    const key = recordKey(vertex);
+    const there = found.get(key);
+    if (!there) found.set(key, { vertex, gradient: [gradient[0], gradient[1], gradient[2]] });
+    else for (let axis = 0; axis < 3; axis++) there.gradient[axis] += gradient[axis];
+  }
+  return [...found.values()];
 }
 
 function sumOf(sums: Map<string, Sum>, { name, note }: PointError): Sum {
   let sum = sums.get(name);
   if (!sum) {
-    sum = { variance: 0, fourth: 0, known: true, correlation: 0, note };
+    sum = { variance: 0, fourth: 0, known: true, correlation: 0, note, sharedBy: undefined };
     sums.set(name, sum);
+  } else if (note !== undefined && sum.note !== note && !sum.note?.split("; ").includes(note)) {
+    // Of several data sets each has its own.
+    sum.note = sum.note === undefined ? note : `${sum.note}; ${note}`;
   }
   return sum;
 }
@@ -155,7 +174,11 @@ function addOwn(sum: Sum, { known, horizontal, up, shape }: PointError, member: 
  * An error that the points of a data set share, with the covariance exp(−(d / reach)²/ 2) of two of them: formed of what a
  * common error leaves and of how far the covariances fall short of it, so that it cancels to the last digit.
  */
-function addShared(sum: Sum, { known, reach, horizontal, up }: PointError, members: readonly Member[]): void {
+function addShared(
+  sum: Sum,
+  { known, reach, horizontal, up }: PointError,
+  { cloud, members }: { readonly cloud: MeasuredCloud | undefined; readonly members: readonly Member[] },
+): void {
   let [x, y, z, whole] = [0, 0, 0, 0];
   const weighted = members.map(({ axes, east, north, up: above }) => {
     const vector = combined(axes, east * horizontal, north * horizontal, above * up);
@@ -179,6 +202,9 @@ function addShared(sum: Sum, { known, reach, horizontal, up }: PointError, membe
     }
   }
   sum.variance += Math.max(0, variance);
-  sum.correlation = correlation;
+  // What points of two data sets have in common is nothing.
+  const alone = sum.sharedBy === undefined || sum.sharedBy === cloud;
+  sum.correlation = alone ? correlation : 0;
+  sum.sharedBy ??= cloud;
   sum.known &&= known || Math.sqrt(left) <= CANCELS * whole;
 }

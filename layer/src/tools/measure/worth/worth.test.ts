@@ -165,7 +165,13 @@ describe("the stated band holds 93 to 97 % of the cases", () => {
 
 describe("errors that two points share", () => {
   const cloud = cloudOf(UTM);
-  const other = cloudOf(UTM, { name: "other" });
+  const other = cloudOf(UTM, {
+    name: "other",
+    parts: [
+      { name: "datum operation", metres: 1, note: "another operation" },
+      { name: "height", metres: null, note: "reference unknown, drawn as ellipsoidal" },
+    ],
+  });
   const [a, b] = [cloud.vertex(500000, 5300000, 0), cloud.vertex(500010, 5300000, 0)];
 
   it("do not count in a distance within one scan, and grow with it", () => {
@@ -182,6 +188,8 @@ describe("errors that two points share", () => {
   it("count in full between two scans", () => {
     const { space, vertical } = measureDistance(a, other.vertex(500010, 5300000, 0), { precision: 0.001 });
     expect(space.atLeast).toBeGreaterThan(1.96 * Math.SQRT2 * 0.99);
+    const datum = space.parts.find(({ name }) => name === "datum operation");
+    expect([datum?.correlation, datum?.note]).toEqual([0, "some operation; another operation"]);
     // Heights of unknown reference: nobody knows by how much two of them differ.
     expect(vertical.uncertainty).toBeNull();
     expect(vertical.parts[0]).toMatchObject({ name: "height", standard: null });
