@@ -1,7 +1,11 @@
+import { basename, dirname } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { converted } from "../converted.js";
+import { data } from "../project.js";
 import { pythonMissing } from "../python.js";
 import { colourDifference, screenshot } from "./harness.js";
 import { openStage, type StagePage } from "./stage.js";
+import { longestTask } from "./trace.js";
 
 const UTM = { "EPSG:32632": "+proj=utm +zone=32 +datum=WGS84 +units=m +no_defs" };
 /** 20 × 20 m at 20 pixels per metre, in the plane of the scan. */
@@ -158,3 +162,59 @@ describe.skipIf(pythonMissing)(
     });
   },
 );
+
+const autzen = data("autzen.laz");
+const asked = process.env.GROMA_PLOT === "1";
+const left = asked ? autzen.missing : "GROMA_PLOT=1 asks for a million points, some minutes";
+
+describe.skipIf(left)(`the plot of a million points${left ? ` (skipped: ${left})` : ""}`, () => {
+  it("has a picture 300 ms after its first node, and never holds the thread", {
+    timeout: 600_000,
+  }, async () => {
+    const file = converted(autzen.path);
+    const stage = await openStage("map-stage", { "/scans/": dirname(file) });
+    const { page } = stage;
+    const browser = page.context().browser()!;
+    try {
+      const source = { url: "/clouds/terraces.copc.laz" };
+      const options = JSON.stringify({ view: ABOVE, source, projections: UTM });
+      await page.evaluate(
+        async ([text, name]) => {
+          const { layer, MapStage, PlotStage, lineThrough } = window.map;
+          window.map.stage = new MapStage(JSON.parse(text!)) as typeof window.map.stage;
+          await window.map.stage.complete();
+          const cloud = await layer.PointCloud.fromUrl(`/scans/${name}`);
+          const { min, max } = cloud.boundingBox;
+          // A sixth of the cloud, feet.
+          const width = ((max[1] - min[1]) / 6) * 0.3048;
+          const plotted = { line: lineThrough(cloud), width };
+          window.map.plot = new PlotStage(window.map.stage, cloud, plotted, [0, 1200, 100, 200]);
+        },
+        [options, basename(file)],
+      );
+      await browser.startTracing(page, { categories: ["toplevel", "devtools.timeline"] });
+      const read = await page.evaluate(() => window.map.plot.readInFrames());
+      const reading = longestTask(await browser.stopTracing());
+      await browser.startTracing(page, { categories: ["toplevel", "devtools.timeline"] });
+      const frames = await page.evaluate(async () => {
+        const { plot } = window.map;
+        plot.asked();
+        for (let step = 0; step < 10; step++) {
+          plot.view.panBy(5, -3);
+          await new Promise(requestAnimationFrame);
+          await plot.settle();
+        }
+        return plot.asked();
+      });
+      const panning = longestTask(await browser.stopTracing());
+      console.info(JSON.stringify({ ...read, reading, panning, frames }));
+      expect(read.points).toBeGreaterThan(1_000_000);
+      expect(read.first).toBeLessThan(300);
+      expect(frames.buffers).toBe(0);
+      expect(reading.threadMs).toBeLessThan(8);
+      expect(panning.threadMs).toBeLessThan(8);
+    } finally {
+      await stage.close();
+    }
+  });
+});

@@ -53,5 +53,10 @@ export async function groundOf(
       if (wanted) line.add(chainage[index]!, height[index]!);
     }
   }
-  return line.stations();
+  const stations: TerrainStation[] = [];
+  for (const station of line.eachStation()) {
+    stations.push(station);
+    await pace.rest();
+  }
+  return stations;
 }

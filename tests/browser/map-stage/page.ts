@@ -2,7 +2,7 @@ import * as layer from "@groma/layer/openlayers";
 import * as tools from "@groma/layer/tools";
 import { MapStage } from "./map-stage.js";
 import * as ol from "./ol.js";
-import { PlotStage } from "./plot-stage.js";
+import { lineThrough, PlotStage } from "./plot-stage.js";
 
 declare global {
   interface Window {
@@ -13,6 +13,7 @@ declare global {
       readonly tools: typeof tools;
       readonly MapStage: typeof MapStage;
       readonly PlotStage: typeof PlotStage;
+      readonly lineThrough: typeof lineThrough;
       /** The plot of its cloud, if any. */
       plot: PlotStage;
       /** The stage that stands, if any. */
@@ -24,7 +25,7 @@ declare global {
 }
 
 window.map = {
-  ...{ ol, layer, tools, MapStage, PlotStage },
+  ...{ ol, layer, tools, MapStage, PlotStage, lineThrough },
   plot: undefined as unknown as PlotStage,
   stage: undefined as unknown as MapStage,
   measure: undefined as unknown as tools.MeasureTool,

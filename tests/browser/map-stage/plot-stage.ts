@@ -1,6 +1,7 @@
+import { ecefToGeodetic } from "@groma/georef";
 import type { PointCloud, PointFilter, StyleParts } from "@groma/layer/openlayers";
 import { PlotPicture, type PlotSeries } from "@groma/layer/plot";
-import { PlotView, Profile, type ProfileOptions, type ProfilePoints } from "@groma/layer/tools";
+import { PlotIndex, PlotView, Profile, type ProfileOptions, type ProfilePoints } from "@groma/layer/tools";
 import type { MapStage } from "./map-stage.js";
 
 /** What was asked of a canvas' context since it was looked at last. */
@@ -20,6 +21,7 @@ export class PlotStage {
   readonly #canvas = document.createElement("canvas");
   readonly #map: MapStage;
   readonly #profile: Profile;
+  readonly #index = new PlotIndex<ProfilePoints>();
   #asked: Asked = { buffers: 0, textureBytes: 0, pointsDrawn: 0 };
 
   constructor(
@@ -54,6 +56,31 @@ export class PlotStage {
         await this.settle();
       }
     }
+  }
+
+  /**
+   * Reads all points as a page does: what has come is drawn in the browser's next frame.
+   * @returns milliseconds from the first points to the first picture of some, and to the last one
+   */
+  async readInFrames(): Promise<{ points: number; parts: number; first: number; last: number }> {
+    let [began, first, reading] = [0, 0, true];
+    const drawing = (async () => {
+      for (let whole = false; reading || !whole; ) {
+        await new Promise(requestAnimationFrame);
+        whole = this.#picture.draw(this.view, 1);
+        if (first === 0 && this.#asked.pointsDrawn > 0) first = performance.now() - began;
+      }
+    })();
+    for await (const points of this.#profile.points()) {
+      began ||= performance.now();
+      this.parts.push(points);
+      this.series.add(points);
+      this.#index.add(points);
+    }
+    reading = false;
+    await drawing;
+    const { points } = this.series;
+    return { points, parts: this.parts.length, first, last: performance.now() - began };
   }
 
   /** Draws until all is there. */
@@ -116,4 +143,15 @@ function partOf({ batch, chainage, offset, height }: ProfilePoints, from: number
   const [along, aside, up] = [chainage, offset, height].map((numbers) => numbers.subarray(from, to));
   const inside = batch.inside.subarray(from, to);
   return { batch: { ...batch, inside }, chainage: along!, offset: aside!, height: up! };
+}
+
+/** A line from west to east through the middle of a cloud: longitudes and latitudes, radians. */
+export function lineThrough(cloud: PointCloud): [number, number][] {
+  const { min, max } = cloud.boundingBox;
+  return [0.02, 0.98].map((share) => {
+    const [x, y, z] = cloud.place(min[0] + share * (max[0] - min[0]), (min[1] + max[1]) / 2, min[2]);
+    const geodetic = new Float64Array(3);
+    ecefToGeodetic(x!, y!, z!, geodetic);
+    return [geodetic[0]!, geodetic[1]!];
+  });
 }

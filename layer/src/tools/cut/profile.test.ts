@@ -59,6 +59,34 @@ describe("a profile", () => {
     }
   });
 
+  it("comes in parts, each point once, and lets others have the thread in between", async () => {
+    const count = 400_000;
+    const xyz = new Int32Array(3 * count);
+    for (let point = 0; point < count; point++) xyz[3 * point] = point % 90;
+    const everything = Uint32Array.from({ length: count }, (_, point) => point);
+    const cloud: ProfiledCloud = {
+      ...cloudOf(),
+      query: () =>
+        ({
+          async *batches() {
+            yield { node: "0-0-0-0", records: { count, xyz, attributes: [] }, inside: everything };
+          },
+        }) as never,
+    };
+    const line = Array.from({ length: 60 }, (_, vertex) => [radians(2 * vertex), 0] as const);
+    let turns = 0;
+    const others = setInterval(() => turns++);
+    const seen: number[] = [];
+    for await (const { batch, chainage } of new Profile(cloud, { line, width: 4 }).points()) {
+      expect(chainage.length).toBe(batch.inside.length);
+      expect(chainage.length).toBeLessThanOrEqual(16_384);
+      for (const point of batch.inside) seen.push(point);
+    }
+    clearInterval(others);
+    expect(seen).toEqual([...everything]);
+    expect(turns).toBeGreaterThan(1);
+  });
+
   it("counts chainage along geodesics, from a start", async () => {
     const line = [
       [0, 0],

@@ -1,6 +1,6 @@
 import { type Crs, ecefToGeodetic, geodesicBetween, PlacementError } from "@groma/georef";
 import { Clip, type ClipMode, type SourceSpace } from "../../clips/index.js";
-import type { PointBatch, PointOrigin } from "../../query/index.js";
+import { Pace, type PointBatch, type PointOrigin } from "../../query/index.js";
 import { type LineOnEllipsoid, lineOnEllipsoid } from "../ellipsoid/line-on-ellipsoid.js";
 import { CorridorOnEllipsoid, CrossSectionsOnEllipsoid, type Geodetic } from "../ellipsoid/on-ellipsoid.js";
 import { Corridor } from "../profile/corridor.js";
@@ -33,7 +33,13 @@ export interface ProfileOptions {
   readonly plane?: "source" | "ellipsoid" | undefined;
 }
 
-/** Points of a profile from one node, along the line. */
+/** Points of a node that come at a time: so many are drawn, and made fit to be found, within some milliseconds. */
+const PART = 16_384;
+
+/** Points between two looks at the clock. */
+const SLICE = 2048;
+
+/** Points of a profile from one node, all or some of them, along the line. */
 export interface ProfilePoints {
   readonly batch: PointBatch;
   /** Metres along the line, as the profile counts them. */
@@ -169,7 +175,8 @@ export class Profile {
   }
 
   /**
-   * Reads the points, coarser nodes first, each point once.
+   * Reads the points, coarser nodes first, each point once; those of a node come a part at a time, with pauses, so that
+   * whoever shows them does not hold up the page.
    * @param options with `spacing`, metres that suffice between neighbouring points
    * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted
    */
@@ -180,20 +187,26 @@ export class Profile {
     const { unit } = this;
     const place = new Float64Array(2);
     const query = this.origin.query({ volume: this.volume, spacing: options.spacing });
+    const pace = new Pace(options.signal);
     for await (const batch of query.batches({ signal: options.signal })) {
       const { xyz } = batch.records;
-      const { inside } = batch;
-      const [chainage, offset, height] = [0, 1, 2].map(() => new Float64Array(inside.length));
-      for (let index = 0; index < inside.length; index++) {
-        const at = 3 * inside[index];
-        const [x, y] = [xyz[at] * scale[0] + origin[0], xyz[at + 1] * scale[1] + origin[1]];
-        const z = xyz[at + 2] * scale[2] + origin[2];
-        this.volume.locate(x, y, place, z);
-        chainage[index] = place[0] * unit;
-        offset[index] = place[1] * unit;
-        height[index] = z * crs.verticalUnit.size;
+      for (let from = 0; from < batch.inside.length; from += PART) {
+        const inside = batch.inside.subarray(from, from + PART);
+        const [chainage, offset, height] = [0, 1, 2].map(() => new Float64Array(inside.length));
+        for (let index = 0; index < inside.length; index++) {
+          if (index % SLICE === 0) await pace.rest();
+          const at = 3 * inside[index];
+          const x = xyz[at] * scale[0] + origin[0];
+          const y = xyz[at + 1] * scale[1] + origin[1];
+          const z = xyz[at + 2] * scale[2] + origin[2];
+          this.volume.locate(x, y, place, z);
+          chainage[index] = place[0] * unit;
+          offset[index] = place[1] * unit;
+          height[index] = z * crs.verticalUnit.size;
+        }
+        await pace.rest();
+        yield { batch: { ...batch, inside }, chainage, offset, height };
       }
-      yield { batch, chainage, offset, height };
     }
   }
 }

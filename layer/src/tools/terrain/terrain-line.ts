@@ -91,9 +91,14 @@ export class TerrainLine {
   }
 
   stations(): TerrainStation[] {
-    return Array.from(this.#count, (count, station) => {
+    return [...this.eachStation()];
+  }
+
+  /** The stations one after the other: a percentile of many points takes its time, and a page may pause between two. */
+  *eachStation(): Generator<TerrainStation, void> {
+    for (const [station, count] of this.#count.entries()) {
       const [least, greatest, mean] = [this.#least[station], this.#greatest[station], this.#mean[station]];
-      return {
+      yield {
         chainage: this.#from + station * this.interval,
         height: count === 0 ? Number.NaN : this.#height(station, count),
         ...(count === 0
@@ -102,7 +107,7 @@ export class TerrainLine {
         deviation: count < 2 ? Number.NaN : Math.sqrt(this.#squares[station] / (count - 1)),
         count,
       };
-    });
+    }
   }
 
   /** Chainage and height of the stations with points, a list for each stretch without a gap. */
