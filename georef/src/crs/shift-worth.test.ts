@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
+import { DATUM_AREAS } from "./datum-areas.js";
 import { DATUM_SPREAD } from "./datum-spread.js";
-import { findDatumShift } from "./datum-table.js";
+import { DATUM_SHIFTS, findDatumShift } from "./datum-table.js";
 import { resolveCrs } from "./resolve.js";
 import { accuracyIn, publishedAccuracy, shiftAccuracy } from "./shift-worth.js";
 
@@ -45,5 +46,10 @@ describe("the accuracy of a CRS", () => {
     expect(accuracyIn(datum, KANSAS)).toBe(shiftAccuracy(NAD27, KANSAS));
     expect(accuracyIn(datum, undefined)).toBe(shiftAccuracy(NAD27));
     expect(accuracyIn({ operation: "its own", accuracy: null }, KANSAS)).toBeNull();
+  });
+
+  it("is not known outside of its datum's area, which every datum with a shift has", () => {
+    expect(accuracyIn(datum, [5, 52, 6, 53])).toBeNull();
+    for (const { code } of DATUM_SHIFTS) expect(DATUM_AREAS.has(code), `${code}`).toBe(true);
   });
 });

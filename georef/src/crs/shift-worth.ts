@@ -1,5 +1,6 @@
 import { type AreaOfUse, areOverlapping } from "./area-of-use.js";
 import type { DatumOperation } from "./crs.js";
+import { DATUM_AREAS } from "./datum-areas.js";
 import { DATUM_SPREAD } from "./datum-spread.js";
 import { type DatumShift, findDatumShift } from "./datum-table.js";
 
@@ -19,14 +20,16 @@ export function shiftAccuracy({ code, accuracy }: Pick<DatumShift, "code" | "acc
 }
 
 /**
- * What a CRS's way to WGS 84 is worth in the area of a data set, metres; `null` when nobody has stated it.
+ * What a CRS's way to WGS 84 is worth in the area of a data set, metres; `null` when nobody has stated it, and outside of
+ * the datum's area of use, where its shift may be hundreds of metres off.
  *
  * @param area undefined where no place is known
  */
 export function accuracyIn(datum: DatumOperation | undefined, area: AreaOfUse | undefined): number | null {
   const shift = datum?.datum === undefined ? undefined : findDatumShift("", datum.datum);
   if (!shift || !area) return datum?.accuracy ?? null;
-  return shiftAccuracy(shift, area);
+  const use = DATUM_AREAS.get(shift.code);
+  return use && !areOverlapping(use, area) ? null : shiftAccuracy(shift, area);
 }
 
 /** The accuracy that is published for a CRS's way to WGS 84, metres, wherever it is used. */

@@ -75,9 +75,9 @@ describe("georeferenceOf a file with a georeference that the application gives",
     await expect(open({}, { transformation: other })).rejects.toMatchObject({
       ...{ code: "RECORD_OTHER", file: "tiny.copc.laz" },
     });
-    await expect(open({}, { transformation: Uint8Array.of(1) })).rejects.toMatchObject({
-      code: "RECORD_JSON",
-    });
+    for (const broken of [Uint8Array.of(1), new Blob([]), new Blob(["{"])]) {
+      await expect(open({}, { transformation: broken })).rejects.toMatchObject({ code: "RECORD_JSON" });
+    }
   });
 });
 

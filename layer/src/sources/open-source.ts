@@ -59,7 +59,8 @@ export async function readWhole(
       fix: "Check the address",
     });
   }
-  return { name, bytes: await source.read(0, size, { signal: options.signal }) };
+  const bytes = size === 0 ? new Uint8Array(0) : await source.read(0, size, { signal: options.signal });
+  return { name, bytes };
 }
 
 function emptyFile(file: string): SourceError {
