@@ -145,7 +145,14 @@ describe.skipIf(missing)(`random EPSG systems${missing ? ` (skipped: ${missing})
           [],
           JSON.stringify([{ path: las, scale: 0.001, rows, wkt: `EPSG:${code}` }]),
         );
-        gromaJson(["convert", las, copc, "--progress", "json", "--overwrite"]);
+        const done = gromaJson<{ centre: { longitude: number; latitude: number } | null }>([
+          "convert",
+          las,
+          copc,
+          "--progress",
+          "json",
+          "--overwrite",
+        ]);
         const best = await outcomeOf({
           ...{ code, name: "", kind: "", points: rows as unknown as System["points"] },
           operations: [
@@ -158,6 +165,9 @@ describe.skipIf(missing)(`random EPSG systems${missing ? ` (skipped: ${missing})
           ],
         });
         expect(best).toMatchObject({ what: "placed" });
+        const [{ geodetic: middle }] = locate(copc, [[x + 200, y + 150, 15]]);
+        expect(done.centre?.longitude).toBeCloseTo(middle[0], 4);
+        expect(done.centre?.latitude).toBeCloseTo(middle[1], 4);
         const record = gromaJson<{ crs: { code: string } }>(["info", copc, "--json"]);
         expect(JSON.stringify(record)).toContain(`EPSG:${code}`);
       }

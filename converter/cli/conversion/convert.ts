@@ -78,7 +78,9 @@ async function convertPrepared(
   if (!records) throw new Error("the converter core has not asked for the records");
   const { groma } = await scanFile(output);
   const pdal = plannedOf(preparation).map((planned) => pdalReport(preparation.pdal!, planned));
-  const { skipped, whereabouts } = preparation;
+  const { skipped } = preparation;
+  const { notes, centre: expected } = preparation.whereabouts;
+  const whereabouts = { notes, centre: records.centre ?? expected };
   const rgbBits = groma?.["2"]?.rgbBits ?? null;
   return { ...conversion, output, georeferenced, whereabouts, records, rgbBits, pdal, skipped };
 }

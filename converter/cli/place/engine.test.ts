@@ -8,6 +8,7 @@ import { findProj } from "../proj/program/find.js";
 import { chosenProj, engineTransformation } from "./engine.js";
 import { epsg } from "./epsg.js";
 import { georeference } from "./georeference.js";
+import { withKnownShift } from "./known-shift.js";
 
 const folder = mkdtempSync(join(tmpdir(), "groma-engine-"));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
@@ -71,6 +72,30 @@ describe("the engine", () => {
     expect((geodetic[0]! * 180) / Math.PI).toBeCloseTo(longitude, 9);
     expect((geodetic[1]! * 180) / Math.PI).toBeCloseTo(latitude, 9);
   });
+
+  it.skipIf(!here)(
+    `takes PROJ's first operation far from all areas, of unknown accuracy${absent}`,
+    async () => {
+      const far = {
+        minX: -8_242_596,
+        minY: 4_966_606,
+        minZ: 400,
+        maxX: -8_242_500,
+        maxY: 4_966_706,
+        maxZ: 420,
+      };
+      const { transformation, report } = await engineTransformation(crs, far, { engine: "proj" }, { file });
+      expect(report).toMatchObject({ ballpark: false, outside: true, accuracy: null });
+      expect(report.notes.join()).toMatch(/no operation of PROJ is meant for this place/);
+      expect(withKnownShift(report, crs, compileTransformation(transformation), far).accuracy).toBeNull();
+      // By cs2cs of PROJ 9.6.
+      const ecef = new Float64Array(3);
+      compileTransformation(transformation).forward(-8_242_596, 4_966_606, 412.5, ecef);
+      expect(
+        Math.hypot(ecef[0]! + 652511.8791, ecef[1]! + 5482054.0082, ecef[2]! - 3184160.6941),
+      ).toBeLessThan(1e-3);
+    },
+  );
 
   it.skipIf(!here)(`gives way to proj4js where PROJ refuses, and says why${absent}`, async () => {
     const surroundings = { file, text: "+proj=nowhere" };

@@ -16,6 +16,7 @@ import {
   type OperationReport,
   ownLevel,
   ownLevelNote,
+  type Place,
   pointTransform,
   similarityParts,
   type Truth,
@@ -29,7 +30,7 @@ import { heightSystems } from "./epsg.js";
 import { geoidsOf } from "./geoids.js";
 import type { Georeferenced } from "./georeference.js";
 import { withKnownShift } from "./known-shift.js";
-import { countriesOf, heightSystemAbroad } from "./whereabouts.js";
+import { centreOf, countriesOf, heightSystemAbroad } from "./whereabouts.js";
 
 /** Bound on the drawn position that the page keeps by default, metres. */
 export const TOLERANCE = 0.001;
@@ -43,6 +44,8 @@ export interface GeoreferenceRecords {
   readonly transformation?: Uint8Array;
   /** Bound of the projection's fit, metres. */
   readonly fitBound?: number;
+  /** Where the engine puts the middle of the bounds, if it has a place. */
+  readonly centre?: Place;
 }
 
 /** Longest payload of a plain VLR. */
@@ -84,7 +87,11 @@ export async function makeRecords(
     ...{ operation, geoids: geoidsOf(truth), guess, outsideOf },
   });
   const georeference = { version: 1, crs, engine: report.engine, operation, accuracy } as const;
-  return { ...encoded(georeference), transformation: bytes, fitBound: report.fitBound };
+  const centre = centreOf(truth, { min, max });
+  return {
+    ...encoded(georeference),
+    ...{ transformation: bytes, fitBound: report.fitBound, ...(centre && { centre }) },
+  };
 }
 
 /** Geocentric coordinates are ECEF but for their unit: there is nothing to fit. */

@@ -3,7 +3,6 @@ import {
   boundsInWords,
   boundsOfPlaces,
   type Crs,
-  CrsError,
   type Domain,
   EGM96,
   EGM96_NOTE,
@@ -21,25 +20,23 @@ import {
 import { degreeBox } from "./area.js";
 import { type AssembledWay, assemble, isSameGround } from "./assemble.js";
 import { type Beyond, beyondNote, goingOn } from "./beyond.js";
-import { type Candidate, type Choice, choose, type PassedOver, prepared } from "./candidate.js";
+import { type Candidate, type Choice, choose, prepared } from "./candidate.js";
 import { runToRadians } from "./cct.js";
 import { checkTransformation } from "./check.js";
+import { type Chosen, chooseFor } from "./chosen.js";
 import { CONSTANT } from "./constant-window.js";
 import { egm96 } from "./egm96.js";
 import {
   around,
   elsewhereNote,
-  type Listed,
   type PointByPoint,
   pointByPoint,
   severalNote,
   type TakenWay,
 } from "./elsewhere.js";
-import { howToGet } from "./grids/current-names.js";
 import { type DegreeBox, listOperations, type Operation } from "./operation.js";
 import { parsePipeline } from "./pipeline.js";
 import type { Proj } from "./program/find.js";
-import { OTHER_WAY } from "./refuse.js";
 import { type EngineOptions, type EngineResult, type Lacking, UNKNOWN_HEIGHT_NOTE } from "./report.js";
 import { type SourceTexts, sourceTexts } from "./source.js";
 
@@ -50,8 +47,6 @@ export interface ProjTransformationOptions extends EngineOptions {
 
 /** Better operations are many where one grid is missing; these are enough to say which. */
 const LACKING_MAX = 5;
-/** PROJ's words for heights taken over from another zero level as they are. */
-const BALLPARK_HEIGHT = "ballpark vertical transformation";
 
 /**
  * The way from source coordinates to ECEF as PROJ goes it in the domain, in a form that needs no PROJ: projection
@@ -76,7 +71,7 @@ export async function projTransformation(
   const source = await sourceTexts(proj, crs, options.text, signal);
   const box = await boxOf(proj, source, domain, file, signal);
   const chosen = await chooseFor(proj, crs, source, domain, box, signal);
-  const { operations, passedOver, substitute, from } = chosen;
+  const { operations, passedOver, substitute, from, outside } = chosen;
   const { tolerance = PATCHWORK_TOLERANCE } = options;
   const taken = await pointByPoint(
     ...([proj, from, chosen.choice.candidate, domain, box, crs.verticalUnit.size, signal] as const),
@@ -107,7 +102,13 @@ export async function projTransformation(
   const far = main ? undefined : byPoint?.farthest;
   const counted = far && (accuracy === null || far.worth > accuracy) ? far : undefined;
   const told = main && byPoint ? severalNote(byPoint.ways, main) : counted && elsewhereNote(counted);
-  const notes = notesFor(crs, choice, substitute, told, main !== undefined || whole !== undefined);
+  const notes = notesFor(
+    crs,
+    choice,
+    { substitute, outside },
+    told,
+    main !== undefined || whole !== undefined,
+  );
   if (beyond && whole) notes.push(beyondNote(beyond, candidate.places));
   const grids = gridsIn(transformation);
   const worst = beyond && whole ? [accuracy, beyond.accuracy] : [accuracy];
@@ -120,6 +121,7 @@ export async function projTransformation(
       operation: operation.name,
       accuracy: worst.includes(null) ? null : Math.max(...(worst as number[]), counted?.worth ?? 0),
       ballpark: operation.ballpark || choice.leftOut.length > 0,
+      outside,
       grids: substitute || whole ? [...grids, EGM96] : grids,
       lacking: lackingIn(operations, operation, substitute),
       passedOver,
@@ -259,52 +261,6 @@ async function boxOf(
   });
 }
 
-interface Chosen {
-  readonly choice: Choice;
-  readonly passedOver: readonly PassedOver[];
-  /** The list that it was chosen from, or the better list that had none. */
-  readonly operations: readonly Operation[];
-  /** What it was chosen from. */
-  readonly from: Listed;
-  /** Heights go by EGM96, because PROJ would take them over as they are. */
-  readonly substitute: boolean;
-}
-
-async function chooseFor(
-  proj: Proj,
-  crs: Crs,
-  source: SourceTexts,
-  domain: Domain,
-  box: DegreeBox | undefined,
-  signal?: AbortSignal,
-): Promise<Chosen> {
-  const metresPerUnit = crs.verticalUnit.size;
-  const list = (text: SourceTexts["horizontal"]) => listOperations(proj, text, { box, signal });
-  const withHeights = source.compound ? await list(source.compound) : [];
-  const best = await choose(proj, withHeights, domain, metresPerUnit, signal);
-  if (best.choice && !takesHeightsOver(best.choice)) {
-    const from = { source: source.compound!, operations: withHeights };
-    return { ...best, choice: best.choice, operations: withHeights, from, substitute: false };
-  }
-  const flat = await list(source.horizontal);
-  const { choice, passedOver, blocked } = await choose(proj, flat, domain, metresPerUnit, signal);
-  if (!choice) throw noWay(crs, [...withHeights, ...flat], best.blocked ?? blocked);
-  return {
-    choice,
-    passedOver: [...best.passedOver, ...passedOver],
-    operations: withHeights.length > 0 ? withHeights : flat,
-    from: { source: source.horizontal, operations: flat },
-    substitute: isAboveGeoid(crs),
-  };
-}
-
-/** Whether PROJ takes heights above a geoid for heights above the ellipsoid, for want of a grid or of an operation. */
-function takesHeightsOver({ candidate, leftOut }: Choice): boolean {
-  return (
-    candidate.operation.name.includes(BALLPARK_HEIGHT) || leftOut.some(({ kind }) => kind === "vertical")
-  );
-}
-
 function lackingIn(operations: readonly Operation[], chosen: Operation, substitute: boolean): Lacking[] {
   const place = operations.findIndex(({ pipeline }) => pipeline === chosen.pipeline);
   const better = operations.filter(({ ballpark, missingGrids, accuracy }, i) => {
@@ -323,13 +279,18 @@ function lackingIn(operations: readonly Operation[], chosen: Operation, substitu
 function notesFor(
   crs: Crs,
   { candidate, leftOut }: Choice,
-  substitute: boolean,
+  { substitute, outside }: Pick<Chosen, "substitute" | "outside">,
   elsewhere: string | undefined,
   several: boolean,
 ): string[] {
   const notes: string[] = [];
   if (crs.height.kind === "unknown") notes.push(UNKNOWN_HEIGHT_NOTE);
   if (substitute) notes.push(EGM96_NOTE);
+  if (outside) {
+    notes.push(
+      `no operation of PROJ is meant for this place: it goes by the one for ${candidate.operation.area.replace(/\.$/, "")}, as PROJ does, and nobody states what that is worth here`,
+    );
+  }
   if (candidate.operation.ballpark) {
     notes.push(
       "PROJ knows no shift of this datum for this place: expect errors of up to some hundred metres",
@@ -359,21 +320,4 @@ function geodeticBounds(ecef: Float64Array): Bounds {
   const bounds = boundsOfPlaces(places);
   if (!bounds) throw new RangeError("no place to cut the geoid for");
   return bounds;
-}
-
-function noWay(crs: Crs, operations: readonly Operation[], blocked?: GromaError): GromaError {
-  if (blocked && blocked.code !== "CRS_OPERATION_UNSUPPORTED") return blocked;
-  const { name: file } = crs;
-  const code = blocked ? "CRS_OPERATION_UNSUPPORTED" : "CRS_UNSUPPORTED";
-  const grids = [...new Set(operations.flatMap(({ missingGrids }) => missingGrids))].slice(0, LACKING_MAX);
-  if (grids.length > 0) {
-    const cause = blocked ? `${blocked.cause}, and the others lack` : "every operation to WGS 84 lacks";
-    return new CrsError({
-      ...{ code, file, cause: `${cause} a grid (${grids.join(", ")})`, fix: howToGet(grids) },
-    });
-  }
-  const cause = blocked
-    ? `${blocked.cause}, and no other operation leads to WGS 84 without leaving a datum shift out`
-    : "PROJ knows no operation from it to WGS 84 for the place of the data";
-  return new CrsError({ code, file, cause, fix: OTHER_WAY });
 }

@@ -163,6 +163,27 @@ describe("a transformation derived for geographic coordinates", () => {
   );
 });
 
+describe("a transformation derived for a square around the pole of an equal-area projection", () => {
+  it.each([50, 3000])("holds, though proj4js loses digits there: %d m", async (half) => {
+    const crs = resolveCrs({ file: "EPSG:3575", given: "EPSG:3575" }, lookup);
+    const domain = { minX: -half, minY: -half, minZ: 0, maxX: half, maxY: half, maxZ: 9 };
+    const { forward } = compileTransformation(await deriveTransformation(crs, domain), "EPSG:3575");
+    // Near the pole its scale is 1, and x and y are those of the plane that touches there, turned by 10°.
+    const turn = radians(10);
+    for (const [x, y] of [
+      [0, 0],
+      [0.01, 0],
+      [-0.3 * half, 0.7 * half],
+      [half, half],
+    ]) {
+      forward(x, y, 0, one);
+      const there = [x * Math.cos(turn) - y * Math.sin(turn), x * Math.sin(turn) + y * Math.cos(turn)];
+      expect(Math.hypot(one[0] + there[1], one[1] - there[0])).toBeLessThan(1e-4 + half ** 3 / 6.3e13);
+      expect(Math.abs(one[2] - 6356752.3142 + (x * x + y * y) / 2 / 6.3996e6)).toBeLessThan(1e-3);
+    }
+  });
+});
+
 describe("round trips through a projection", () => {
   it("come back to 10 nm: UTM to 20° beyond its zone, to the pole", () => {
     const zone = fc.integer({ min: 0, max: 59 });

@@ -42,9 +42,9 @@ export async function fitPatchwork(
   ellipsoid: EllipsoidAxes = WGS84,
   file = "points",
 ): Promise<Patchwork> {
-  const surroundings = [domain, toleranceMetres, ellipsoid, file] as const;
+  const how = [toleranceMetres, ellipsoid, file] as const;
   try {
-    return await fitFrom(sample, ...surroundings);
+    return await fitFrom(sample, domain, ...how);
   } catch (refusal) {
     if (!(refusal instanceof PlacementError && TURNING_HELPS.has(refusal.code))) throw refusal;
     const { minX, minY, maxX, maxY } = domain;
@@ -52,12 +52,27 @@ export async function fitPatchwork(
     if (!(Number.isFinite(longitude) && Number.isFinite(latitude))) throw refusal;
     const centre = [longitude, latitude] as const;
     const turned: ProjectionSampler = async (points) => turnedPlaces(await sample(points), centre);
-    try {
-      return { ...(await fitFrom(turned, ...surroundings)), centre };
-    } catch {
-      throw refusal;
+    for (const wider of WIDER) {
+      try {
+        return { ...(await fitFrom(turned, around(domain, wider), ...how)), centre };
+      } catch (error) {
+        // Where the projection ends there is nothing wider.
+        if (!(error instanceof PlacementError) || error.code === "PLACE_DOMAIN") throw refusal;
+      }
     }
+    throw refusal;
   }
+}
+
+/**
+ * How many times as wide a domain is tried around a pole. Projections that take an arc cosine there (Lambert's azimuthal
+ * equal-area) lose half of their digits near it: what is sampled farther away tells the same function without that noise.
+ */
+const WIDER = [1, 10, 100, 1000, 10_000];
+
+function around({ minX, minY, maxX, maxY }: Rectangle, times: number): Rectangle {
+  const [x, y] = [maxX - minX, maxY - minY].map((width) => (width * (times - 1)) / 2);
+  return { minX: minX - x, minY: minY - y, maxX: maxX + x, maxY: maxY + y };
 }
 
 const TURNING_HELPS = new Set(["PLACE_POLE", "PLACE_ANTIMERIDIAN"]);
