@@ -120,7 +120,7 @@ module.exports = {
     layer("permalink", ["effects", "clips", "errors"]),
     layer("drawing", ["effects", "clips", "cloud", "octree", "workers", "options", "errors"]),
     layer("tools/measure", ["query", "options", "errors"]),
-    layer("tools/draw", ["tools/measure", "errors"]),
+    layer("tools/draw", ["tools/measure", "options", "errors"]),
     layer("tools/profile", ["tools/exact", "query", "clips", "options", "errors"]),
     layer("tools/cut", ["tools/profile", "tools/sections", "tools/ellipsoid", "query", "clips"]),
     layer("tools/terrain", []),

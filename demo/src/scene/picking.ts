@@ -36,9 +36,15 @@ export class Picking {
     this.#viewer = viewer;
     this.#layer = layer;
     this.#found = found;
+    let begun = false;
+    // A tap that ends a figure is the figure's, though the click comes when nothing is drawn any more.
+    const press = () => {
+      begun = layer() !== undefined;
+    };
+    viewer.canvas.addEventListener("pointerdown", press, { capture: true });
     const handler = new ScreenSpaceEventHandler(viewer.canvas);
     handler.setInputAction(({ position }: ScreenSpaceEventHandler.PositionedEvent) => {
-      this.#pick(position).catch(failed);
+      if (begun) this.#pick(position).catch(failed);
     }, ScreenSpaceEventType.LEFT_CLICK);
   }
 

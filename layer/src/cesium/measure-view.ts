@@ -32,8 +32,28 @@ export function measureView(scene: Scene, layers: () => readonly PointCloudLayer
     },
     onFrame: (listener) => scene.postRender.addEventListener(listener),
     redraw: () => scene.requestRender(),
+    covering: () => Array.from(scene.canvas.closest(".cesium-viewer")?.querySelectorAll(OWN) ?? []),
   };
 }
+
+/** What a `Viewer` of Cesium puts over its scene. */
+const OWN = [
+  ...[
+    "toolbar",
+    "animationContainer",
+    "timelineContainer",
+    "fullscreenContainer",
+    "vrContainer",
+    "infoBoxContainer",
+  ],
+]
+  .map((name) => `.cesium-viewer-${name}`)
+  .concat(
+    ".cesium-credit-logoContainer",
+    ".cesium-credit-textContainer",
+    ".cesium-performanceDisplay-defaultContainer",
+  )
+  .join();
 
 function screenPoint(found: { x: number; y: number } | undefined): ScreenPoint | undefined {
   return found && Number.isFinite(found.x) && Number.isFinite(found.y)

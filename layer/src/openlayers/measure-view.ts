@@ -49,6 +49,7 @@ export function measureView(map: OlMap, layers: () => readonly PointCloudLayer[]
       return () => unByKey(key);
     },
     redraw: () => map.render(),
+    covering: () => Array.from(map.getViewport().querySelectorAll(".ol-control")),
     drawing(active) {
       clearTimeout(waking);
       if (!active) {

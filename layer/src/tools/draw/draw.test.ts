@@ -3,6 +3,8 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { cloudOf, UTM } from "../measure/cloud.fixture.js";
 import { type Measurement, MeasureUnits, placeVertex, sourceVertex, type Vertex } from "../measure/index.js";
+import { Awaited } from "./awaited.js";
+import { checkChange, checkKind, checkMeasurement } from "./checks.js";
 import { courseOf, wayOf } from "./course.js";
 import { figuresOf } from "./figures.js";
 import { freshName, grown, History, isSame, withChange } from "./history.js";
@@ -46,6 +48,18 @@ describe("the way back and forth", () => {
     );
   });
 
+  it("has no step for a figure without a vertex", () => {
+    const history = new History();
+    history.go({ measurements: [line], draft: undefined });
+    history.begin("area");
+    expect(history.present).toEqual({ measurements: [line], draft: { kind: "area", vertices: [] } });
+    history.giveUp();
+    expect(history.undo()).toBe(true);
+    expect([history.present, history.canUndo]).toEqual([{ measurements: [], draft: undefined }, false]);
+    expect(history.redo()).toBe(true);
+    expect(history.present).toEqual({ measurements: [line], draft: undefined });
+  });
+
   it("has other vertices throughout once a data set is opened anew", () => {
     const history = new History();
     history.go({ measurements: [line], draft: undefined });
@@ -73,6 +87,52 @@ describe("the way back and forth", () => {
   it("gives names that are free", () => {
     expect(freshName([line], "Line")).toBe("Line 2");
     expect(freshName([line], "Area")).toBe("Area 1");
+  });
+});
+
+describe("what a tool is given", () => {
+  it.each<[string, () => void, string]>([
+    ["a kind that there is not", () => checkKind("nope" as never), "MEASURE_OPTION"],
+    ["a kind by inheritance", () => checkKind("toString" as never), "MEASURE_OPTION"],
+    [
+      "a measurement of no kind",
+      () => checkMeasurement({ ...line, kind: "nope" as never }),
+      "MEASURE_OPTION",
+    ],
+    ["a line of one vertex", () => checkMeasurement({ ...line, vertices: [a] }), "MEASURE_VERTICES"],
+    ["no vertices", () => checkChange("area", { vertices: [] }, "Area 1"), "MEASURE_VERTICES"],
+    ["too many", () => checkChange("angle", { vertices: [a, b, c, d] }, "Angle 1"), "MEASURE_VERTICES"],
+    [
+      "a height that is none",
+      () => checkChange("volume", { volume: { base: { kind: "height", height: Number.NaN } } }, "Volume 1"),
+      "MEASURE_OPTION",
+    ],
+  ])("is refused by name: %s", (_, check, code) => {
+    expect(check).toThrow(new RegExp(`^${code}: .*([Gg]ive|[Uu]se|mean) `));
+  });
+
+  it("is taken where it is one", () => {
+    checkMeasurement(line);
+    checkChange(
+      "volume",
+      { name: "Heap", volume: { base: { kind: "height", height: 3 }, classes: [2] } },
+      "Volume 1",
+    );
+  });
+
+  it("is awaited until it is there, given up, or aborted with the reason", async () => {
+    const [done, left, stopped] = [new AbortController(), new AbortController(), new AbortController()];
+    const finished = new Awaited(done.signal, () => expect.unreachable());
+    finished.resolve(line);
+    done.abort();
+    expect(await finished.done).toBe(line);
+    const givenUp = new Awaited(left.signal, () => undefined);
+    givenUp.resolve(undefined);
+    expect(await givenUp.done).toBeUndefined();
+    // Giving the figure up, as the tool does then, does not pass for the reader's Escape.
+    const aborted: Awaited = new Awaited(stopped.signal, () => aborted.resolve(undefined));
+    stopped.abort(new Error("mid"));
+    await expect(aborted.done).rejects.toThrow("mid");
   });
 });
 

@@ -47,6 +47,16 @@ export class History {
     this.#future = [];
   }
 
+  /** Begins a figure: no step to go back to as long as it has no vertex. */
+  begin(kind: MeasurementKind): void {
+    this.#present = { ...this.#present, draft: { kind, vertices: [] } };
+  }
+
+  /** Gives such a figure up. */
+  giveUp(): void {
+    this.#present = { ...this.#present, draft: undefined };
+  }
+
   /** Has every state, those before and after too, made of other vertices. */
   replaceVertices(other: (vertex: Vertex) => Vertex): void {
     const drawn = ({ measurements, draft }: Drawn): Drawn => ({

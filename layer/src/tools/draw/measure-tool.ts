@@ -15,8 +15,12 @@ import {
   valuesOf,
   type WorthOptions,
 } from "../measure/index.js";
+import { checkPrecision } from "../measure/worth/point-errors.js";
+import { Awaited } from "./awaited.js";
+import { checkChange, checkKind, checkMeasurement } from "./checks.js";
 import { figuresOf } from "./figures.js";
 import { freshName, grown, History, type MeasurementChange, withChange } from "./history.js";
+import { commandOf } from "./pointer.js";
 import { Surface } from "./surface.js";
 import type { ViewAdapter } from "./view-adapter.js";
 
@@ -27,12 +31,6 @@ export interface MeasureToolOptions extends WorthOptions, Pick<ReadingOptions, "
   readonly covering?: (() => readonly Element[]) | undefined;
   /** Hears what kept a record from being read. Default: `reportError`. */
   readonly onError?: ((thrown: unknown) => void) | undefined;
-}
-
-/** What waits for a figure to be finished. */
-interface Waiting {
-  readonly resolve: (measurement: Measurement | undefined) => void;
-  readonly id: string;
 }
 
 /**
@@ -58,7 +56,7 @@ export class MeasureTool {
   #units: MeasureUnits;
   #worth: WorthOptions;
   #edited: string | undefined;
-  #waiting: Waiting | undefined;
+  #waiting: Awaited | undefined;
   #hover: Vertex | undefined;
   #missed = false;
 
@@ -155,7 +153,9 @@ export class MeasureTool {
     return this.#worth;
   }
 
+  /** @throws MeasureError MEASURE_OPTION for a precision that is none */
   set worth(worth: WorthOptions) {
+    if (typeof worth.precision !== "function") checkPrecision(worth.precision, "MeasureTool");
     this.#worth = worth;
     this.#readings.again(this.measurements.filter(readsPoints));
     this.#changed();
@@ -196,7 +196,7 @@ export class MeasureTool {
   /**
    * Has the reader draw a figure; one that was being drawn is given up.
    * @returns undefined where the reader gives it up
-   * @throws the signal's reason when aborted
+   * @throws the signal's reason when aborted; MeasureError MEASURE_OPTION for a kind that there is not
    */
   async draw(
     kind: MeasurementKind,
@@ -204,26 +204,17 @@ export class MeasureTool {
   ): Promise<Measurement | undefined> {
     const { signal } = options;
     signal?.throwIfAborted();
+    checkKind(kind);
+    if (this.#destroyed) throw new DOMException("the measure tool is destroyed", "InvalidStateError");
     this.cancel();
     this.#edited = undefined;
-    const id = crypto.randomUUID();
-    this.#history.go({ ...this.#history.present, draft: { kind, vertices: [] } });
-    const done = new Promise<Measurement | undefined>((resolve, reject) => {
-      const stop = () => {
-        this.cancel();
-        reject(signal!.reason);
-      };
-      signal?.addEventListener("abort", stop);
-      const settled = (measurement: Measurement | undefined) => {
-        signal?.removeEventListener("abort", stop);
-        resolve(measurement);
-      };
-      this.#waiting = { resolve: settled, id };
-    });
+    const awaited = new Awaited(signal, () => this.cancel());
+    this.#waiting = awaited;
+    this.#history.begin(kind);
     this.#changed();
     // The view that was used last may be hidden now.
     if (!this.#used?.focus()) this.#surfaces.find((surface) => surface.focus());
-    return done;
+    return awaited.done;
   }
 
   /** A point's coordinates; see {@link draw}, as of the others. */
@@ -265,7 +256,8 @@ export class MeasureTool {
   cancel(): void {
     const { draft, measurements } = this.#history.present;
     const waiting = this.#waiting;
-    if (draft) this.#history.go({ measurements, draft: undefined });
+    if (draft?.vertices.length) this.#history.go({ measurements, draft: undefined });
+    else if (draft) this.#history.giveUp();
     this.#rest();
     waiting?.resolve(undefined);
   }
@@ -277,9 +269,12 @@ export class MeasureTool {
     this.#changed();
   }
 
-  /** Gives a measurement another name, other vertices, or says how its volume is measured; one step of undo. */
+  /** Another name, other vertices, another base: one step of undo. @throws MeasureError MEASURE_VERTICES, MEASURE_OPTION */
   change(id: string, change: MeasurementChange): void {
     const { measurements, draft } = this.#history.present;
+    const changed = measurements.find((one) => one.id === id);
+    if (!changed) return;
+    checkChange(changed.kind, change, changed.name);
     this.#history.go({ measurements: withChange(measurements, id, change), draft });
     this.#changed();
   }
@@ -291,8 +286,12 @@ export class MeasureTool {
     this.#changed();
   }
 
-  /** Adds measurements, of a file say. One whose `id` is taken gets another. */
+  /**
+   * Adds measurements, of a file say. One whose `id` is taken gets another.
+   * @throws MeasureError MEASURE_OPTION, MEASURE_VERTICES where one of them is none, and nothing is added
+   */
   add(added: readonly Measurement[]): void {
+    for (const one of added) checkMeasurement(one);
     const { measurements, draft } = this.#history.present;
     const ids = new Set(measurements.map(({ id }) => id));
     const fresh = added.map((one) => (ids.has(one.id) ? { ...one, id: crypto.randomUUID() } : one));
@@ -311,11 +310,17 @@ export class MeasureTool {
   }
 
   undo(): void {
-    if (this.#history.undo()) this.#changed();
+    if (this.#history.undo()) this.#moved();
   }
 
   redo(): void {
-    if (this.#history.redo()) this.#changed();
+    if (this.#history.redo()) this.#moved();
+  }
+
+  /** Whoever waits for a figure that is no longer drawn waits no longer. */
+  #moved(): void {
+    if (this.drawing) this.#changed();
+    else this.cancel();
   }
 
   /** Takes all figures off the views. */
@@ -378,16 +383,11 @@ export class MeasureTool {
   }
 
   /** @returns whether the key means anything */
-  #key({ ctrlKey, metaKey, altKey, shiftKey, key: name }: KeyboardEvent): boolean {
-    const chord = ctrlKey || metaKey;
-    const key = name.toLowerCase();
-    if (chord && key === "z") shiftKey ? this.redo() : this.undo();
-    else if (chord && key === "y") this.redo();
-    else if (chord || altKey) return false;
-    else if (name === "Escape") this.drawing ? this.cancel() : this.edit(undefined);
-    else if (this.drawing && (name === "Backspace" || name === "Delete")) this.undo();
-    else return false;
-    return true;
+  #key(event: KeyboardEvent): boolean {
+    const command = commandOf(event, this.drawing !== undefined);
+    if (command === "leave") this.edit(undefined);
+    else if (command) this[command]();
+    return command !== undefined;
   }
 
   /** Has failures told; what was given up is none. */

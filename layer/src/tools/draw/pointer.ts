@@ -72,3 +72,17 @@ export function stepOf({ key, shiftKey }: KeyboardEvent): ScreenPoint | undefine
       return undefined;
   }
 }
+
+/** What a key means to the tool; undefined where it means nothing. @param drawing whether a figure is being drawn */
+export function commandOf(
+  { ctrlKey, metaKey, altKey, shiftKey, key }: KeyboardEvent,
+  drawing: boolean,
+): "undo" | "redo" | "cancel" | "leave" | undefined {
+  const chord = ctrlKey || metaKey;
+  const letter = key.toLowerCase();
+  if (chord && letter === "z") return shiftKey ? "redo" : "undo";
+  if (chord && letter === "y") return "redo";
+  if (chord || altKey) return undefined;
+  if (key === "Escape") return drawing ? "cancel" : "leave";
+  return drawing && (key === "Backspace" || key === "Delete") ? "undo" : undefined;
+}

@@ -52,7 +52,7 @@ export class Surface {
       key: (grip: Grip, event: KeyboardEvent) => this.grips.key(grip, event),
       chosen: (id: string) => host.chosen(id),
     };
-    this.#overlay = new Overlay(view, events, () => host.covering());
+    this.#overlay = new Overlay(view, events, () => [...host.covering(), ...(view.covering?.() ?? [])]);
     this.grips = new Grips({
       ...{ view, placing: this.#placing, overlay: this.#overlay },
       measurements: () => host.measurements(),

@@ -28,4 +28,6 @@ export interface ViewAdapter {
   redraw(): void;
   /** Told when a figure is begun and when it ends: clicks are the figure's meanwhile, so two of them should not zoom. */
   drawing?(active: boolean): void;
+  /** The view's own buttons and panels that lie over it: labels stand beside them. */
+  covering?(): readonly Element[];
 }

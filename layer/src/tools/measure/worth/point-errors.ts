@@ -81,7 +81,7 @@ export function cloudErrors(cloud: MeasuredCloud | undefined, given: WorthOption
 }
 
 /** @throws MeasureError MEASURE_OPTION where it is no standard deviation */
-function checkPrecision(given: unknown, file: string): void {
+export function checkPrecision(given: unknown, file: string): void {
   const isLength = (one: unknown) => typeof one === "number" && one >= 0 && Number.isFinite(one);
   if (given === undefined || isLength(given)) return;
   const both = typeof given === "object" && given !== null ? (given as Record<string, unknown>) : {};

@@ -1,0 +1,54 @@
+import { MeasureError } from "../../errors/index.js";
+import { instead } from "../../options/index.js";
+import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind } from "../measure/index.js";
+import { volumeSettingsOf } from "../measure/measurement/volume-settings.js";
+import type { MeasurementChange } from "./history.js";
+
+/** @throws MeasureError MEASURE_OPTION for a kind that there is not */
+export function checkKind(kind: MeasurementKind): void {
+  if (Object.hasOwn(MEASUREMENT_KINDS, kind)) return;
+  throw refused(`there is no kind ${JSON.stringify(kind)}`, instead(kind, Object.keys(MEASUREMENT_KINDS)));
+}
+
+/**
+ * @param name for messages
+ * @throws MeasureError MEASURE_VERTICES where they are not as many as the kind needs, MEASURE_OPTION for settings of a volume
+ *   that are none
+ */
+export function checkChange(
+  kind: MeasurementKind,
+  { vertices, volume }: MeasurementChange,
+  name: string,
+): void {
+  const { least, most } = MEASUREMENT_KINDS[kind];
+  if (vertices && (vertices.length < least || vertices.length > most)) {
+    const needed =
+      least === most
+        ? `${least}`
+        : most === Number.POSITIVE_INFINITY
+          ? `${least} or more`
+          : `${least} to ${most}`;
+    throw new MeasureError({
+      code: "MEASURE_VERTICES",
+      file: name,
+      cause: `it cannot have ${vertices.length} vertices`,
+      fix: `give ${needed}`,
+    });
+  }
+  if (volume !== undefined && !volumeSettingsOf(volume)) {
+    throw refused(
+      `${name} cannot be measured against ${JSON.stringify(volume)?.slice(0, 80)}`,
+      "give { base, classes } as VolumeSettings has them, a height as a number of metres",
+    );
+  }
+}
+
+/** @throws MeasureError as `checkKind` and `checkChange` */
+export function checkMeasurement(measurement: Measurement): void {
+  checkKind(measurement.kind);
+  checkChange(measurement.kind, measurement, measurement.name);
+}
+
+function refused(cause: string, fix: string): MeasureError {
+  return new MeasureError({ code: "MEASURE_OPTION", file: "MeasureTool", cause, fix });
+}
