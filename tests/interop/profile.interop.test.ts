@@ -75,6 +75,13 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
       [589700, 231340],
       [589700, 231340],
     ],
+    "pieces at both ends that are shorter than half the width": [
+      [589600, 231380],
+      [589601, 231381.5],
+      [589850, 231430],
+      [589900, 231420],
+      [589901.25, 231421],
+    ],
     "a line that turns back on itself": [
       [589600, 231400],
       [589900, 231450],

@@ -12,54 +12,58 @@ import laspy
 import numpy as np
 
 
-def near_segment(x, y, a, b, reach, first, last):
-    """Whether points lie in the part of the strip along one segment, and which of them float64 cannot decide."""
+def beside(x, y, a, b, reach):
+    """Whether points lie at right angles to a segment and no farther than a reach, and which of them float64 cannot decide."""
     u = b - a
     square = u @ u
     along = (x - a[0]) * u[0] + (y - a[1]) * u[1]
-    share = np.clip(along / square, 0, 1)
-    distance = np.hypot(x - a[0] - share * u[0], y - a[1] - share * u[1])
-    inside = distance <= reach
-    doubt = np.abs(distance - reach) < 1e-4
-    if first:
-        inside &= along >= 0
-        doubt |= np.abs(along) < 1e-7 * square
-    if last:
-        inside &= along <= square
-        doubt |= np.abs(along - square) < 1e-7 * square
+    distance = np.abs(u[0] * (y - a[1]) - u[1] * (x - a[0])) / np.sqrt(square)
+    inside = (along >= 0) & (along <= square) & (distance <= reach)
+    edge = np.minimum(np.abs(along), np.abs(along - square)) < 1e-7 * square + 1e-4
+    doubt = (np.abs(distance - reach) < 1e-4) | edge
     return inside, doubt & (distance < reach + 1)
 
 
-def exactly_near(x, y, a, b, reach, first, last):
-    """The same for one point, without rounding."""
-    x, y, ax, ay, bx, by, reach = (Fraction(float(value)) for value in (x, y, *a, *b, reach))
-    ux, uy = bx - ax, by - ay
-    square = ux * ux + uy * uy
-    along = (x - ax) * ux + (y - ay) * uy
-    if along < 0:
-        return not first and (x - ax) ** 2 + (y - ay) ** 2 <= reach**2
-    if along > square:
-        return not last and (x - bx) ** 2 + (y - by) ** 2 <= reach**2
-    across = ux * (y - ay) - uy * (x - ax)
-    return across**2 <= reach**2 * square
+def at_joint(x, y, a, b, c, reach):
+    """The same of the outer side of a joint: behind the end of one segment and before the start of the next."""
+    behind = (x - b[0]) * (b - a)[0] + (y - b[1]) * (b - a)[1]
+    before = (x - b[0]) * (c - b)[0] + (y - b[1]) * (c - b)[1]
+    distance = np.hypot(x - b[0], y - b[1])
+    inside = (behind >= 0) & (before <= 0) & (distance <= reach)
+    doubt = (np.abs(distance - reach) < 1e-4) | (np.minimum(np.abs(behind), np.abs(before)) < 1e-3)
+    return inside, doubt & (distance < reach + 1)
+
+
+def exactly(x, y, pairs, reach):
+    """Whether one point lies in the strip, without rounding."""
+    x, y, reach = Fraction(float(x)), Fraction(float(y)), Fraction(float(reach))
+    exact = [tuple(Fraction(float(value)) for value in (*a, *b)) for a, b in pairs]
+    for index, (ax, ay, bx, by) in enumerate(exact):
+        ux, uy = bx - ax, by - ay
+        square = ux * ux + uy * uy
+        along = (x - ax) * ux + (y - ay) * uy
+        across = ux * (y - ay) - uy * (x - ax)
+        if 0 <= along <= square and across**2 <= reach**2 * square:
+            return True
+        if along < square or index + 1 == len(exact):
+            continue
+        _, _, cx, cy = exact[index + 1]
+        before = (x - bx) * (cx - bx) + (y - by) * (cy - by)
+        if before <= 0 and (x - bx) ** 2 + (y - by) ** 2 <= reach**2:
+            return True
+    return False
 
 
 def strip(x, y, line, width):
     """Which points lie in the strip, and how many of them lie so near an edge that they were decided exactly."""
     vertices = [np.array(vertex, float) for vertex in line]
     pairs = [(a, b) for a, b in zip(vertices, vertices[1:]) if (a != b).any()]
-    inside = np.zeros(len(x), bool)
-    doubtful = np.zeros(len(x), bool)
-    for index, (a, b) in enumerate(pairs):
-        ends = index == 0, index == len(pairs) - 1
-        one, doubt = near_segment(x, y, a, b, width / 2, *ends)
-        inside |= one
-        doubtful |= doubt
+    parts = [beside(x, y, a, b, width / 2) for a, b in pairs]
+    parts += [at_joint(x, y, a, b, c, width / 2) for (a, b), (_, c) in zip(pairs, pairs[1:])]
+    inside = np.any([one for one, _ in parts], axis=0)
+    doubtful = np.any([doubt for _, doubt in parts], axis=0)
     for point in np.flatnonzero(doubtful):
-        inside[point] = any(
-            exactly_near(x[point], y[point], a, b, width / 2, index == 0, index == len(pairs) - 1)
-            for index, (a, b) in enumerate(pairs)
-        )
+        inside[point] = exactly(x[point], y[point], pairs, width / 2)
     return inside, int(doubtful.sum())
 
 

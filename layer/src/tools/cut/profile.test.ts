@@ -60,7 +60,7 @@ describe("a profile", () => {
   });
 
   it("comes in parts, each point once, and lets others have the thread in between", async () => {
-    const count = 400_000;
+    const count = 120_000;
     const xyz = new Int32Array(3 * count);
     for (let point = 0; point < count; point++) xyz[3 * point] = point % 90;
     const everything = Uint32Array.from({ length: count }, (_, point) => point);
@@ -76,14 +76,15 @@ describe("a profile", () => {
     const line = Array.from({ length: 60 }, (_, vertex) => [radians(2 * vertex), 0] as const);
     let turns = 0;
     const others = setInterval(() => turns++);
-    const seen: number[] = [];
+    let seen = 0;
     for await (const { batch, chainage } of new Profile(cloud, { line, width: 4 }).points()) {
       expect(chainage.length).toBe(batch.inside.length);
       expect(chainage.length).toBeLessThanOrEqual(16_384);
-      for (const point of batch.inside) seen.push(point);
+      expect(batch.inside[0]).toBe(seen);
+      seen += batch.inside.length;
     }
     clearInterval(others);
-    expect(seen).toEqual([...everything]);
+    expect(seen).toBe(count);
     expect(turns).toBeGreaterThan(1);
   });
 

@@ -5,13 +5,12 @@ type Place = readonly [number, number];
 /** Turn of a line up to which the pieces of its strip meet on the bisector, radians; sharper corners get a disc. */
 const MITRED = Math.PI / 3;
 
-/** Corners of a disc. */
-const DISC = 16;
+/** Turn between two corners of a fan at most, radians: its edges then lie 2 % within the round. */
+const STEP = Math.PI / 8;
 
 /**
- * The outline of a strip as rings whose union it is, for clips: one for each segment, and a disc at corners that are sharp or
- * belong to a segment shorter than the reach. On the outer side of other corners it reaches to the mitre, at most 16 % farther
- * than the strip, which is round there.
+ * The outline of a strip as rings whose union it is, for clips: one for each segment, and a fan at the outer side of sharp
+ * corners. On the outer side of other corners it reaches to the mitre, at most 16 % farther than the strip, which is round there.
  */
 export function stripRings({ vertices, reach }: Corridor): Place[][] {
   const line = vertices.filter(
@@ -35,9 +34,7 @@ export function stripRings({ vertices, reach }: Corridor): Place[][] {
       [end[0] - b[0], end[1] - b[1]],
       [start[0] - a[0], start[1] - a[1]],
     ]);
-    // The joint of a short piece is round beyond the piece, past the end of the line too.
-    const short = after && Math.min(here.length, after.length) < reach;
-    if (short || (after && !mitre(after))) rings.push(disc(end, reach));
+    if (after && !mitre(after)) rings.push(fan(here, after, reach));
   }
   return rings;
 }
@@ -63,9 +60,19 @@ function bisector(one: Segment, other: Segment, reach: number): Place | undefine
   return [x * size, y * size];
 }
 
-function disc([x, y]: Place, reach: number): Place[] {
-  return Array.from({ length: DISC }, (_, index) => {
-    const angle = (2 * Math.PI * index) / DISC;
+/** The round outer side of a corner, from the edge of one piece to that of the next. */
+function fan(
+  { direction: [ax, ay], end: [x, y] }: Segment,
+  { direction: [bx, by] }: Segment,
+  reach: number,
+): Place[] {
+  const turn = Math.atan2(ax * by - ay * bx, ax * bx + ay * by);
+  // The outer side lies to the right where the line turns left.
+  const from = Math.atan2(ay, ax) - (Math.sign(turn) * Math.PI) / 2;
+  const steps = Math.max(1, Math.ceil(Math.abs(turn) / STEP));
+  const rim = Array.from({ length: steps + 1 }, (_, step): Place => {
+    const angle = from + (turn * step) / steps;
     return [x + reach * Math.cos(angle), y + reach * Math.sin(angle)];
   });
+  return [[x, y], ...rim];
 }

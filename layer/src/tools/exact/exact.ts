@@ -19,29 +19,42 @@ function integers(values: readonly number[]): bigint[] {
 }
 
 /**
- * Whether a point lies no farther than a distance from a segment, decided without any rounding.
+ * Whether a point lies beside a segment, at right angles to it and no farther than a distance, decided without any rounding.
+ * Its edges count.
  * @param segment its ends: ax, ay, bx, by, which differ
- * @param flat whether points before the start, and behind the end, are left out
  */
-export function isNear(
+export function isBeside(
   x: number,
   y: number,
   segment: readonly [number, number, number, number],
   distance: number,
-  flat: { readonly start: boolean; readonly end: boolean },
 ): boolean {
   const [px, py, ax, ay, bx, by, reach] = integers([x, y, ...segment, distance]);
   const [ux, uy] = [bx - ax, by - ay];
   const [vx, vy] = [px - ax, py - ay];
   const along = ux * vx + uy * vy;
   const square = ux * ux + uy * uy;
-  if (along < 0n) return !flat.start && vx * vx + vy * vy <= reach * reach;
-  if (along > square) {
-    const [wx, wy] = [px - bx, py - by];
-    return !flat.end && wx * wx + wy * wy <= reach * reach;
-  }
+  if (along < 0n || along > square) return false;
   const across = ux * vy - uy * vx;
   return across * across <= reach * reach * square;
+}
+
+/**
+ * Whether a point lies at the outer side of a joint, behind the end of one segment and before the start of the next, and no
+ * farther from it than a distance; decided without any rounding. Edges count.
+ * @param joint x and y of the start of the one, of the joint, and of the end of the next
+ */
+export function isAtJoint(
+  x: number,
+  y: number,
+  joint: readonly [number, number, number, number, number, number],
+  distance: number,
+): boolean {
+  const [px, py, ax, ay, bx, by, cx, cy, reach] = integers([x, y, ...joint, distance]);
+  const [wx, wy] = [px - bx, py - by];
+  const behind = (bx - ax) * wx + (by - ay) * wy >= 0n;
+  const before = (cx - bx) * wx + (cy - by) * wy <= 0n;
+  return behind && before && wx * wx + wy * wy <= reach * reach;
 }
 
 /** Relative error of a float64 operation. */

@@ -1,6 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { isNear } from "../exact/exact.js";
+import { isAtJoint, isBeside } from "../exact/exact.js";
 import { Corridor } from "./corridor.js";
 
 type Vertex = readonly [number, number];
@@ -11,9 +11,11 @@ function exactly(line: readonly Vertex[], width: number, [x, y]: Vertex): boolea
     const start = line[index];
     return start[0] === end[0] && start[1] === end[1] ? [] : [[...start, ...end] as const];
   });
-  return parts.some((segment, index) =>
-    isNear(x, y, segment, width / 2, { start: index === 0, end: index === parts.length - 1 }),
-  );
+  return parts.some((segment, index) => {
+    const next = parts[index + 1];
+    const joint = next && ([...segment, next[2], next[3]] as const);
+    return isBeside(x, y, segment, width / 2) || (joint !== undefined && isAtJoint(x, y, joint, width / 2));
+  });
 }
 
 function located(corridor: Corridor, x: number, y: number) {
@@ -125,6 +127,65 @@ describe("a corridor along a line", () => {
       [5, 2.000000001, false],
     ] as const) {
       expect(corridor.contains(x, y)).toBe(inside);
+    }
+  });
+
+  it("loses no point that is nearest to a place of the line between its ends, and takes none past them", () => {
+    let [within, past] = [0, 0];
+    const anywhere = fc.tuple(
+      fc.double({ min: 599_985, max: 600_015, noNaN: true }),
+      fc.double({ min: 599_985, max: 600_015, noNaN: true }),
+    );
+    fc.assert(
+      fc.property(lines, widths, fc.array(anywhere, { minLength: 30 }), (line, width, points) => {
+        const corridor = new Corridor(line, width);
+        for (const [x, y] of points) {
+          const feet = line.slice(1).flatMap((end, index) => {
+            const start = line[index]!;
+            const [ux, uy] = [end[0] - start[0], end[1] - start[1]];
+            const square = ux * ux + uy * uy;
+            if (square === 0) return [];
+            const share = Math.min(1, Math.max(0, (ux * (x - start[0]) + uy * (y - start[1])) / square));
+            return [{ away: Math.hypot(x - start[0] - share * ux, y - start[1] - share * uy), share }];
+          });
+          const nearest = Math.min(...feet.map(({ away }) => away));
+          if (Math.abs(nearest - width / 2) < 1e-6) continue;
+          const [first, last] = [feet[0]!, feet[feet.length - 1]!];
+          const atEnd =
+            (first.share === 0 && first.away < nearest + 1e-6) ||
+            (last.share === 1 && last.away < nearest + 1e-6);
+          if (!atEnd) {
+            within++;
+            expect(corridor.contains(x, y)).toBe(nearest < width / 2);
+          } else if (!feet.some(({ share, away }) => share > 0 && share < 1 && away < width / 2)) {
+            // No part lies beside it; where the line turns about it, it may be at a joint.
+            if (feet.length === 1) expect(corridor.contains(x, y)).toBe(false);
+            past++;
+          }
+        }
+      }),
+    );
+    expect(within).toBeGreaterThan(500);
+    expect(past).toBeGreaterThan(100);
+  });
+
+  it("ends squarely behind a last piece that is shorter than half the width", () => {
+    for (const turn of [0, 0.3, -0.5]) {
+      const end: Vertex = [100 + 2 * Math.cos(turn), 2 * Math.sin(turn)];
+      const line: Vertex[] = [[0, 0], [100, 0], end];
+      for (const vertices of [line, line.toReversed()]) {
+        const corridor = new Corridor(vertices, 20);
+        for (const aside of [-9, -4, 0, 4, 9]) {
+          const at = (along: number) => [
+            end[0] + along * Math.cos(turn) - aside * Math.sin(turn),
+            end[1] + along * Math.sin(turn) + aside * Math.cos(turn),
+          ];
+          const past = at(0.01) as [number, number];
+          // What lies beside the piece before stays.
+          expect(corridor.contains(...past)).toBe(past[0] <= 100);
+          expect(corridor.contains(...(at(-0.01) as [number, number]))).toBe(true);
+        }
+      }
     }
   });
 

@@ -1,5 +1,5 @@
 import type { BoxRelation, QueryVolume } from "../../query/index.js";
-import { SQUARE_END, SQUARE_START, Strip } from "./strip.js";
+import { Strip } from "./strip.js";
 
 /** How distances along a line are counted. */
 export interface Stationing {
@@ -20,9 +20,9 @@ export interface LinePlace {
 
 /**
  * The strip along a polyline in the plane of the source coordinates: all points no farther than half the width from the
- * line. It ends squarely, where the line does; joints are mitred on the inner side (the border of two segments is the
- * bisector of their angle) and round on the outer one. Where a piece at an end is shorter than half the width, the round of its
- * joint reaches past that end.
+ * line. It ends squarely, where the line does, however short its last piece is: what is nearest to an end, and lies beyond it, is
+ * left out. Joints are mitred on the inner side (the border of two segments is the bisector of their angle) and round on the outer
+ * one.
  *
  * Each point belongs to the part of the line that is nearest to it, the earlier one where two are as near: so no point is
  * taken twice or lost, whatever the angles are and wherever the line crosses itself. Whether a point lies in the strip is
@@ -70,10 +70,7 @@ export class Corridor implements QueryVolume {
     this.vertices = line;
     this.chainages = chainages;
     this.reach = width / 2;
-    const square = new Uint8Array(ends.length / 4);
-    square[0] |= SQUARE_START;
-    square[square.length - 1] |= SQUARE_END;
-    this.#strip = new Strip(Float64Array.from(ends), this.reach, square);
+    this.#strip = new Strip(Float64Array.from(ends), this.reach, true);
     this.#stations = Float64Array.from(stations);
   }
 
@@ -112,7 +109,7 @@ export class Corridor implements QueryVolume {
       const vy = y - ay;
       const square = ux * ux + uy * uy;
       const share = (ux * vx + uy * vy) / square;
-      if (this.#isCutOff(segment, share)) continue;
+      if (this.#isElsewhere(segment, share, x, y)) continue;
       const foot = Math.min(1, Math.max(0, share));
       // Each end is measured from itself, so that both segments of a joint find the same distance.
       const dx = foot === 1 ? x - segments[from + 2] : vx - foot * ux;
@@ -130,10 +127,30 @@ export class Corridor implements QueryVolume {
     return found;
   }
 
-  /** Whether a foot lies before the squared start of the line, or behind its end, beyond what rounding may do. */
-  #isCutOff(segment: number, share: number): boolean {
-    if (segment === 0 && share < -1e-12) return true;
-    return 4 * segment + 4 === this.#strip.segments.length && share > 1 + 1e-12;
+  /**
+   * Whether a point lies before the start of a segment, or behind its end, and is not nearest to the joint there: it belongs to
+   * a part beyond, or lies past the end of the line. Beyond what rounding may do.
+   */
+  #isElsewhere(segment: number, share: number, x: number, y: number): boolean {
+    if (share >= 0 && share <= 1) return false;
+    const slack = this.#slack(segment);
+    if (share < -slack) return segment === 0 || this.#share(segment - 1, x, y) < 1 - this.#slack(segment - 1);
+    if (share <= 1 + slack) return false;
+    const next = segment + 1;
+    return 4 * next === this.#strip.segments.length || this.#share(next, x, y) > this.#slack(next);
+  }
+
+  /** What rounding may do to a share of a segment, of points within reach of it. */
+  #slack(segment: number): number {
+    const [ax, ay, bx, by] = this.#strip.segments.subarray(4 * segment, 4 * segment + 4);
+    return 1e-12 * (1 + this.reach / Math.hypot(bx - ax, by - ay));
+  }
+
+  /** The foot of a point on a segment and beyond it: 0 at its start, 1 at its end. */
+  #share(segment: number, x: number, y: number): number {
+    const [ax, ay, bx, by] = this.#strip.segments.subarray(4 * segment, 4 * segment + 4);
+    const [ux, uy] = [bx - ax, by - ay];
+    return (ux * (x - ax) + uy * (y - ay)) / (ux * ux + uy * uy);
   }
 
   /**

@@ -1,31 +1,28 @@
 import type { BoxRelation } from "../../query/index.js";
-import { isNear } from "../exact/exact.js";
+import { isAtJoint, isBeside } from "../exact/exact.js";
 import { SegmentGrid, type Segments } from "./segment-grid.js";
 
 /** Relative error of a float64 operation. */
 const EPSILON = 2 ** -53;
 
-/** Ends of a segment at which its strip ends squarely; at the others it goes on round the end. */
-export const SQUARE_START = 1;
-export const SQUARE_END = 2;
-
 /**
- * All points no farther than a distance from segments in the plane of the source coordinates. Whether a point is one is
- * decided without any rounding, on the float64 coordinates of the point and of the segments.
+ * All points beside segments in the plane of the source coordinates, no farther than a distance, and the outer sides of the
+ * joints between them: what is nearest to a joint. Whether a point is one is decided without any rounding, on the float64
+ * coordinates of the point and of the segments.
  */
 export class Strip {
   readonly segments: Segments;
   /** Half the width, source units. */
   readonly reach: number;
-  /** Square ends of each segment. */
-  readonly #square: Uint8Array;
+  /** Whether each segment begins where the one before ends. */
+  readonly #joined: boolean;
   readonly #grid: SegmentGrid;
 
-  /** @param square {@link SQUARE_START} and {@link SQUARE_END} of each segment, which has a length */
-  constructor(segments: Segments, reach: number, square: Uint8Array) {
+  /** @param segments which have a length each @param joined whether each begins where the one before ends */
+  constructor(segments: Segments, reach: number, joined: boolean) {
     this.segments = segments;
     this.reach = reach;
-    this.#square = square;
+    this.#joined = joined;
     this.#grid = new SegmentGrid(segments, reach);
   }
 
@@ -48,7 +45,7 @@ export class Strip {
     return false;
   }
 
-  /** Whether a point lies within reach of one segment. */
+  /** Whether a point lies beside one segment, or at the joint behind it. */
   isNear(segment: number, x: number, y: number): boolean {
     const nearness = this.#nearness(segment, x, y);
     return nearness > 0 || (nearness === 0 && this.#isExactlyNear(segment, x, y));
@@ -67,34 +64,49 @@ export class Strip {
     return met ? "crossing" : "out";
   }
 
-  /** Above 0 where a point lies within reach of a segment, below where it does not, 0 where rounding leaves it open. */
+  /**
+   * Above 0 where a point lies beside a segment or at the joint behind it, below where it does not, 0 where rounding leaves it
+   * open.
+   */
   #nearness(segment: number, x: number, y: number): number {
     const from = 4 * segment;
-    const square = this.#square[segment];
     const ax = this.segments[from];
     const ay = this.segments[from + 1];
-    const bx = this.segments[from + 2];
-    const by = this.segments[from + 3];
-    const ux = bx - ax;
-    const uy = by - ay;
+    const ux = this.segments[from + 2] - ax;
+    const uy = this.segments[from + 3] - ay;
     const vx = x - ax;
     const vy = y - ay;
     const length = ux * ux + uy * uy;
     const along = ux * vx + uy * vy;
     // Each product has an error of some units in the last place of its factors; 16 is generous.
     const doubt = 16 * EPSILON * (Math.abs(ux * vx) + Math.abs(uy * vy) + length);
-    if (Math.abs(along) <= doubt || Math.abs(along - length) <= doubt) return 0;
-    if (along < 0) return square & SQUARE_START ? -1 : this.#compare(vx * vx + vy * vy, this.reach ** 2);
-    if (along > length) {
-      const wx = x - bx;
-      const wy = y - by;
-      return square & SQUARE_END ? -1 : this.#compare(wx * wx + wy * wy, this.reach ** 2);
-    }
+    if (along < -doubt) return -1;
+    if (along > length + doubt) return this.#hasJoint(segment) ? this.#nearnessToJoint(segment, x, y) : -1;
     const across = ux * vy - uy * vx;
     const uncertain = 16 * EPSILON * (Math.abs(ux * vy) + Math.abs(uy * vx));
     const limit = this.reach * Math.sqrt(length);
     const left = limit - Math.abs(across);
-    return Math.abs(left) > uncertain + 16 * EPSILON * limit ? left : 0;
+    if (Math.abs(left) <= uncertain + 16 * EPSILON * limit) return 0;
+    // What lies too far aside is too far from the joint as well.
+    return left < 0 || (along > doubt && along < length - doubt) ? left : 0;
+  }
+
+  /** The same of the joint behind a segment, for a point that lies behind that segment. */
+  #nearnessToJoint(segment: number, x: number, y: number): number {
+    const at = 4 * segment + 2;
+    const wx = x - this.segments[at];
+    const wy = y - this.segments[at + 1];
+    const ux = this.segments[at + 4] - this.segments[at + 2];
+    const uy = this.segments[at + 5] - this.segments[at + 3];
+    const along = ux * wx + uy * wy;
+    const doubt = 16 * EPSILON * (Math.abs(ux * wx) + Math.abs(uy * wy));
+    if (along > doubt) return -1;
+    const near = this.#compare(wx * wx + wy * wy, this.reach ** 2);
+    return near < 0 || along < -doubt ? near : 0;
+  }
+
+  #hasJoint(segment: number): boolean {
+    return this.#joined && 4 * segment + 4 < this.segments.length;
   }
 
   /** Limit minus a square, 0 where rounding leaves open which is greater. */
@@ -104,10 +116,9 @@ export class Strip {
   }
 
   #isExactlyNear(segment: number, x: number, y: number): boolean {
-    const [ax, ay, bx, by] = this.segments.subarray(4 * segment, 4 * segment + 4);
-    const square = this.#square[segment];
-    const flat = { start: (square & SQUARE_START) !== 0, end: (square & SQUARE_END) !== 0 };
-    return isNear(x, y, [ax, ay, bx, by], this.reach, flat);
+    const [ax, ay, bx, by, , , cx, cy] = this.segments.subarray(4 * segment, 4 * segment + 8);
+    if (isBeside(x, y, [ax, ay, bx, by], this.reach)) return true;
+    return this.#hasJoint(segment) && isAtJoint(x, y, [ax, ay, bx, by, cx, cy], this.reach);
   }
 
   /** Whether a box lies in the rectangle of one segment, with certainty. */

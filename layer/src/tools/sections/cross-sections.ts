@@ -1,6 +1,6 @@
 import type { BoxRelation, QueryVolume } from "../../query/index.js";
 import { Corridor } from "../profile/corridor.js";
-import { SQUARE_END, SQUARE_START, Strip } from "../profile/strip.js";
+import { Strip } from "../profile/strip.js";
 
 /** A cross-section of a line. */
 export interface CrossSection {
@@ -56,8 +56,7 @@ export class CrossSections implements QueryVolume {
       return { station, centre: [x, y], strip: new Corridor(ends, thickness, { lengths, start: -left }) };
     });
     const ends = this.sections.flatMap(({ strip }) => strip.vertices.flat());
-    const square = new Uint8Array(this.sections.length).fill(SQUARE_START | SQUARE_END);
-    this.#strip = new Strip(Float64Array.from(ends), thickness / 2, square);
+    this.#strip = new Strip(Float64Array.from(ends), thickness / 2, false);
   }
 
   /** Number of sections. */
