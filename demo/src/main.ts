@@ -67,7 +67,7 @@ function start(viewer: Viewer): void {
       profile.addView(view.measured);
     },
   );
-  const progress = new Progress();
+  const progress = new Progress(() => beside.statistics);
   const controls = new Controls((aspect) => {
     if (slot.layer) void goToCloud(viewer, slot.layer, { aspect, free: freeArea(), way: way("fly") });
   });
@@ -104,7 +104,7 @@ function start(viewer: Viewer): void {
   );
   byId("unpick", HTMLButtonElement).addEventListener("click", () => picking.clear());
   const share = new Share(viewer, {
-    ...{ layer: () => slot.layer, box, picking },
+    ...{ layer: () => slot.layer, box, picking, beside },
     hasAddress: () => typeof opened?.from === "string",
   });
   const heights = new Heights(reopen);
@@ -209,7 +209,7 @@ function start(viewer: Viewer): void {
   }
 
   function way(wanted: Flight["way"]): Flight["way"] {
-    const still = !options.fly || matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const still = !options.fly || beside.alone || matchMedia("(prefers-reduced-motion: reduce)").matches;
     return still ? "jump" : wanted;
   }
 
@@ -265,7 +265,8 @@ function start(viewer: Viewer): void {
     if (wanted !== "stay") {
       chooser.fold();
       foldIfNarrow();
-      await goToCloud(viewer, layer, { aspect: "oblique", free: freeArea(), way: way(wanted) });
+      const aspect = beside.alone ? "above" : "oblique";
+      await goToCloud(viewer, layer, { aspect, free: freeArea(), way: way(wanted) });
     }
     if (slot.layer === layer) groma.layer = layer;
   }

@@ -40,6 +40,29 @@ describe.skipIf(scan.missing)(
         });
       await complete();
       await screenshot(page, "beside");
+      // The box of the cloud is in the middle of what the panel leaves of the globe, seen obliquely.
+      const box = await page.evaluate(() => {
+        const { layer, viewer } = window.groma;
+        const { min, max } = layer.cloud.boundingBox;
+        const pixels = [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => {
+          const [x, y, z] = [0, 1, 2].map((axis) => ((corner >> axis) & 1 ? max : min)[axis]!);
+          const [px, py, pz] = layer.cloud.place(x!, y!, z!);
+          const place = Object.assign(viewer.camera.positionWC.clone(), { x: px, y: py, z: pz });
+          return viewer.scene.cartesianToCanvasCoordinates(place)!;
+        });
+        const [xs, ys] = [pixels.map(({ x }) => x), pixels.map(({ y }) => y)];
+        const { right } = document.getElementById("panel")!.getBoundingClientRect();
+        const { clientWidth, clientHeight } = viewer.canvas;
+        return {
+          left: Math.min(...xs) - right,
+          right: clientWidth - Math.max(...xs),
+          top: Math.min(...ys),
+          bottom: clientHeight - Math.max(...ys),
+        };
+      });
+      expect(Math.abs(box.left - box.right)).toBeLessThan(1);
+      // The lower margin is 16 pixels wider, for the credits.
+      expect(Math.abs(box.bottom - 16 - box.top)).toBeLessThan(1);
       const lit = () =>
         page.evaluate(() => {
           const canvas = document.querySelector<HTMLCanvasElement>("#map .ol-layer canvas")!;
@@ -119,9 +142,37 @@ describe.skipIf(scan.missing)(
       await screenshot(page, "beside-linked");
       await page.selectOption("#views", "map");
       expect(await page.isVisible("#split")).toBe(false);
-      const box = await page.evaluate(() => document.getElementById("map")!.getBoundingClientRect().width);
-      expect(box).toBe(1200);
+      const width = await page.evaluate(() => document.getElementById("map")!.getBoundingClientRect().width);
+      expect(width).toBe(1200);
+      await complete();
       await screenshot(page, "map-alone");
+      // The panel and the link to the page go by the map, and nothing of the globe shows.
+      expect(await page.isVisible("#globe")).toBe(false);
+      await page.waitForFunction(
+        () => {
+          const { pointsDrawn = -1 } = window.groma.beside.statistics ?? {};
+          return document.getElementById("count")!.textContent!.includes(pointsDrawn.toLocaleString("en"));
+        },
+        undefined,
+        { timeout: 120_000 },
+      );
+      const there = await page.evaluate(() => window.groma.viewer.camera.positionWC.x);
+      await page.evaluate(async () => {
+        (await window.groma.beside.view)!.map.getView().adjustCenter([30_000, 0]);
+      });
+      await page.waitForFunction(
+        () => document.getElementById("stage")!.textContent === "No points in this view.",
+        undefined,
+        { timeout: 120_000 },
+      );
+      await page.waitForFunction((x) => Math.abs(window.groma.viewer.camera.positionWC.x - x) > 1000, there, {
+        timeout: 120_000,
+      });
+      await page.locator("#copy-link").evaluate((button: HTMLButtonElement) => button.click());
+      expect(new URL(page.url()).searchParams.get("map")).toBe("only");
+      await page.evaluate(async () => {
+        (await window.groma.beside.view)!.map.getView().adjustCenter([-30_000, 0]);
+      });
       await page.selectOption("#views", "globe");
       expect(await page.isVisible("#map")).toBe(false);
       expect(watch.errors).toEqual([]);

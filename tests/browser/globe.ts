@@ -9,6 +9,7 @@ import type { Page } from "playwright-core";
 export interface Groma {
   readonly viewer: Viewer;
   readonly beside: {
+    readonly statistics: { readonly pointsDrawn: number } | undefined;
     readonly view: Promise<{ readonly map: OlMap; readonly measured: ViewAdapter }> | undefined;
   };
   readonly layer: PointCloudLayer;

@@ -1,4 +1,5 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
+import type { LayerStatistics } from "@groma/layer/openlayers";
 import type { Viewer } from "cesium";
 import { byId } from "../panel/elements.js";
 import type { MapView } from "./map-view.js";
@@ -29,6 +30,8 @@ export class Beside {
   readonly #north = byId("north", HTMLInputElement);
   readonly #bar = byId("split", HTMLHRElement);
   #view: Promise<MapView> | undefined;
+  /** The same once it is there. */
+  #shown: MapView | undefined;
   #layer: PointCloudLayer | undefined;
 
   /**
@@ -53,9 +56,27 @@ export class Beside {
     return this.#view;
   }
 
-  /** Whether the map goes where the globe goes. */
+  /** Whether the map goes where the globe goes: alone it always does, so that what goes by the globe is true of it. */
   get linked(): boolean {
-    return this.#choice.value === "both" && this.#link.checked;
+    return this.alone || (this.#choice.value === "both" && this.#link.checked);
+  }
+
+  /** Whether the map is in the place of the globe. */
+  get alone(): boolean {
+    return this.#choice.value === "map";
+  }
+
+  /** What the map draws, where it is in the place of the globe. */
+  get statistics(): LayerStatistics | undefined {
+    return this.alone ? this.#shown?.statistics : undefined;
+  }
+
+  /** Has an address of the page ask for what is shown. */
+  writeTo(page: URL): void {
+    const { searchParams: query } = page;
+    for (const name of ["map", "link"]) query.delete(name);
+    if (this.#choice.value !== "globe") query.set("map", this.alone ? "only" : "1");
+    if (this.#choice.value === "both" && !this.#link.checked) query.set("link", "0");
   }
 
   /** Shows the globe, the map, or both. @param linked whether the two move together; default: as it is */
@@ -82,6 +103,7 @@ export class Beside {
       this.#view ??= import("./map-view.js").then(({ MapView }) => {
         const view = new MapView(byId("map", HTMLElement), this.#viewer, this.#failed);
         this.#begins(view);
+        this.#shown = view;
         return view;
       });
       const view = await this.#view;
@@ -95,7 +117,8 @@ export class Beside {
   /** Links the map to the globe as the panel says. */
   async #follow(): Promise<void> {
     const view = await this.#view;
-    view?.link(this.linked ? { northUp: this.#north.checked } : undefined);
+    const how = { northUp: !this.alone && this.#north.checked, marks: !this.alone };
+    view?.link(this.linked ? how : undefined);
   }
 
   /** Moves the bar to the pointer: along the longer side of the page. */

@@ -2,7 +2,12 @@ import "ol/ol.css";
 import { ecefToGeodetic } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import { type Link, synchronize } from "@groma/layer/link";
-import { PointCloudLayer as MapLayer, measureView, PointCloudSource } from "@groma/layer/openlayers";
+import {
+  type LayerStatistics,
+  PointCloudLayer as MapLayer,
+  measureView,
+  PointCloudSource,
+} from "@groma/layer/openlayers";
 import type { ViewAdapter } from "@groma/layer/tools";
 import { buildModuleUrl, type Viewer } from "cesium";
 import { boundingExtent } from "ol/extent.js";
@@ -36,6 +41,8 @@ export class MapView {
     stopEvent: false,
   });
   #link: Link | undefined;
+  /** What of it was asked for last. */
+  #marks: boolean | undefined;
   #layer: MapLayer | undefined;
   #source: PointCloudSource | undefined;
   #shown: PointCloudLayer | undefined;
@@ -56,8 +63,15 @@ export class MapView {
     viewer.scene.postRender.addEventListener(() => this.#follow());
   }
 
+  /** What of the cloud the map draws; undefined where there is none. */
+  get statistics(): LayerStatistics | undefined {
+    return this.#layer?.statistics;
+  }
+
   /** Shows a cloud in place of the one that is there. */
   attach(layer: PointCloudLayer): void {
+    this.map.updateSize();
+    if (layer === this.#shown) return;
     this.#leave();
     const source = new PointCloudSource({ cloud: layer.cloud });
     const { style, filter, clips, maximumScreenSpaceError, pointBudget } = layer;
@@ -68,20 +82,26 @@ export class MapView {
     this.#shown = layer;
     this.#followed = partsOf(layer);
     this.map.addLayer(shown);
-    this.map.updateSize();
     // A map in step shows what the globe does.
     const extent = this.#link ? undefined : source.getExtent();
     if (extent && this.map.getSize()) this.map.getView().fit(extent, { padding: [24, 24, 24, 24] });
   }
 
-  /** Keeps the map in step with the globe from now on; undefined: no longer. */
-  link(options: { readonly northUp: boolean } | undefined): void {
-    if (!options) {
+  /**
+   * Keeps the map in step with the globe from now on; undefined: no longer.
+   * @param options whether north stays up, and whether the map marks what is seen of the globe
+   */
+  link(options: { readonly northUp: boolean; readonly marks: boolean } | undefined): void {
+    if (options?.marks !== this.#marks) {
       this.#link?.dispose();
       this.#link = undefined;
-      return;
     }
-    this.#link ??= synchronize({ viewer: this.#viewer, map: this.map, middle, onError: this.#failed });
+    this.#marks = options?.marks;
+    if (!options) return;
+    const { marks } = options;
+    const shown = { footprint: marks, camera: marks, cursor: marks };
+    const views = { viewer: this.#viewer, map: this.map, middle };
+    this.#link ??= synchronize({ ...views, ...shown, onError: this.#failed });
     if (options.northUp) this.map.getView().setRotation(0);
     this.#link.northUp = options.northUp;
   }

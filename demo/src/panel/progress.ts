@@ -6,13 +6,25 @@ import { counted, countWords } from "./words.js";
 /** Milliseconds between two looks at what is drawn: what has come is drawn some frames later. */
 const INTERVAL = 250;
 
+/** What a view draws, and wants to. */
+type Drawn = Pick<
+  PointCloudLayer["statistics"],
+  "nodesVisible" | "nodesLoaded" | "nodesFailed" | "pointsDrawn" | "budgetReached"
+>;
+
 /** How far the loading of the current view is. */
 export class Progress {
   readonly #place = byId("progress", HTMLDivElement);
   readonly #stage = byId("stage", HTMLParagraphElement);
   readonly #bar = byId("bar", HTMLProgressElement);
   readonly #count = byId("count", HTMLParagraphElement);
+  readonly #instead: () => Drawn | undefined;
   #unfollow: (() => void) | undefined;
+
+  /** @param instead what a view draws that stands in the place of the globe, if one does */
+  constructor(instead: () => Drawn | undefined) {
+    this.#instead = instead;
+  }
 
   /** A cloud is being opened; nothing is known of it yet. */
   opening(name: string): void {
@@ -63,9 +75,12 @@ export class Progress {
     this.#place.hidden = true;
   }
 
-  #tell(layer: PointCloudLayer, { wanted, ready, failed, pending, waiting }: StreamProgress): void {
-    const { pointsDrawn, budgetReached } = layer.statistics;
-    const waits = pending > 0 || (wanted > failed && pointsDrawn === 0 && !layer.settled);
+  #tell(layer: PointCloudLayer, progress: StreamProgress): void {
+    const instead = this.#instead();
+    const { pointsDrawn, budgetReached } = instead ?? layer.statistics;
+    const { wanted, ready, failed, pending, waiting } = instead ? progressOf(instead) : progress;
+    const settled = instead !== undefined || layer.settled;
+    const waits = pending > 0 || (wanted > failed && pointsDrawn === 0 && !settled);
     this.#bar.hidden = !waits;
     this.#bar.max = Math.max(wanted, 1);
     this.#bar.value = ready;
@@ -79,4 +94,12 @@ export class Progress {
     const again = waits && waiting ? `${againWords(waiting, Date.now())} · ` : "";
     setText(this.#count, `${again}${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`);
   }
+}
+
+function progressOf({
+  nodesVisible: wanted,
+  nodesLoaded: ready,
+  nodesFailed: failed,
+}: Drawn): StreamProgress {
+  return { wanted, ready, failed, pending: wanted - ready - failed };
 }

@@ -22,6 +22,8 @@ export interface Shared {
   readonly hasAddress: () => boolean;
   readonly box: ClipBox;
   readonly picking: Picking;
+  /** Has an address ask for what the page shows beside or in place of the globe. */
+  readonly beside: { writeTo(page: URL): void };
 }
 
 /** Links to the page as it is seen: camera, style, filter, clips, the record that is selected. */
@@ -67,7 +69,7 @@ export class Share {
   }
 
   async #copy(): Promise<void> {
-    const { layer: shown, hasAddress, picking } = this.#shared;
+    const { layer: shown, hasAddress, picking, beside } = this.#shared;
     const layer = shown();
     if (!layer) return;
     const note = byId("link-note", HTMLParagraphElement);
@@ -76,6 +78,7 @@ export class Share {
       return;
     }
     const page = new URL(location.href);
+    beside.writeTo(page);
     const camera = cameraView(this.#viewer.camera);
     try {
       page.hash = `view=${writePermalink({ camera, ...layerView(layer), selected: picking.selected })}`;

@@ -33,6 +33,9 @@ describe("framing", () => {
     for (const gap of Object.values(gaps)) expect(gap).toBeGreaterThan(-1e-9);
     const tightest = Math.min(gaps.left + gaps.right, gaps.top + gaps.bottom);
     expect(tightest).toBeLessThan(1e-9);
+    // In the middle, in both directions.
+    expect(gaps.left).toBeCloseTo(gaps.right, 6);
+    expect(gaps.top).toBeCloseTo(gaps.bottom, 6);
   });
 
   it("keeps its distance from a single point", () => {
