@@ -38,6 +38,8 @@ interface Entry {
   readonly facts: HTMLDListElement;
   /** Fields of a volume. */
   readonly settings: Settings | undefined;
+  /** What it shows: as long as that is the same, its words are. */
+  shown: readonly unknown[];
 }
 
 interface Settings {
@@ -70,11 +72,15 @@ export class MeasurementList {
     const kept = new Map(this.#entries.map((entry) => [entry.measurement.id, entry]));
     this.#entries = this.#tool.measurements.map((measurement) => {
       const there = kept.get(measurement.id);
-      const entry = there ? { ...there, measurement } : this.#entry(measurement);
+      const entry: Entry = there ? { ...there, measurement } : this.#entry(measurement);
       entry.settings?.offer(this.#others());
       // Not while it is read: who types a height is not disturbed.
       if (there?.measurement !== measurement) entry.settings?.fill(measurement.volume);
-      this.#fill(entry);
+      const { units, worth } = this.#tool;
+      const edited = this.#tool.edited?.id === measurement.id;
+      const shown = [measurement, this.#tool.readingOf(measurement), units, worth, edited];
+      if (shown.some((one, i) => one !== entry.shown[i])) this.#fill(entry);
+      entry.shown = shown;
       return entry;
     });
     const wanted = this.#entries.map(({ element }) => element);
@@ -118,7 +124,7 @@ export class MeasurementList {
     facts.className = "facts";
     const settings = measurement.kind === "volume" ? this.#settings(measurement) : undefined;
     element.append(head, ...(settings ? [settings.element] : []), facts);
-    return { measurement, element, edit, read, facts, settings };
+    return { measurement, element, edit, read, facts, settings, shown: [] };
   }
 
   #fill({ measurement, edit, read, facts }: Entry): void {

@@ -253,7 +253,10 @@ function handled<T>(promise: Promise<T>): Promise<T> {
 }
 
 /** Those of a batch's points that are of some classes: indices of records, rising. */
-export function ofClasses({ records, inside }: PointBatch, classes: ReadonlySet<number>): Uint32Array {
+export function ofClasses(
+  { records, inside }: Pick<PointBatch, "records" | "inside">,
+  classes: ReadonlySet<number>,
+): Uint32Array {
   const attribute = records.attributes.find(({ name }) => name === "classification");
   if (!attribute) return new Uint32Array(0);
   const { bytes, at, stride } = attribute;

@@ -50,9 +50,10 @@ export {
   type ProfileOptions,
   type ProfilePoints,
 } from "./cut/profile.js";
+export type { MeasureToolOptions } from "./draw/given.js";
 export type { MeasurementChange } from "./draw/history.js";
 export { MeasureControl, type MeasureControlOptions } from "./draw/measure-control.js";
-export { MeasureTool, type MeasureToolOptions } from "./draw/measure-tool.js";
+export { MeasureTool } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
 export { type LineOnEllipsoid, lineOnEllipsoid } from "./ellipsoid/line-on-ellipsoid.js";
 export {

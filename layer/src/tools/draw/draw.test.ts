@@ -1,13 +1,23 @@
 import { geodesicBetween } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { MeasureError } from "../../errors/index.js";
 import { cloudOf, UTM } from "../measure/cloud.fixture.js";
-import { type Measurement, MeasureUnits, placeVertex, sourceVertex, type Vertex } from "../measure/index.js";
+import {
+  type Measurement,
+  MeasureUnits,
+  placeVertex,
+  sourceVertex,
+  type Vertex,
+  valuesOf,
+  type WorthOptions,
+} from "../measure/index.js";
 import { Awaited } from "./awaited.js";
-import { checkChange, checkKind, checkMeasurement } from "./checks.js";
 import { courseOf, wayOf } from "./course.js";
 import { figuresOf } from "./figures.js";
+import { checkChange, checkKind, checkMeasurement } from "./given.js";
 import { freshName, grown, History, isSame, withChange } from "./history.js";
+import { KnownValues } from "./known-values.js";
 import { Placing } from "./placing.js";
 import { snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
@@ -87,6 +97,38 @@ describe("the way back and forth", () => {
   it("gives names that are free", () => {
     expect(freshName([line], "Line")).toBe("Line 2");
     expect(freshName([line], "Area")).toBe("Area 1");
+  });
+});
+
+describe("values that are known", () => {
+  it("are worked out once for a measurement, and anew where its vertices or what is known of points change", () => {
+    let asked = 0;
+    const counted = (): WorthOptions => ({
+      precision: () => {
+        asked++;
+        return 0.01;
+      },
+    });
+    const known = new KnownValues(counted());
+    const first = known.of(line);
+    const once = asked;
+    expect(known.of(line)).toBe(first);
+    expect(asked).toBe(once);
+    expect(known.of({ ...line, vertices: [a, c] })).not.toBe(first);
+    known.worth = counted();
+    expect(known.of(line)).not.toBe(first);
+    expect(known.of(line)).toEqual(first);
+    // Why there is none is worked out once too.
+    const bow: Measurement = { id: "2", kind: "circle", name: "Circle 1", vertices: [a, b, a] };
+    const thrown = [1, 2].map(() => {
+      try {
+        return known.of(bow);
+      } catch (error) {
+        return error;
+      }
+    });
+    expect(thrown[0]).toBeInstanceOf(MeasureError);
+    expect(thrown[1]).toBe(thrown[0]);
   });
 });
 
@@ -197,7 +239,12 @@ describe("placing", () => {
 describe("figures", () => {
   const showing = {
     ...{ edited: undefined, drag: undefined, ahead: undefined, missed: false },
-    ...{ units: new MeasureUnits({ locale: "en" }), worth: { precision: 0.01 }, readingOf: () => undefined },
+    ...{
+      units: new MeasureUnits({ locale: "en" }),
+      worth: { precision: 0.01 },
+      valuesOf: (of: Measurement) => valuesOf(of, { precision: 0.01 }),
+      readingOf: () => undefined,
+    },
   };
 
   it("are labelled with their value and worth, or with what keeps them from having one", () => {

@@ -28,6 +28,8 @@ export interface Showing {
   readonly missed: boolean;
   readonly units: MeasureUnits;
   readonly worth: WorthOptions;
+  /** Of a measurement as it is. @throws MeasureError */
+  valuesOf(measurement: Measurement): readonly NamedValue[];
   /** How far the values that take reading are. */
   readingOf(measurement: Measurement): Reading | undefined;
 }
@@ -42,7 +44,11 @@ export function figuresOf({ measurements, draft }: Drawn, showing: Showing): Sho
     const grows = most === Number.POSITIVE_INFINITY;
     // A vertex on its way changes what would be read.
     const reading = vertices === placed ? showing.readingOf(measurement) : undefined;
-    const label = (reading && readingLabel(reading, showing)) ?? labelOf(kind, vertices, showing);
+    const label =
+      (reading && readingLabel(reading, showing)) ??
+      labelOf(kind, vertices, showing, () =>
+        vertices === placed ? showing.valuesOf(measurement) : valuesOf({ kind, vertices }, showing.worth),
+      );
     return { id, name, vertices, shape, open: id === edited, grows, ...label };
   });
   if (!draft) return figures;
@@ -87,11 +93,12 @@ function textOf(of: NamedValue, units: MeasureUnits): string {
 function labelOf(
   kind: MeasurementKind,
   vertices: readonly Vertex[],
-  { units, worth: known }: Showing,
+  { units, worth }: Showing,
+  values: () => readonly NamedValue[] = () => valuesOf({ kind, vertices }, worth),
 ): Label {
   if (vertices.length < MEASUREMENT_KINDS[kind].least) return { label: "", wrong: false };
   try {
-    const [first] = valuesOf({ kind, vertices }, known);
+    const [first] = values();
     return { label: first ? textOf(first, units) : "", wrong: false };
   } catch (thrown) {
     if (!(thrown instanceof MeasureError)) throw thrown;

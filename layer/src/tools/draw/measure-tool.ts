@@ -8,30 +8,20 @@ import {
   MeasureUnits,
   type NamedValue,
   type Reading,
-  type ReadingOptions,
   Readings,
   readsPoints,
   type Vertex,
-  valuesOf,
   type WorthOptions,
 } from "../measure/index.js";
 import { checkPrecision } from "../measure/worth/point-errors.js";
 import { Awaited } from "./awaited.js";
-import { checkChange, checkKind, checkMeasurement } from "./checks.js";
 import { figuresOf } from "./figures.js";
+import { checkChange, checkKind, checkMeasurement, type MeasureToolOptions } from "./given.js";
 import { freshName, grown, History, type MeasurementChange, withChange } from "./history.js";
+import { KnownValues } from "./known-values.js";
 import { commandOf } from "./pointer.js";
 import { Surface } from "./surface.js";
 import type { ViewAdapter } from "./view-adapter.js";
-
-export interface MeasureToolOptions extends WorthOptions, Pick<ReadingOptions, "terrain" | "createWorker"> {
-  /** How labels are written. Default: metres and degrees, in the reader's language. */
-  readonly units?: MeasureUnits | undefined;
-  /** Elements of the page that lie over the views, panels say: labels stand beside them. */
-  readonly covering?: (() => readonly Element[]) | undefined;
-  /** Hears what kept a record from being read. Default: `reportError`. */
-  readonly onError?: ((thrown: unknown) => void) | undefined;
-}
 
 /**
  * Draws measurements on one or several views, by pointer, touch or keyboard, and keeps them.
@@ -54,7 +44,7 @@ export class MeasureTool {
   #used: Surface | undefined;
   #destroyed = false;
   #units: MeasureUnits;
-  #worth: WorthOptions;
+  readonly #values: KnownValues;
   #edited: string | undefined;
   #waiting: Awaited | undefined;
   #hover: Vertex | undefined;
@@ -63,11 +53,12 @@ export class MeasureTool {
   constructor(view: ViewAdapter, options: MeasureToolOptions = {}) {
     this.#options = options;
     this.#units = options.units ?? new MeasureUnits();
-    this.#worth = { precision: options.precision };
+    this.#values = new KnownValues({ precision: options.precision });
     const { terrain, createWorker } = options;
     this.#readings = new Readings(
-      () => ({ ...this.#worth, terrain, createWorker, clouds: this.#clouds }),
-      () => this.#changed(),
+      () => ({ ...this.worth, terrain, createWorker, clouds: this.#clouds }),
+      // What is read moves no figure: no view need draw for it.
+      () => this.#told(),
     );
     this.addView(view);
   }
@@ -92,7 +83,7 @@ export class MeasureTool {
       key: (event) => this.#key(event),
       covering: () => this.#options.covering?.() ?? [],
       show: () => this.#show(),
-      told: (work) => this.#told(work),
+      told: (work) => this.#watched(work),
     });
     this.#surfaces.push(surface);
     this.#used ??= surface;
@@ -150,13 +141,13 @@ export class MeasureTool {
 
   /** What is known of the points; see {@link WorthOptions}. */
   get worth(): WorthOptions {
-    return this.#worth;
+    return this.#values.worth;
   }
 
   /** @throws MeasureError MEASURE_OPTION for a precision that is none */
   set worth(worth: WorthOptions) {
     if (typeof worth.precision !== "function") checkPrecision(worth.precision, "MeasureTool");
-    this.#worth = worth;
+    this.#values.worth = worth;
     this.#readings.again(this.measurements.filter(readsPoints));
     this.#changed();
   }
@@ -168,7 +159,7 @@ export class MeasureTool {
   valuesOf(measurement: Measurement): readonly NamedValue[] {
     const reading = this.#readings.of(measurement);
     const read = reading?.state === "done" ? reading.values : [];
-    return [...read, ...valuesOf(measurement, this.#worth)];
+    return [...read, ...this.#values.of(measurement)];
   }
 
   /** How far the reading of a measurement's values is; undefined where nothing is read for it. */
@@ -343,8 +334,13 @@ export class MeasureTool {
   #changed(): void {
     if (this.#destroyed) return;
     this.#readings.follow(this.measurements);
-    this.#show();
+    this.#told();
     for (const { view } of this.#surfaces) view.redraw();
+  }
+
+  #told(): void {
+    if (this.#destroyed) return;
+    this.#show();
     for (const listener of this.#listeners) listener();
   }
 
@@ -352,7 +348,8 @@ export class MeasureTool {
     const drag = this.#surfaces.map(({ grips }) => grips.drag).find((one) => one !== undefined);
     const figures = figuresOf(this.#history.present, {
       ...{ edited: this.#edited, drag, ahead: this.#hover, missed: this.#missed },
-      ...{ units: this.#units, worth: this.#worth, readingOf: (one) => this.#readings.of(one) },
+      ...{ units: this.#units, worth: this.worth, valuesOf: (one) => this.#values.of(one) },
+      readingOf: (one) => this.#readings.of(one),
     });
     for (const surface of this.#surfaces) surface.show(figures);
   }
@@ -391,7 +388,7 @@ export class MeasureTool {
   }
 
   /** Has failures told; what was given up is none. */
-  #told(work: Promise<unknown>): void {
+  #watched(work: Promise<unknown>): void {
     work.catch((thrown: unknown) => {
       if (this.#destroyed || isAbort(thrown)) return;
       (this.#options.onError ?? reportError)(thrown);

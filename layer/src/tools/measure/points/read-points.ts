@@ -1,8 +1,11 @@
-import { ofClasses, type PointOrigin, type QueryVolume } from "../../../query/index.js";
+import { ofClasses, Pace, type PointOrigin, type QueryVolume } from "../../../query/index.js";
 import type { Plan } from "./local-plan.js";
 
 /** Least x, least y, greatest x, greatest y; source units. */
 export type SourceRectangle = readonly [number, number, number, number];
+
+/** Points between two looks at the clock: some tenths of a millisecond. */
+const SLICE = 16_384;
 
 /** Which points are read, and to where. */
 export interface ReadPoints {
@@ -29,18 +32,23 @@ export async function readPoints(
   const parts: Float64Array[] = [];
   const query = origin.query({ volume: columnOver(rectangle) });
   const total = (await query.bracket({ signal })).most;
+  const pace = new Pace(signal);
   let read = 0;
   for await (const batch of query.batches({ signal })) {
     const { xyz, count: inNode } = batch.records;
-    const wanted = classes ? ofClasses(batch, classes) : batch.inside;
-    const part = new Float64Array(3 * wanted.length);
-    for (let i = 0, to = 0; i < wanted.length; i++) {
-      const at = 3 * wanted[i];
-      part[to++] = xyz[at] * scaleX + offsetX;
-      part[to++] = xyz[at + 1] * scaleY + offsetY;
-      part[to++] = xyz[at + 2] * scaleZ + offsetZ;
+    for (let from = 0; from < batch.inside.length; from += SLICE) {
+      const slice = { records: batch.records, inside: batch.inside.subarray(from, from + SLICE) };
+      const wanted = classes ? ofClasses(slice, classes) : slice.inside;
+      const part = new Float64Array(3 * wanted.length);
+      for (let i = 0, to = 0; i < wanted.length; i++) {
+        const at = 3 * wanted[i];
+        part[to++] = xyz[at] * scaleX + offsetX;
+        part[to++] = xyz[at + 1] * scaleY + offsetY;
+        part[to++] = xyz[at + 2] * scaleZ + offsetZ;
+      }
+      if (part.length > 0) parts.push(plan.take(part));
+      await pace.rest();
     }
-    parts.push(plan.take(part));
     read += inNode;
     onProgress?.(Math.min(1, read / total));
   }

@@ -1,8 +1,24 @@
 import { MeasureError } from "../../errors/index.js";
 import { instead } from "../../options/index.js";
-import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind } from "../measure/index.js";
+import {
+  MEASUREMENT_KINDS,
+  type Measurement,
+  type MeasurementKind,
+  type MeasureUnits,
+  type ReadingOptions,
+  type WorthOptions,
+} from "../measure/index.js";
 import { volumeSettingsOf } from "../measure/measurement/volume-settings.js";
 import type { MeasurementChange } from "./history.js";
+
+export interface MeasureToolOptions extends WorthOptions, Pick<ReadingOptions, "terrain" | "createWorker"> {
+  /** How labels are written. Default: metres and degrees, in the reader's language. */
+  readonly units?: MeasureUnits | undefined;
+  /** Elements of the page that lie over the views, panels say: labels stand beside them. */
+  readonly covering?: (() => readonly Element[]) | undefined;
+  /** Hears what kept a record from being read. Default: `reportError`. */
+  readonly onError?: ((thrown: unknown) => void) | undefined;
+}
 
 /** @throws MeasureError MEASURE_OPTION for a kind that there is not */
 export function checkKind(kind: MeasurementKind): void {
