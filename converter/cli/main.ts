@@ -1,6 +1,7 @@
 // What a command needs is loaded when it is run, so that help and refused options come at once.
 import { Command, CommanderError, Option } from "commander";
 import {
+  attributeRanges,
   boxNumbers,
   classNumbers,
   finite,
@@ -11,6 +12,7 @@ import {
   portNumber,
   positive,
   refuseEmpty,
+  returnKinds,
   sectionFormats,
   statistic,
   threadCount,
@@ -159,6 +161,15 @@ const cutting = () => [
     "output; its ending says the format: .las, .laz, .csv, .geojson, .dxf; of profiles .svg, .pdf, .xml (LandXML) too",
   ).makeOptionMandatory(),
   new Option("--overwrite", "replace an existing output"),
+  new Option("--classes <numbers>", "classes that are kept, e.g. 2,9").argParser(classNumbers),
+  new Option("--returns <kinds>", "returns that are kept: first, last, intermediate, single").argParser(
+    returnKinds,
+  ),
+  new Option(
+    "--range <NAME=least,greatest>",
+    "values that are kept of an attribute, both included; may be given again for others",
+  ).argParser(attributeRanges),
+  new Option("--clips <FILE>", "volumes that cut: JSON list of boxes, planes, polygons, as of layer.clips"),
   progress(),
 ];
 
@@ -249,6 +260,7 @@ const profile = program
     const { sections, interval, at } = options;
     if (sections && interval === undefined && at === undefined)
       command.error("error: --sections requires --interval or --at");
+    if (sections && options.clips) command.error("error: --clips does not go with --sections");
     if (!sections && (interval ?? at) !== undefined)
       command.error("error: --interval and --at require --sections");
     const asked = (statistic ?? groundInterval ?? groundClasses) !== undefined;
@@ -260,7 +272,9 @@ const profile = program
 
 const clip = program
   .command("clip")
-  .description("write all points in a polygon or a box, or of some classes, record by record, to a file")
+  .description(
+    "write all points in a polygon, a box or other volumes, or that a filter leaves, record by record, to a file",
+  )
   .argument("<files...>", "COPC files or their addresses")
   .addOption(new Option("--polygon <FILE>", "GeoJSON file with one Polygon").conflicts("box"))
   .addOption(givenCrs("--polygon-crs", "polygon"))
@@ -275,10 +289,12 @@ const clip = program
       heightRange,
     ),
   )
-  .addOption(new Option("--classes <numbers>", "classes that are kept, e.g. 2,9").argParser(classNumbers))
   .action(async (files: string[], options, command: Command) => {
-    if (!options.polygon && !options.box && !options.classes && !options.heights) {
-      command.error("error: --polygon, --box, --heights or --classes is required");
+    const { polygon, box, heights, classes, returns, range, clips } = options;
+    if (!(polygon ?? box ?? heights ?? classes ?? returns ?? range ?? clips)) {
+      command.error(
+        "error: --polygon, --box, --heights, --clips, --classes, --returns or --range is required",
+      );
     }
     return (await import("./commands/clip.js")).runClip(files, options);
   });

@@ -14,6 +14,7 @@ const scan = path("scan.copc.laz");
 const [symbolic, hard] = [path("symbolic.copc.laz"), path("hard.copc.laz")];
 const line = path("line.csv");
 const area = path("area.csv");
+const volumes = path("volumes.csv");
 const control = path("control.txt");
 const geometry = (type: string, coordinates: unknown) => JSON.stringify({ type, coordinates });
 const ring = [
@@ -24,6 +25,7 @@ const ring = [
 ];
 
 beforeAll(() => {
+  writeFileSync(volumes, "[]");
   for (const file of [scan, control, path("job.laz")]) writeFileSync(file, "as it was");
   writeFileSync(line, geometry("LineString", ring.slice(0, 2)));
   writeFileSync(area, geometry("Polygon", [ring]));
@@ -52,6 +54,11 @@ describe("an output that is a file that is read", () => {
       "the polygon of clip",
       area,
       () => runClip([scan], { ...cut, out: area, polygon: area, polygonCrs: "source" }),
+    ],
+    [
+      "the clips of clip",
+      volumes,
+      () => runClip([scan], { ...cut, out: volumes, clips: volumes, polygonCrs: "source" }),
     ],
     ["the scan of a profile", scan, () => profile(scan)],
     ["the line of a profile", line, () => profile(line)],

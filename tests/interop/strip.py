@@ -76,48 +76,53 @@ def without(array, names):
     return out
 
 
-scan = laspy.read(sys.argv[1])
-cut = laspy.read(sys.argv[2])
-width = float(sys.argv[3])
-line = json.loads(sys.argv[4])
-scale, offset = scan.header.scales, scan.header.offsets
-x = scan.X * scale[0] + offset[0]
-y = scan.Y * scale[1] + offset[1]
-inside, doubtful = strip(x, y, line, width)
-added = [name for name in cut.point_format.extra_dimension_names if name in ("chainage", "offset")]
-records = np.ascontiguousarray(without(cut.points.array, added))
-as_bytes = np.dtype((np.void, records.dtype.itemsize))
-expected = np.ascontiguousarray(scan.points.array[inside])
-same = records.dtype.itemsize == expected.dtype.itemsize and np.array_equal(
-    np.sort(records.view(as_bytes).ravel()), np.sort(expected.view(as_bytes).ravel())
-)
-vlrs = {(vlr.user_id, vlr.record_id): vlr.record_data_bytes() for vlr in cut.header.vlrs}
-kept = [
-    (vlr.user_id, vlr.record_id) in vlrs and vlrs[vlr.user_id, vlr.record_id] == vlr.record_data_bytes()
-    for vlr in scan.header.vlrs
-    if vlr.user_id in ("LASF_Projection",) or (vlr.user_id == "groma" and vlr.record_id in (1, 3))
-]
-along = {name: [float(np.min(cut[name])), float(np.max(cut[name]))] for name in added}
-print(
-    json.dumps(
-        {
-            "count": int(inside.sum()),
-            "written": len(cut.points),
-            "same": bool(same),
-            "doubtful": doubtful,
-            "meaning": list(cut.header.scales) == list(scale)
-            and list(cut.header.offsets) == list(offset)
-            and cut.header.point_format.id == scan.header.point_format.id,
-            "kept": len(kept) > 0 and all(kept),
-            "bounds": bool(
-                len(cut.points) == 0
-                or (
-                    np.allclose(cut.header.mins, [cut.x.min(), cut.y.min(), cut.z.min()], atol=1e-9)
-                    and np.allclose(cut.header.maxs, [cut.x.max(), cut.y.max(), cut.z.max()], atol=1e-9)
-                )
-            ),
-            "along": along,
-            "users": sorted({vlr.user_id for vlr in cut.header.vlrs}),
-        }
+def judge():
+    scan = laspy.read(sys.argv[1])
+    cut = laspy.read(sys.argv[2])
+    width = float(sys.argv[3])
+    line = json.loads(sys.argv[4])
+    scale, offset = scan.header.scales, scan.header.offsets
+    x = scan.X * scale[0] + offset[0]
+    y = scan.Y * scale[1] + offset[1]
+    inside, doubtful = strip(x, y, line, width)
+    added = [name for name in cut.point_format.extra_dimension_names if name in ("chainage", "offset")]
+    records = np.ascontiguousarray(without(cut.points.array, added))
+    as_bytes = np.dtype((np.void, records.dtype.itemsize))
+    expected = np.ascontiguousarray(scan.points.array[inside])
+    same = records.dtype.itemsize == expected.dtype.itemsize and np.array_equal(
+        np.sort(records.view(as_bytes).ravel()), np.sort(expected.view(as_bytes).ravel())
     )
-)
+    vlrs = {(vlr.user_id, vlr.record_id): vlr.record_data_bytes() for vlr in cut.header.vlrs}
+    kept = [
+        (vlr.user_id, vlr.record_id) in vlrs and vlrs[vlr.user_id, vlr.record_id] == vlr.record_data_bytes()
+        for vlr in scan.header.vlrs
+        if vlr.user_id in ("LASF_Projection",) or (vlr.user_id == "groma" and vlr.record_id in (1, 3))
+    ]
+    along = {name: [float(np.min(cut[name])), float(np.max(cut[name]))] for name in added}
+    print(
+        json.dumps(
+            {
+                "count": int(inside.sum()),
+                "written": len(cut.points),
+                "same": bool(same),
+                "doubtful": doubtful,
+                "meaning": list(cut.header.scales) == list(scale)
+                and list(cut.header.offsets) == list(offset)
+                and cut.header.point_format.id == scan.header.point_format.id,
+                "kept": len(kept) > 0 and all(kept),
+                "bounds": bool(
+                    len(cut.points) == 0
+                    or (
+                        np.allclose(cut.header.mins, [cut.x.min(), cut.y.min(), cut.z.min()], atol=1e-9)
+                        and np.allclose(cut.header.maxs, [cut.x.max(), cut.y.max(), cut.z.max()], atol=1e-9)
+                    )
+                ),
+                "along": along,
+                "users": sorted({vlr.user_id for vlr in cut.header.vlrs}),
+            }
+        )
+    )
+
+
+if __name__ == "__main__":
+    judge()

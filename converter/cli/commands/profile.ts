@@ -1,7 +1,9 @@
 import { basename, extname } from "node:path";
+import type { PointSelection } from "@groma/layer/export";
 import { StationEquations, type StationOptions, stations } from "@groma/layer/tools";
 import type { CutRequest } from "../cut/cut.js";
 import { readGivenLine } from "../cut/line-file.js";
+import { type NarrowingOptions, narrowing } from "../cut/narrowing.js";
 import type { GivenCrs } from "../cut/place.js";
 import { layLine } from "../cut/profile-line.js";
 import { crossSections } from "../cut/volumes.js";
@@ -9,7 +11,7 @@ import type { CutOptions } from "../cut/writers.js";
 import type { ProgressKind } from "../given/choices.js";
 import { tellCut } from "./cut.js";
 
-export interface ProfileCommandOptions extends CutOptions, StationOptions {
+export interface ProfileCommandOptions extends CutOptions, StationOptions, NarrowingOptions {
   /** File with the line: GeoJSON, DXF or LandXML. */
   readonly line: string;
   /** Layer of the polyline, or name of the alignment. */
@@ -46,19 +48,23 @@ export async function runProfile(files: readonly string[], options: ProfileComma
   const stationing = new StationEquations(equations);
   const stationOf = (chainage: number) => stationing.stationOf(chainage).station;
   const choices = { ...options, line, start, crs: lineCrs ?? line.usualCrs, given: file };
+  const narrow = await narrowing(options);
   let facts: CutRequest["facts"];
   const select: CutRequest["select"] = async (origin, all) => {
     const { strip, unit, ellipsoid } = await layLine(origin, all, choices);
     facts = ellipsoid?.facts;
     const along = ellipsoid?.corridor(strip) ?? strip;
-    if (!sections) return { origin, volume: along, along, spacing };
+    if (!sections) return narrow({ origin, volume: along, along, spacing });
     const widths = { left: left * unit, right: right * unit, thickness: thickness * unit };
     const volume = crossSections(strip, (from, to) => stations(from, to, { interval, at }), widths);
-    return { origin, volume: ellipsoid?.sections(volume) ?? volume, line: along, spacing };
+    const parts = ellipsoid?.sections(volume) ?? volume;
+    // Of sections each has a volume of its own; what is recorded of points decides in all of them.
+    const { classes, filter, geodetic }: PointSelection = await narrow({ origin });
+    return { origin, volume: parts, line: along, spacing, classes, filter, geodetic };
   };
   const request: CutRequest = {
     title: basename(file, extname(file)),
-    given: file,
+    given: [file, options.clips],
     ...(sections && { sections }),
     select,
     facts: (known) => facts?.(known) ?? known,

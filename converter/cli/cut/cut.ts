@@ -27,8 +27,8 @@ export interface Cut {
 export interface CutRequest {
   /** What the result is called in documents. Default: as the first input. */
   readonly title?: string | undefined;
-  /** File with the line or the area, which must not be the output. */
-  readonly given?: string | undefined;
+  /** Files with the line, the area, the clips, which must not be the output. */
+  readonly given: readonly (string | undefined)[];
   /** Whether cross-sections are selected. */
   readonly sections?: true | undefined;
   /** Says what is wanted of an opened file, given all of them. */
@@ -57,7 +57,7 @@ export async function cut(
   const { select, sections, title, given } = request;
   const began = performance.now();
   const writer = writerOf(out, sections ?? false);
-  requirePlace(out, overwrite, [...inputs, given]);
+  requirePlace(out, overwrite, [...inputs, ...given]);
   const opened: OpenedPoints[] = [];
   try {
     const selections: CutSelection[] = [];

@@ -91,6 +91,23 @@ export async function planesOf(opened: readonly RecordedPoints[]): Promise<Plane
 }
 
 /**
+ * A file's points on the globe, as volumes that stand there are held against them.
+ * @throws CrsError, RecordError
+ */
+export async function spaceOf(origin: RecordedPoints) {
+  const { source } = origin;
+  const transform = pointTransform((await placed(declarationOf(source))).truth);
+  return {
+    boundingBox: source.boundingBox,
+    place: (x: number, y: number, z: number, out: Float64Array) => {
+      transform(x, y, z, out, 0);
+      return out;
+    },
+    geodetic: await geodeticOf(origin),
+  };
+}
+
+/**
  * Where source coordinates of a file are: longitude and latitude in radians, height above the ellipsoid in metres.
  * @throws CrsError, RecordError
  */

@@ -42,6 +42,30 @@ export function heightRange(text: string): number[] {
   throw new InvalidArgumentError("Expected two numbers separated by a comma");
 }
 
+/** Kinds of returns of a pulse. */
+const RETURNS = ["first", "last", "intermediate", "single"] as const;
+
+export function returnKinds(text: string): (typeof RETURNS)[number][] {
+  return text.split(",").map((word) => {
+    const found = RETURNS.find((kind) => kind === word.trim().toLowerCase());
+    if (found) return found;
+    throw new InvalidArgumentError(`Expected ${RETURNS.join(", ")}, separated by commas`);
+  });
+}
+
+type AttributeRange = readonly [name: string, least: number, greatest: number];
+
+/** An attribute and its least and greatest value; those of options before go before it. */
+export function attributeRanges(text: string, before: readonly AttributeRange[] = []): AttributeRange[] {
+  const at = text.lastIndexOf("=");
+  const limits = at > 0 ? numbers(text.slice(at + 1)) : [];
+  const name = text.slice(0, at);
+  if (limits.length !== 2 || limits[0]! > limits[1]!)
+    throw new InvalidArgumentError("Expected NAME=least,greatest, such as intensity=0,500");
+  if (before.some(([known]) => known === name)) throw new InvalidArgumentError(`${name} has a range already`);
+  return [...before, [name, limits[0]!, limits[1]!]];
+}
+
 /** Files that are made of each cross-section. */
 const SECTION_FORMATS = ["las", "laz", "csv", "geojson", "dxf", "svg", "pdf"] as const;
 

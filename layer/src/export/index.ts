@@ -13,6 +13,7 @@ export type { DocumentOptions, GroundOptions } from "./ground.js";
 export type { GroundRuns, LandXmlSection } from "./landxml.js";
 export { exportLas, type LasOptions } from "./las.js";
 export { exportLaz, type LazOptions } from "./laz.js";
+export { type KnownPoints, type Narrowing, narrowed } from "./narrowed.js";
 export type { PictureScale } from "./picture/profile-picture.js";
 export { type ExportedPoints, exportPoints, type PointExportOptions, type PointFormat } from "./points.js";
 export {

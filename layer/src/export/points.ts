@@ -1,6 +1,6 @@
 import { ecefToGeodetic } from "@groma/georef";
-import { CLIPS_OPTION, type Clip, type ClipSet, type SourceSpace } from "../clips/index.js";
-import { checkFilter, type PointFilter, type StyledCloud } from "../effects/index.js";
+import { CLIPS_OPTION, type ClipSet } from "../clips/index.js";
+import type { PointFilter } from "../effects/index.js";
 import {
   flag,
   type Kind,
@@ -13,14 +13,14 @@ import {
   some,
   whole,
 } from "../options/index.js";
-import { Pace, type PointOrigin, type QueryVolume } from "../query/index.js";
-import { ClippedVolume } from "../tools/area/clipped-volume.js";
+import type { PointOrigin } from "../query/index.js";
 import type { ByteSink } from "./byte-sink.js";
 import { exportCsv } from "./csv.js";
 import { exportDxf } from "./dxf.js";
 import { exportGeoJson } from "./geojson.js";
 import { exportLas } from "./las.js";
 import { exportLaz, type LazOptions } from "./laz.js";
+import { knownOf, narrowed } from "./narrowed.js";
 import { noPlace } from "./passing.js";
 import type { PointSelection } from "./selection.js";
 
@@ -97,20 +97,15 @@ export async function exportPoints(
   const selections: PointSelection[] = [];
   for (const selection of named) {
     const { origin } = selection;
-    if (filter && isStyled(origin)) checkFilter(filter, origin);
     if (format === "geojson" && !geodeticOf(selection))
       throw noPlace(origin.name, "longitudes and latitudes");
-    selections.push({
-      ...{
-        origin,
-        along: selection.along,
-        geodetic: geodeticOf(selection),
-        filter: filter ?? selection.filter,
-      },
-      volume: clips ? await clipped(selection, [...clips], rest.signal) : selection.volume,
+    const wanted = {
+      ...{ origin, volume: selection.volume, along: selection.along, filter: selection.filter },
+      geodetic: geodeticOf(selection),
       classes: classes ? new Set(classes) : selection.classes,
       spacing: spacing ?? selection.spacing,
-    });
+    };
+    selections.push(await narrowed(wanted, { clips, filter }, knownOf(origin), rest.signal));
   }
   return WRITERS[format](selections, sink, rest);
 }
@@ -119,36 +114,13 @@ function selectionOf(from: ExportedPoints): PointSelection {
   return "origin" in from ? from : { origin: from };
 }
 
-async function clipped(
-  { origin, volume }: PointSelection,
-  clips: readonly Clip[],
-  given: AbortSignal | undefined,
-): Promise<QueryVolume | undefined> {
-  if (clips.length === 0) return volume;
-  if (!isPlaced(origin)) throw noPlace(origin.name, "clips of the globe");
-  const steps = ClippedVolume.overInSteps(clips, origin, volume);
-  const pace = new Pace(given);
-  for (;;) {
-    const { done, value } = steps.next();
-    if (done) return value;
-    await pace.rest();
-  }
-}
-
 function geodeticOf({ origin, geodetic }: PointSelection): PointSelection["geodetic"] {
-  if (geodetic || !isPlaced(origin)) return geodetic;
+  const { space } = knownOf(origin);
+  if (geodetic || !space) return geodetic;
   return (x, y, z, out) => {
-    origin.place(x, y, z, out);
+    space.place(x, y, z, out);
     ecefToGeodetic(out[0], out[1], out[2], out);
     out[0] *= 180 / Math.PI;
     out[1] *= 180 / Math.PI;
   };
-}
-
-function isPlaced(origin: PointOrigin): origin is PointOrigin & SourceSpace {
-  return "place" in origin && "boundingBox" in origin;
-}
-
-function isStyled(origin: PointOrigin): origin is PointOrigin & StyledCloud {
-  return "attributes" in origin;
 }

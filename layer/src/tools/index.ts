@@ -16,6 +16,7 @@ export {
   type BoxClip,
   Clip,
   type ClipPlace,
+  ClipSet,
   type Corner,
   type PlaneClip,
   type PolygonClip,

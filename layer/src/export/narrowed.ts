@@ -1,0 +1,67 @@
+import { type Clip, ClipSet, type SourceSpace } from "../clips/index.js";
+import { checkFilter, type PointFilter, type StyledAttribute } from "../effects/index.js";
+import { Pace, type PointOrigin, type QueryVolume } from "../query/index.js";
+import { ClippedVolume } from "../tools/area/clipped-volume.js";
+import { noPlace } from "./passing.js";
+import type { PointSelection } from "./selection.js";
+
+/** What is left of points. */
+export interface Narrowing {
+  /** Volumes that cut, such as `layer.clips`; what only highlights changes nothing. Default: none. */
+  readonly clips?: Iterable<Clip> | undefined;
+  /** What passes, such as `layer.filter`. Default: everything. */
+  readonly filter?: PointFilter | undefined;
+}
+
+/** What is known of points besides their records: where they lie, which clips of the globe ask for, and their attributes. */
+export interface KnownPoints {
+  readonly space?: SourceSpace | undefined;
+  readonly attributes?: readonly StyledAttribute[] | undefined;
+}
+
+/** What an origin itself tells; a `PointCloud` tells all of it. */
+export function knownOf(origin: PointOrigin): KnownPoints {
+  const space =
+    "place" in origin && "boundingBox" in origin ? (origin as PointOrigin & SourceSpace) : undefined;
+  const attributes = "attributes" in origin ? (origin as KnownPoints).attributes : undefined;
+  return { space, attributes };
+}
+
+/**
+ * The points of a selection that clips and a filter leave, decided on their exact values and places; the same in a page and
+ * on a command line.
+ * @param known Default: what the selection's origin tells
+ * @throws StyleError STYLE_FILTER, STYLE_CLIP; RangeError where a polygon in source coordinates has no area
+ * @throws FormatError EXPORT_NO_PLACE where volumes are asked for and the points' place is not known; PlacementError; the
+ *   signal's reason when aborted
+ */
+export async function narrowed<S extends PointSelection>(
+  selection: S,
+  { clips, filter }: Narrowing,
+  known: KnownPoints = knownOf(selection.origin),
+  signal?: AbortSignal,
+): Promise<S> {
+  const { name } = selection.origin;
+  const { attributes, space } = known;
+  if (filter && attributes) checkFilter(filter, { name, attributes });
+  const volumes = [...new ClipSet(clips ?? [])];
+  if (volumes.length > 0 && !space) throw noPlace(name, "clips of the globe");
+  const volume =
+    space && volumes.length > 0 ? await clipped(volumes, space, selection.volume, signal) : selection.volume;
+  return { ...selection, volume, filter: filter ?? selection.filter };
+}
+
+async function clipped(
+  clips: readonly Clip[],
+  space: SourceSpace,
+  of: QueryVolume | undefined,
+  signal: AbortSignal | undefined,
+): Promise<QueryVolume> {
+  const steps = ClippedVolume.overInSteps(clips, space, of);
+  const pace = new Pace(signal);
+  for (;;) {
+    const { done, value } = steps.next();
+    if (done) return value;
+    await pace.rest();
+  }
+}
