@@ -55,6 +55,7 @@ export {
 } from "./engines/truth.js";
 export { boundsInWords, coordinate } from "./errors/coordinates.js";
 export {
+  ArgumentError,
   ControlError,
   CrsError,
   type Fault,

@@ -1,3 +1,4 @@
+import { requireKind } from "../errors/arguments.js";
 /** First and second moments of a set of points. */
 export interface Covariance {
   /** Mean, 3 values. */
@@ -15,8 +16,10 @@ export interface Covariance {
  * Chan, Golub, LeVeque, "Algorithms for computing the sample variance", The American Statistician 37 (1983) 242–247.
  *
  * @param points x, y, z of each, any unit; NaN throughout where there are none
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function covariance(points: ArrayLike<number>): Covariance {
+  requireKind(points, "numbers", "covariance: points");
   const count = points.length / 3;
   const origin = [points[0], points[1], points[2]];
   const shift = new Float64Array(3);

@@ -1,3 +1,4 @@
+import { requireKind } from "../errors/arguments.js";
 /** Eigenvalues of a symmetric 3 × 3 matrix, ascending, with orthonormal eigenvectors. */
 export interface Eigen {
   /** 3 values. */
@@ -14,8 +15,10 @@ const SWEEPS_MAX = 20;
  * trigonometric formula, but small eigenvalues of nearly singular matrices keep their digits.
  *
  * @param matrix 9 values, symmetric
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function symmetricEigen(matrix: ArrayLike<number>): Eigen {
+  requireKind(matrix, "numbers", "symmetricEigen: matrix");
   const a = Float64Array.from(matrix);
   /** Columns converge to the eigenvectors. */
   const v = Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1);

@@ -1,3 +1,4 @@
+import { requireKind } from "../errors/arguments.js";
 import { covariance } from "./covariance.js";
 import { symmetricEigen } from "./eigen.js";
 
@@ -21,8 +22,10 @@ export interface FittedPlane {
  * least variance (Pearson, "On lines and planes of closest fit", Phil. Mag. 2 (1901) 559–572).
  *
  * @param points x, y, z of each, any unit; three or more make a plane
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function fitPlane(points: ArrayLike<number>): FittedPlane {
+  requireKind(points, "numbers", "fitPlane: points");
   const { mean, matrix } = covariance(points);
   const { values, vectors } = symmetricEigen(matrix);
   // Rounding may leave a variance of zero a little below.

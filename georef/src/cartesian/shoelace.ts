@@ -1,3 +1,4 @@
+import { requireKind } from "../errors/arguments.js";
 /**
  * Area of a polygon in the plane, signed: positive for vertices that run counter-clockwise. Loops of a ring that crosses
  * itself add up with their signs.
@@ -7,8 +8,10 @@
  *
  * @param ring x, y of each vertex in turn, the first not repeated at the end
  * @returns in the square of the coordinates' unit
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function planarArea(ring: ArrayLike<number>): number {
+  requireKind(ring, "numbers", "planarArea: ring");
   let sum = 0;
   let x0 = 0;
   let y0 = 0;

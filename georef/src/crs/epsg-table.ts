@@ -1,3 +1,4 @@
+import { requireFields, requireKind } from "../errors/arguments.js";
 import type { EpsgEntry, EpsgLookup } from "./crs.js";
 import { translation } from "./datum-table.js";
 import { shiftOfProjString } from "./proj-string.js";
@@ -53,8 +54,13 @@ class Shared {
   }
 }
 
-/** Packs the horizontal and compound systems of a table; vertical ones have a table of their own. */
+/**
+ * Packs the horizontal and compound systems of a table; vertical ones have a table of their own.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
 export function packEpsg(rows: readonly Row[]): PackedEpsg {
+  requireKind(rows, "list", "packEpsg: rows");
   const [bases, methods] = [new Shared(), new Shared()];
   const geodetic: PackedEpsg["geodetic"][number][] = [];
   const projected: PackedEpsg["projected"][number][] = [];
@@ -129,8 +135,22 @@ function written([keyword, ...content]: WktNode): string {
  * A table for `resolveCrs` made of a packed one.
  *
  * @param verticals table of the vertical systems
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function epsgLookup(packed: PackedEpsg, verticals: EpsgLookup): EpsgLookup {
+  requireFields(
+    packed,
+    {
+      bases: "list",
+      methods: "list",
+      geodetic: "list",
+      projected: "list",
+      compound: "list",
+      strings: "list",
+      shifts: "list",
+    },
+    "epsgLookup: packed",
+  );
   const { bases, methods } = packed;
   const shifts = new Map(packed.shifts.map(([code, ...shift]) => [code, shift]));
   const geodetic = new Map(packed.geodetic.map((row) => [row[1], row]));

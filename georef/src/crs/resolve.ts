@@ -1,3 +1,4 @@
+import { requireFields } from "../errors/arguments.js";
 import type { Crs, CrsNote, CrsSources, EpsgLookup, ResolvedCrs, Unit } from "./crs.js";
 import { heightsOf, inWords, readDeclared, readDeclaredHeights, withHeights } from "./declared.js";
 import { epsgCodes, readEpsg } from "./epsg.js";
@@ -23,8 +24,14 @@ export function resolveCrs(sources: CrsSources, lookup?: EpsgLookup): Crs {
  * @param lookup table of EPSG codes; without one, codes are refused as unknown
  * @throws CrsError CRS_MISSING (no source says anything), CRS_UNKNOWN (not understood), CRS_UNSUPPORTED (understood,
  *   but not done here: grids, other axes, other projections)
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function resolveWithNotes(sources: CrsSources, lookup?: EpsgLookup): ResolvedCrs {
+  requireFields(
+    sources,
+    { file: "text?", wkt: "text?", given: "text?", givenVertical: "text?", geoTiff: "object?" },
+    "resolveWithNotes: sources",
+  );
   try {
     const wkt = textOf(sources.wkt);
     const given = textOf(sources.given);
@@ -82,12 +89,18 @@ function noteOfKept(kept: VerticalModel): CrsNote {
 /**
  * A given CRS that was read elsewhere, with the heights that the file declares where it names none, as
  * {@link resolveWithNotes} keeps them. Its `wkt` stays that of the plane.
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function keepHeights(
   crs: Crs,
   sources: CrsSources,
   lookup?: EpsgLookup,
 ): Pick<ResolvedCrs, "crs" | "notes"> {
+  requireFields(
+    crs,
+    { proj4: "text", horizontalUnit: "object", verticalUnit: "object", height: "object" },
+    "keepHeights: crs",
+  );
   const silent = crs.height.kind === "unknown" && !crs.verticalUnit.declared;
   const kept = silent ? heightsOfFile({ ...sources, wkt: textOf(sources.wkt) }, lookup) : undefined;
   if (!kept) return { crs, notes: [] };

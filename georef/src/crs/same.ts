@@ -1,3 +1,4 @@
+import { requireFields } from "../errors/arguments.js";
 import type { Crs } from "./crs.js";
 
 /** Relative difference of two numbers that writers of CRS texts mean as one: they round at the twelfth digit or later. */
@@ -10,8 +11,12 @@ const SHIFT = "+towgs84";
  * Whether two coordinate reference systems mean the same places in plane, however they are spelled: the same
  * projection, ellipsoid, meridian and unit by their numbers, and the same datum. Equal EPSG codes stand for one datum
  * even where one text names an older shift to WGS 84.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function samePlane(a: Crs, b: Crs): boolean {
+  requireFields(b, { proj4: "text", horizontalUnit: "object" }, "samePlane: b");
+  requireFields(a, { proj4: "text", horizontalUnit: "object" }, "samePlane: a");
   if (a.horizontalUnit.kind !== b.horizontalUnit.kind) return false;
   if (!sameSize(a.horizontalUnit.size, b.horizontalUnit.size)) return false;
   const [first, second] = [parametersOf(a.proj4), parametersOf(b.proj4)];
@@ -24,8 +29,14 @@ export function samePlane(a: Crs, b: Crs): boolean {
   return !a.datum || !b.datum || a.datum.operation === b.datum.operation;
 }
 
-/** Whether two systems measure heights from the same zero in the same unit. Unknown heights equal unknown ones. */
+/**
+ * Whether two systems measure heights from the same zero in the same unit. Unknown heights equal unknown ones.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
 export function sameHeights(a: Crs, b: Crs): boolean {
+  requireFields(b, { verticalUnit: "object", height: "object" }, "sameHeights: b");
+  requireFields(a, { verticalUnit: "object", height: "object" }, "sameHeights: a");
   return sameSize(a.verticalUnit.size, b.verticalUnit.size) && sameZero(a.height, b.height);
 }
 

@@ -3,6 +3,7 @@ import type { Crs } from "../crs/crs.js";
 import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import type { Ellipsoid } from "../ellipsoid/ellipsoid.js";
 import { geodeticToEcef } from "../ellipsoid/geodetic-to-ecef.js";
+import { requireFields } from "../errors/arguments.js";
 import {
   ellipsoidOf,
   inverseOf,
@@ -46,11 +47,17 @@ export const ENGINE = {
  * @param middle height (source units) about which the shift's dependence on height is taken as linear; at a distance d
  *   from it that costs |shift| · (d / 6.4e6 m)², 16 µm for 600 m and 1 km
  * @throws CrsError CRS_UNSUPPORTED when the string needs grids or an unknown projection
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function exactTransform(
   crs: Pick<Crs, "proj4" | "horizontalUnit" | "verticalUnit" | "height">,
   middle = 0,
 ): ExactTransform {
+  requireFields(
+    crs,
+    { proj4: "text", horizontalUnit: "object", verticalUnit: "object", height: "object" },
+    "exactTransform: crs",
+  );
   const horizontal = crs.horizontalUnit.size;
   const vertical = crs.verticalUnit.size;
   if (/\+proj=geocent\b/.test(crs.proj4)) return geocentric(horizontal);

@@ -2,6 +2,7 @@ import proj4 from "proj4";
 import type { Crs } from "../crs/crs.js";
 import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
+import { requireFields } from "../errors/arguments.js";
 import { CrsError } from "../errors/errors.js";
 import { compileTransformation, type StepwiseTruth } from "../transformation/evaluate.js";
 import { type Link, premultiply } from "../transformation/link.js";
@@ -41,8 +42,11 @@ const DEGREE = Math.PI / 180;
  * definition at height 0, so that points lie where the map's other layers have the same longitude and latitude.
  *
  * @throws CrsError CRS_UNSUPPORTED where proj4js does not know the projection
+ * @throws ArgumentError ARGUMENT_INVALID
  */
-export function planeTransform({ code, definition, metresPerUnit, wraps, middle }: MapPlane): PlaneTransform {
+export function planeTransform(map: MapPlane): PlaneTransform {
+  requireFields(map, { code: "text", metresPerUnit: "number", middle: "number" }, "planeTransform: map");
+  const { code, definition, metresPerUnit, wraps, middle } = map;
   const world = new proj4.Proj("WGS84");
   const plane = openPlane(code, definition);
   // Longitudes beyond 180° go on beyond the edge of the world.

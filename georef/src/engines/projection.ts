@@ -1,6 +1,7 @@
 import proj4 from "proj4";
 import type { Crs } from "../crs/crs.js";
 import { type Ellipsoid, ellipsoid, WGS84 } from "../ellipsoid/ellipsoid.js";
+import { requireFields } from "../errors/arguments.js";
 import { CrsError } from "../errors/errors.js";
 
 /** The part of proj4js's projection object that is used here and that its own types do not tell. */
@@ -82,8 +83,10 @@ export interface GridPlane {
  * The plane of a CRS by its projection alone; no shift of datum has a part in it.
  * @returns undefined where source coordinates are no plane: longitude and latitude, geocentric ones
  * @throws CrsError CRS_UNSUPPORTED when the string needs grids or an unknown projection
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function gridPlane(crs: Pick<Crs, "proj4" | "horizontalUnit">): GridPlane | undefined {
+  requireFields(crs, { proj4: "text", horizontalUnit: "object" }, "gridPlane: crs");
   if (crs.horizontalUnit.kind === "angular" || /\+proj=geocent\b/.test(crs.proj4)) return undefined;
   const projection = open(crs.proj4);
   if (projection.projName === "longlat") return undefined;

@@ -1,4 +1,5 @@
 import type { Crs } from "../crs/crs.js";
+import { requireFields } from "../errors/arguments.js";
 import { coordinate } from "../errors/coordinates.js";
 import { PlacementError } from "../errors/errors.js";
 import { decodeTransformation } from "../transformation/decode.js";
@@ -42,20 +43,32 @@ export interface TruthSources {
  * @param file name for error messages
  * @throws RecordError RECORD_* when the transformation cannot be read
  * @throws CrsError CRS_UNSUPPORTED
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function truthOf(
   sources: TruthSources,
   middle: number,
   file: string,
 ): ExactTransform | CompiledTransformation {
+  requireFields(
+    sources,
+    { crs: "object", similarity: "object?", transformation: "bytes?" },
+    "truthOf: sources",
+  );
   if (sources.transformation)
     return compileTransformation(decodeTransformation(sources.transformation, file), file);
   if (sources.similarity) return similarityTransform(sources.similarity);
   return exactTransform(sources.crs, middle);
 }
 
-/** P and n of a similarity: P = translation + matrix · (x, y, 0), n = matrix · (0, 0, 1). */
-export function similarityTransform({ translation, matrix }: Similarity): ExactTransform {
+/**
+ * P and n of a similarity: P = translation + matrix · (x, y, 0), n = matrix · (0, 0, 1).
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
+export function similarityTransform(similarity: Similarity): ExactTransform {
+  requireFields(similarity, { translation: "numbers", matrix: "numbers" }, "similarityTransform: similarity");
+  const { translation, matrix } = similarity;
   return (x, y, out, offset) => {
     for (let axis = 0; axis < 3; axis++) {
       out[offset + axis] = translation[axis] + matrix[3 * axis] * x + matrix[3 * axis + 1] * y;

@@ -64,6 +64,11 @@ export class CrsError extends GromaError {
   static override readonly kind = "CrsError";
 }
 
+/** A function was called with what it does not take: a mistake of the code that calls it. Code: ARGUMENT_INVALID. */
+export class ArgumentError extends GromaError {
+  static override readonly kind = "ArgumentError";
+}
+
 /** A point or node cannot be placed on the globe to the tolerance asked for. Codes start with `PLACE_`. */
 export class PlacementError extends GromaError {
   static override readonly kind = "PlacementError";

@@ -1,5 +1,6 @@
 import { type Ellipsoid, WGS84 } from "../ellipsoid/ellipsoid.js";
 import { geodeticToEcef } from "../ellipsoid/geodetic-to-ecef.js";
+import { requireKind } from "../errors/arguments.js";
 import { degrees, solverOf } from "./geographiclib.js";
 
 /** A polygon on the ellipsoid whose edges are geodesics. */
@@ -31,8 +32,10 @@ const SMALL = 500;
  * itself.
  *
  * @param ring longitude, latitude of each vertex in turn, radians; the first is not repeated at the end
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function geodesicPolygon(ring: ArrayLike<number>, ellipsoid: Ellipsoid = WGS84): GeodesicPolygon {
+  requireKind(ring, "numbers", "geodesicPolygon: ring");
   const chords = chordPolygon(ring, ellipsoid);
   if (chords.extent <= SMALL) return { perimeter: chords.perimeter, area: chords.area };
   const polygon = solverOf(ellipsoid).Polygon();
@@ -53,8 +56,10 @@ export interface ChordPolygon extends GeodesicPolygon {
  * perimeter; a chord is shorter than its geodesic by length³ / (24 R²), 1 µm for a kilometre.
  *
  * @param ring longitude, latitude of each vertex in turn, radians
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function chordPolygon(ring: ArrayLike<number>, ellipsoid: Ellipsoid = WGS84): ChordPolygon {
+  requireKind(ring, "numbers", "chordPolygon: ring");
   if (ring.length < 2) return { perimeter: 0, area: 0, extent: 0 };
   const first = new Float64Array(3);
   const point = new Float64Array(3);

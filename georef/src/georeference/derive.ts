@@ -2,6 +2,7 @@ import type { Domain } from "../cartesian/domain.js";
 import type { Crs } from "../crs/crs.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
 import { inverseOf, open } from "../engines/projection.js";
+import { requireFields } from "../errors/arguments.js";
 import { CrsError } from "../errors/errors.js";
 import type { Bounds, Grid } from "../grid/window.js";
 import { fitPatchwork, PATCHWORK_TOLERANCE } from "../transformation/patchwork.js";
@@ -34,12 +35,19 @@ const ARC_SECOND = Math.PI / 648_000;
  * @param domain source units
  * @throws CrsError CRS_UNSUPPORTED
  * @throws PlacementError PLACE_DOMAIN, PLACE_POLE, PLACE_ANTIMERIDIAN, PLACE_PATCHWORK
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export async function deriveTransformation(
   crs: Crs,
   domain: Domain,
-  { egm96, tolerance = PATCHWORK_TOLERANCE, file = crs.name }: DerivedOptions = {},
+  options: DerivedOptions = {},
 ): Promise<Transformation> {
+  requireFields(
+    crs,
+    { proj4: "text", horizontalUnit: "object", verticalUnit: "object", height: "object" },
+    "deriveTransformation: crs",
+  );
+  const { egm96, tolerance = PATCHWORK_TOLERANCE, file = crs.name } = options;
   if (/\+proj=geocent\b/.test(crs.proj4)) throw inSpace(file);
   const sample = sampler(crs);
   const patchwork = await fitPatchwork(async (points) => sample(points), domain, tolerance, undefined, file);

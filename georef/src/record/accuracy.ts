@@ -1,5 +1,6 @@
 import type { Crs } from "../crs/crs.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
+import { requireFields, requireKind } from "../errors/arguments.js";
 import { EGM96 } from "../vertical/egm96.js";
 import { ownLevel, ownLevelNote } from "../vertical/zero-level.js";
 import type { OperationReport } from "./operation-report.js";
@@ -18,8 +19,13 @@ export interface StatedAccuracy {
   readonly parts: readonly AccuracyPart[];
 }
 
-/** Sums the parts linearly: they are bounds and stated accuracies, not independent deviations. */
+/**
+ * Sums the parts linearly: they are bounds and stated accuracies, not independent deviations.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
 export function statedAccuracy(parts: readonly AccuracyPart[]): StatedAccuracy {
+  requireKind(parts, "list", "statedAccuracy: parts");
   let total: number | null = parts.length === 0 ? null : 0;
   for (const { metres } of parts) total = total === null || metres === null ? null : total + metres;
   return { total, parts };
@@ -59,6 +65,7 @@ const EGM96_HEIGHT = 5773;
  * @param scale LAS scale factors, 3 values, source units
  * @param fitBound certified bound of the placement, metres (the tolerance, while no node is placed yet)
  * @param placing the engine's operation; without one, that which `crs.proj4` stands for, heights as they are
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function accuracyParts(
   crs: Pick<Crs, "horizontalUnit" | "verticalUnit" | "height" | "datum">,
@@ -66,6 +73,11 @@ export function accuracyParts(
   fitBound: number,
   placing?: Placing,
 ): AccuracyPart[] {
+  requireFields(
+    crs,
+    { horizontalUnit: "object", verticalUnit: "object", height: "object" },
+    "accuracyParts: crs",
+  );
   return [
     ...storageParts(crs, scale, fitBound),
     placing ? operationPart(placing.operation) : datumPart(crs.datum),
@@ -77,6 +89,7 @@ export function accuracyParts(
  * The parts of a data set that a similarity puts on the globe.
  *
  * @param control residuals of its control points, metres; without them it stands where its anchor was given
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function similarityParts(
   crs: Pick<Crs, "horizontalUnit" | "verticalUnit">,
@@ -84,6 +97,7 @@ export function similarityParts(
   fitBound: number,
   control?: { readonly residuals: readonly number[]; readonly rms: number; readonly max: number },
 ): AccuracyPart[] {
+  requireFields(crs, { horizontalUnit: "object", verticalUnit: "object" }, "similarityParts: crs");
   const parts = storageParts(crs, scale, fitBound);
   if (!control)
     return [...parts, { name: "anchor", metres: null, note: "as good as the place that was given" }];

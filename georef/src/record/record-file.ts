@@ -1,3 +1,4 @@
+import { requireFields, requireKind } from "../errors/arguments.js";
 import { RecordError } from "../errors/errors.js";
 import { FieldError, readNumbers, readObject, readRecord } from "./fields.js";
 import type { GeoreferenceRecord } from "./georeference-record.js";
@@ -28,8 +29,18 @@ const KIND = "georeference";
 /** Characters at a time: a call has no more arguments than that. */
 const CHUNK = 0x8000;
 
-/** JSON in UTF-8, as docs/record.md describes it. */
-export function encodeRecordFile({ of, record, transformation }: RecordFile): Uint8Array {
+/**
+ * JSON in UTF-8, as docs/record.md describes it.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
+export function encodeRecordFile(recordFile: RecordFile): Uint8Array {
+  requireFields(
+    recordFile,
+    { of: "object", record: "object", transformation: "bytes?" },
+    "encodeRecordFile: recordFile",
+  );
+  const { of, record, transformation } = recordFile;
   const json = {
     ...{ groma: KIND, version: 1, of, record },
     ...(transformation && { transformation: toBase64(transformation) }),
@@ -42,8 +53,10 @@ export function encodeRecordFile({ of, record, transformation }: RecordFile): Ui
  *
  * @param file name for error messages
  * @throws RecordError RECORD_SIZE, RECORD_JSON, RECORD_VERSION, RECORD_FIELD
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function decodeRecordFile(bytes: Uint8Array, file: string): RecordFile {
+  requireKind(bytes, "bytes", "decodeRecordFile: bytes");
   if (bytes.length > RECORD_FILE_MOST) throw refusal("RECORD_SIZE", file, `it is ${bytes.length} bytes long`);
   let json: unknown;
   try {

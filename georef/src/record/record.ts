@@ -1,3 +1,4 @@
+import { requireKind } from "../errors/arguments.js";
 import { RecordError } from "../errors/errors.js";
 import { FieldError, readRecord } from "./fields.js";
 import type { GeoreferenceRecord } from "./georeference-record.js";
@@ -5,8 +6,13 @@ import type { GeoreferenceRecord } from "./georeference-record.js";
 /** A record is a few kilobytes; what is longer than the longest VLR payload is something else. */
 const LONGEST = 65535;
 
-/** The bytes of the VLR's payload. */
+/**
+ * The bytes of the VLR's payload.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
 export function encodeRecord(record: GeoreferenceRecord): Uint8Array {
+  requireKind(record, "object", "encodeRecord: record");
   return new TextEncoder().encode(JSON.stringify(record));
 }
 
@@ -16,8 +22,10 @@ export function encodeRecord(record: GeoreferenceRecord): Uint8Array {
  * @param file name for error messages
  * @throws RecordError RECORD_SIZE (longer than a VLR can be), RECORD_JSON (not UTF-8 JSON), RECORD_VERSION (of a
  *   later version), RECORD_FIELD (a member is missing or is not what it should be)
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function decodeRecord(bytes: Uint8Array, file: string): GeoreferenceRecord {
+  requireKind(bytes, "bytes", "decodeRecord: bytes");
   if (bytes.length > LONGEST) throw refusal("RECORD_SIZE", file, `it is ${bytes.length} bytes long`);
   let json: unknown;
   try {

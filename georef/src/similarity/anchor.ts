@@ -1,6 +1,7 @@
 import { eastNorthUp } from "../ellipsoid/frame.js";
 import { geodeticToEcef } from "../ellipsoid/geodetic-to-ecef.js";
 import type { Similarity } from "../engines/truth.js";
+import { requireFields } from "../errors/arguments.js";
 
 /** Where a data set without a coordinate reference system is put: upright, its y axis along a heading. */
 export interface Anchor {
@@ -17,8 +18,25 @@ export interface Anchor {
   readonly at: readonly [number, number, number];
 }
 
-/** The similarity that an anchor describes. */
-export function anchorSimilarity({ longitude, latitude, height, heading, scale, at }: Anchor): Similarity {
+/**
+ * The similarity that an anchor describes.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
+export function anchorSimilarity(anchor: Anchor): Similarity {
+  requireFields(
+    anchor,
+    {
+      longitude: "number",
+      latitude: "number",
+      height: "number",
+      heading: "number",
+      scale: "number",
+      at: "numbers",
+    },
+    "anchorSimilarity: anchor",
+  );
+  const { longitude, latitude, height, heading, scale, at } = anchor;
   const origin = new Float64Array(3);
   geodeticToEcef(longitude, latitude, height, origin);
   const { rotation } = eastNorthUp(origin);

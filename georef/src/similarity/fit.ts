@@ -2,6 +2,7 @@ import { covariance } from "../cartesian/covariance.js";
 import { symmetricEigen } from "../cartesian/eigen.js";
 import { geodeticToEcef } from "../ellipsoid/geodetic-to-ecef.js";
 import type { Similarity } from "../engines/truth.js";
+import { requireKind } from "../errors/arguments.js";
 import { ControlError } from "../errors/errors.js";
 import { bestRotation } from "./rotation.js";
 
@@ -41,8 +42,10 @@ const MISMATCH = 0.1;
  *
  * @param file name for error messages
  * @throws ControlError CONTROL_TOO_FEW, CONTROL_RANGE, CONTROL_DEGENERATE, CONTROL_COLLINEAR, CONTROL_MISMATCH
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function fitSimilarity(points: readonly ControlPoint[], file: string): FittedSimilarity {
+  requireKind(points, "list", "fitSimilarity: points");
   if (points.length < FEWEST) {
     const cause = `${points.length} control point${points.length === 1 ? " is" : "s are"} not enough`;
     throw refusal("CONTROL_TOO_FEW", file, cause, `give at least ${FEWEST} that are not on one line`);

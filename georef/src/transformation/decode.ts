@@ -1,3 +1,4 @@
+import { requireKind } from "../errors/arguments.js";
 import type { GridWindow } from "../grid/window.js";
 import { ByteReader } from "./bytes.js";
 import { CHOICE, DIRECTIONS, KINDS, MAGIC, TURNED_PROJECTION, VERSION } from "./format.js";
@@ -27,8 +28,10 @@ const PATCH_MIN = 4 * 8 + 1 + 2 * 8;
  * @param file name for error messages
  * @throws RecordError RECORD_INVALID when the bytes are no transformation, RECORD_VERSION when they are of a later
  *   version, RECORD_TRUNCATED when they end early
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function decodeTransformation(bytes: Uint8Array, file: string): Transformation {
+  requireKind(bytes, "bytes", "decodeTransformation: bytes");
   const reader = new ByteReader(bytes, file);
   for (const byte of MAGIC) reader.check(reader.u8() === byte, "a transformation that does not start as one");
   const version = reader.u8();

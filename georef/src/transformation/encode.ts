@@ -1,11 +1,18 @@
+import { requireFields } from "../errors/arguments.js";
 import type { GridWindow } from "../grid/window.js";
 import { ByteWriter } from "./bytes.js";
 import { CHOICE, DIRECTIONS, KINDS, MAGIC, TURNED_PROJECTION, VERSION } from "./format.js";
 import { writeGridValues } from "./grid-values.js";
 import type { EllipsoidAxes, Patchwork, Step, Transformation } from "./step.js";
 
-/** A transformation as bytes, layout in docs/transformation.md. {@link decodeTransformation} gives it back exactly. */
-export function encodeTransformation({ steps }: Transformation): Uint8Array {
+/**
+ * A transformation as bytes, layout in docs/transformation.md. {@link decodeTransformation} gives it back exactly.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
+export function encodeTransformation(transformation: Transformation): Uint8Array {
+  requireFields(transformation, { steps: "list" }, "encodeTransformation: transformation");
+  const { steps } = transformation;
   const writer = new ByteWriter();
   writer.raw(MAGIC);
   writer.u8(VERSION);

@@ -1,3 +1,4 @@
+import { requireFields } from "../errors/arguments.js";
 import { PlacementError } from "../errors/errors.js";
 import { along, choiceOf } from "./choice.js";
 import { linksOf } from "./compile.js";
@@ -44,12 +45,14 @@ export interface CompiledTransformation extends StepwiseTruth {
 /**
  * @param file name for error messages
  * @param end takes the place of the step to ECEF; then what is said of ECEF below holds for what it leads to
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function compileTransformation(
   transformation: Transformation,
   file = "points",
   end?: Link,
 ): CompiledTransformation {
+  requireFields(transformation, { steps: "list" }, "compileTransformation: transformation");
   const state = new Float64Array(3);
   const domain = domainOf(transformation);
   const { evaluate, differentiate } = chained(linksOf(transformation, end));

@@ -1,4 +1,5 @@
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
+import { requireKind } from "../errors/arguments.js";
 import { boundsInWords } from "../errors/coordinates.js";
 import { PlacementError } from "../errors/errors.js";
 import { fitPatch, type Refusal, SAMPLES_PER_PATCH, samplePlaces } from "./patch.js";
@@ -34,6 +35,7 @@ const MARGIN = 1e-9;
  * @throws PlacementError PLACE_POLE or PLACE_ANTIMERIDIAN when the domain reaches around the earth so far that a sphere turned
  *   to its middle has a pole or a jump inside as well, PLACE_DOMAIN where there is no place, PLACE_PATCHWORK when no fit is
  *   good enough
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export async function fitPatchwork(
   sample: ProjectionSampler,
@@ -42,6 +44,8 @@ export async function fitPatchwork(
   ellipsoid: EllipsoidAxes = WGS84,
   file = "points",
 ): Promise<Patchwork> {
+  requireKind(sample, "function", "fitPatchwork: sample");
+  requireKind(domain, "object", "fitPatchwork: domain");
   const how = [toleranceMetres, ellipsoid, file] as const;
   try {
     return await fitFrom(sample, domain, ...how);

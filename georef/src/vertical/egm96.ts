@@ -1,3 +1,4 @@
+import { requireFields, requireKind } from "../errors/arguments.js";
 import { RecordError } from "../errors/errors.js";
 import { type Bounds, cutWindow, type Grid } from "../grid/window.js";
 import { ByteReader, ByteWriter } from "../transformation/bytes.js";
@@ -45,8 +46,12 @@ const shapeOf = (band: number) => ({ columns: COLUMNS, rows: rowsOf(band), chann
 /**
  * EGM96 as a file of about a megabyte: `GEGM`, u8 version, a u32 length per band of 8 rows, then the bands, stored
  * as the values of a window are (docs/transformation.md).
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
  */
-export function encodeEgm96({ value }: Grid): Uint8Array {
+export function encodeEgm96(grid: Grid): Uint8Array {
+  requireFields(grid, { value: "function" }, "encodeEgm96: grid");
+  const { value } = grid;
   const bands = Array.from({ length: BANDS }, (_, band) => {
     const values = Float32Array.from({ length: COLUMNS * rowsOf(band) }, (_, i) =>
       value(0, band * BAND_ROWS + Math.floor(i / COLUMNS), i % COLUMNS),
@@ -68,8 +73,10 @@ export function encodeEgm96({ value }: Grid): Uint8Array {
  *
  * @param file name for error messages
  * @throws RecordError RECORD_INVALID, RECORD_VERSION, RECORD_TRUNCATED; of a band when it is first asked for
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function decodeEgm96(bytes: Uint8Array, file: string): Grid {
+  requireKind(bytes, "bytes", "decodeEgm96: bytes");
   const header = new ByteReader(bytes, file);
   header.check(
     MAGIC.every((byte) => header.u8() === byte),

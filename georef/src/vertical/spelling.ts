@@ -1,4 +1,5 @@
 import { isInside, type Place } from "../crs/area-of-use.js";
+import { requireKind } from "../errors/arguments.js";
 import type { VerticalSystem } from "./systems.js";
 
 /** Slips of the pen that still mean the word: two in a long one. */
@@ -8,12 +9,16 @@ const MOST = 3;
 /**
  * Height systems whose names or codes are close to a text that names none, the closest first; of equally close ones
  * those in use at the place come first, and of merely similar ones no others are named.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function similarSystems(
   systems: readonly VerticalSystem[],
   text: string,
   place: Place | undefined,
 ): VerticalSystem[] {
+  requireKind(systems, "list", "similarSystems: systems");
+  requireKind(text, "text", "similarSystems: text");
   const wanted = plain(text);
   if (wanted === "") return [];
   return systems

@@ -10,6 +10,7 @@ import {
 import type { EpsgEntry, EpsgLookup } from "../crs/crs.js";
 import { child, epsgCode, isNode, number, parseWkt, text } from "../crs/tree.js";
 import { VERTICAL } from "../crs/wkt-vertical.js";
+import { requireFields, requireKind } from "../errors/arguments.js";
 
 /** A vertical coordinate system of EPSG, without its geometry: what a page needs to take a reader at his word. */
 export interface VerticalSystem {
@@ -31,8 +32,13 @@ export interface EpsgRow extends EpsgEntry {
   readonly code: number | string;
 }
 
-/** The vertical systems of an EPSG table, rising by code. */
+/**
+ * The vertical systems of an EPSG table, rising by code.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
 export function verticalSystems(rows: readonly EpsgRow[]): VerticalSystem[] {
+  requireKind(rows, "list", "verticalSystems: rows");
   const partners = partnersIn(rows);
   const systems = rows.flatMap((row): VerticalSystem[] => {
     const { code, kind, name, wkt } = row;
@@ -67,8 +73,13 @@ function partnersIn(rows: readonly EpsgRow[]): Map<number, Set<number>> {
   return partners;
 }
 
-/** A table for {@link resolveCrs} that knows these systems and nothing else. */
+/**
+ * A table for {@link resolveCrs} that knows these systems and nothing else.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
 export function verticalLookup(systems: readonly VerticalSystem[]): EpsgLookup {
+  requireKind(systems, "list", "verticalLookup: systems");
   const byCode = new Map(systems.map((system) => [system.code, system]));
   return (code) => {
     const system = byCode.get(code);
@@ -113,8 +124,12 @@ const SPECIAL: ReadonlySet<number> = new Set([9303, 9923, 9927, 5597]);
  * in the unit of z, the ones that EPSG joins with the data set's horizontal system; then those for a small area that the
  * place does not lie at the edge of, and those that EPSG joins with many systems, which are the national ones of today,
  * one doubling against the other. Where the horizontal system is meant for few countries, those of others are left out.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
  */
 export function likelySystems(systems: readonly VerticalSystem[], clues: HeightClues): VerticalSystem[] {
+  requireKind(systems, "list", "likelySystems: systems");
+  requireFields(clues, { longitude: "number", latitude: "number" }, "likelySystems: clues");
   const { horizontal, unit: wanted, countries = [] } = clues;
   const national = countries.length > 0 && countries.length <= FEW_COUNTRIES;
   const rank = ({ partners, unit, area }: VerticalSystem) => [
