@@ -45,7 +45,7 @@ module.exports = {
     georef("cartesian", ["errors"]),
     georef("approximation", []),
     georef("ellipsoid", []),
-    georef("geodesic", ["ellipsoid"]),
+    georef("geodesic", ["ellipsoid", "errors"]),
     georef("crs", ["errors"]),
     georef("grid", ["errors"]),
     georef("transformation", ["grid", "approximation", "ellipsoid", "errors"]),
