@@ -33,17 +33,25 @@ export interface Area {
  */
 export function measureArea(vertices: readonly Vertex[], options: WorthOptions = {}): Area {
   const ring = checkedRing(vertices);
-  const onGround = ring.flatMap(({ longitude, latitude }) => [longitude, latitude]);
-  const geodesic = geodesicPolygon(onGround).area;
   const grid = commonGrid(ring);
   return {
-    geodesic: quantity(Math.abs(geodesic), "m²", [levelGradients(ring, Math.sign(geodesic))], options),
+    geodesic: groundArea(ring, options),
     ...planar(ring, options),
     ...(grid && {
       grid: gridArea(ring, grid, options),
     }),
     perimeter: measurePolyline(ring, { ...options, closed: true }),
   };
+}
+
+/** The geodesic area alone. @throws MeasureError as {@link measureArea} */
+export function measureGroundArea(vertices: readonly Vertex[], options: WorthOptions): Quantity<"m²"> {
+  return groundArea(checkedRing(vertices), options);
+}
+
+function groundArea(ring: readonly Vertex[], options: WorthOptions): Quantity<"m²"> {
+  const { area } = geodesicPolygon(ring.flatMap(({ longitude, latitude }) => [longitude, latitude]));
+  return quantity(Math.abs(area), "m²", [levelGradients(ring, Math.sign(area))], options);
 }
 
 function gridArea(

@@ -93,10 +93,7 @@ function gridDistance(grid: Grid, line: Line, options: WorthOptions): GridDistan
   const [a, b] = [line.a.source!, line.b.source!];
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
   const length = Math.hypot(dx, dy) * grid.unit;
-  const bearing = Math.atan2(dx, dy);
-  const middle = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
-  const scaleFactor =
-    length < SHORT ? scaleFactorAt(grid, middle, bearing) : length / geodesicOfGrid(grid, a, b).distance;
+  const scaleFactor = gridFactor(grid, line);
   const elevationFactor = 1 / raised(line);
   return {
     name: grid.name,
@@ -105,6 +102,15 @@ function gridDistance(grid: Grid, line: Line, options: WorthOptions): GridDistan
     elevationFactor,
     combinedFactor: scaleFactor * elevationFactor,
   };
+}
+
+/** Grid length over length on the grid's own ellipsoid. */
+export function gridFactor(grid: Grid, line: Line): number {
+  const [a, b] = [line.a.source!, line.b.source!];
+  const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+  const length = Math.hypot(dx, dy) * grid.unit;
+  if (length >= SHORT) return length / geodesicOfGrid(grid, a, b).distance;
+  return scaleFactorAt(grid, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], Math.atan2(dx, dy));
 }
 
 /** Metres below which the factor of the middle is the finer one: 15 nm of a geodesic are 1.5e-9 of ten metres. */

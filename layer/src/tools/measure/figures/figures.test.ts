@@ -337,6 +337,38 @@ describe("planes", () => {
   });
 });
 
+describe("what is not asked for", () => {
+  it("is not worked out: a polygon's perimeter is one sum, not a hundred distances", () => {
+    let asked = 0;
+    const precision = () => {
+      asked++;
+      return 0.01;
+    };
+    const ring = Array.from({ length: 100 }, (_, i) => {
+      const angle = (2 * Math.PI * i) / 100;
+      return utm.vertex(500000 + 50 * Math.cos(angle), 5300000 + 50 * Math.sin(angle), 0);
+    });
+    const { perimeter } = measureArea(ring, { precision });
+    expect(perimeter.space.value).toBeCloseTo(2 * Math.PI * 50, 0);
+    expect(asked).toBeLessThan(20);
+    expect(perimeter.parts).toHaveLength(100);
+    expect(perimeter.parts).toBe(perimeter.parts);
+    const sum = perimeter.parts.reduce((total, { space }) => total + space.value, 0);
+    expect(sum).toBeCloseTo(perimeter.space.value, 9);
+    expect(perimeter.grid?.scaleFactor).toBeCloseTo(0.9996, 6);
+    // As objects go: whoever copies it, or writes it down, has all of it.
+    expect(Object.keys({ ...perimeter }).sort()).toEqual([
+      "ascent",
+      "descent",
+      "geodesic",
+      "grid",
+      "horizontal",
+      "parts",
+      "space",
+    ]);
+  });
+});
+
 describe("what is no place", () => {
   it.each<[string, () => unknown]>([
     ["no number", () => placeVertex(Number.NaN, 0, 0)],

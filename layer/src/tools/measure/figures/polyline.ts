@@ -1,12 +1,21 @@
+import { commonGrid } from "../vertex/grid.js";
 import type { Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity, type Sensitivity } from "../worth/quantity.js";
-import { commonHeights, type Distance, type GridDistance, measureDistance } from "./distance.js";
+import {
+  commonHeights,
+  type Distance,
+  type GridDistance,
+  gridFactor,
+  heightDifference,
+  measureDistance,
+} from "./distance.js";
 import {
   joined,
   type Line,
   levelSensitivity,
   lineOf,
+  raised,
   scaled,
   spaceSensitivity,
   verticalSensitivity,
@@ -46,58 +55,89 @@ export function measurePolyline(
     const next = vertices[i + 1] ?? (options.closed ? vertices[0] : undefined);
     return next ? [[vertex, next] as const] : [];
   });
-  const parts = pairs.map(([a, b]) => measureDistance(a, b, options));
   const lines = pairs.map(([a, b]) => lineOf(a, b));
-  const sum = (of: (part: Distance) => number) => parts.reduce((total, part) => total + of(part), 0);
-  const grids = parts.flatMap(({ grid }) => grid ?? []);
-  const level = joined(lines.map((line) => levelSensitivity(line)));
-  const gridLength = grids.reduce((total, { distance }) => total + distance.value, 0);
-  const onEllipsoid = grids.reduce((total, grid) => total + grid.distance.value / grid.scaleFactor, 0);
-  const common = grids.length === parts.length && grids.every(({ name }) => name === grids[0].name);
+  const parts = once(() => lines.map(({ a, b }) => measureDistance(a, b, options)));
+  const level = once(() => joined(lines.map((line) => levelSensitivity(line))));
+  const sumOf = (of: (line: Line) => number, sensitivities: Sensitivity[][]) =>
+    quantity(
+      lines.reduce((total, line) => total + of(line), 0),
+      "m",
+      sensitivities,
+      options,
+    );
+  const space = once(() => sumOf((line) => line.space, joined(lines.map(spaceSensitivity))));
+  const geodesic = once(() => sumOf((line) => line.geodesic.distance, level()));
+  const horizontal = once(() => sumOf((line) => line.geodesic.distance * raised(line), level()));
+  const grid = once(() => gridLength(lines, level, options));
+  const [ascent, descent] = ([1, -1] as const).map((sign) => once(() => climb(lines, sign, options)));
+  // Each is worked out when it is asked for: of a perimeter most are not.
   return {
-    parts,
-    space: quantity(
-      sum(({ space }) => space.value),
-      "m",
-      joined(lines.map((line) => spaceSensitivity(line))),
-      options,
-    ),
-    geodesic: quantity(
-      sum(({ geodesic }) => geodesic.value),
-      "m",
-      level,
-      options,
-    ),
-    horizontal: quantity(
-      sum(({ horizontal }) => horizontal.value),
-      "m",
-      level,
-      options,
-    ),
-    ...(common && {
-      grid: {
-        name: grids[0].name,
-        distance: quantity(gridLength, "m", level, { ...options, ofRecords: true }),
-        scaleFactor: onEllipsoid > 0 ? gridLength / onEllipsoid : grids[0].scaleFactor,
-      },
-    }),
-    ascent: climb(parts, lines, 1, options),
-    descent: climb(parts, lines, -1, options),
+    get parts() {
+      return parts();
+    },
+    get space() {
+      return space();
+    },
+    get geodesic() {
+      return geodesic();
+    },
+    get horizontal() {
+      return horizontal();
+    },
+    get grid() {
+      return grid();
+    },
+    get ascent() {
+      return ascent();
+    },
+    get descent() {
+      return descent();
+    },
+  };
+}
+
+function once<Value>(of: () => Value): () => Value {
+  let known: { readonly value: Value } | undefined;
+  return () => {
+    known ??= { value: of() };
+    return known.value;
+  };
+}
+
+function gridLength(
+  lines: readonly Line[],
+  level: () => Sensitivity[][],
+  options: WorthOptions,
+): Polyline["grid"] {
+  const grid = commonGrid(lines.flatMap(({ a, b }) => [a, b]));
+  if (!grid) return undefined;
+  const lengths = lines.map(({ a, b }) => {
+    const [from, to] = [a.source!, b.source!];
+    return Math.hypot(to[0] - from[0], to[1] - from[1]) * grid.unit;
+  });
+  const length = lengths.reduce((sum, one) => sum + one, 0);
+  const scaleFactor = once(() => {
+    const factors = lines.map((line) => gridFactor(grid, line));
+    const onEllipsoid = lengths.reduce((sum, one, i) => sum + one / factors[i], 0);
+    return onEllipsoid > 0 ? length / onEllipsoid : factors[0];
+  });
+  return {
+    name: grid.name,
+    distance: quantity(length, "m", level(), { ...options, ofRecords: true }),
+    get scaleFactor() {
+      return scaleFactor();
+    },
   };
 }
 
 /** The sum of all rises, or of all falls. @param sign 1: rises */
-function climb(
-  parts: readonly Distance[],
-  lines: readonly Line[],
-  sign: 1 | -1,
-  options: WorthOptions,
-): Quantity<"m"> {
+function climb(lines: readonly Line[], sign: 1 | -1, options: WorthOptions): Quantity<"m"> {
   let total = 0;
   let level: number | null = 0;
   let undecided = false;
   const terms: Sensitivity[][][] = [];
-  for (const [i, { vertical }] of parts.entries()) {
+  for (const line of lines) {
+    const { vertical } = heightDifference(line, options);
     const rise = sign * vertical.value;
     total += Math.max(0, rise);
     if (Math.abs(rise) <= vertical.atLeast) {
@@ -105,7 +145,7 @@ function climb(
       level = vertical.uncertainty === null || level === null ? null : level + vertical.uncertainty / 2;
     } else if (rise > 0) {
       terms.push(
-        verticalSensitivity(lines[i]).map((list) =>
+        verticalSensitivity(line).map((list) =>
           list.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, sign) })),
         ),
       );

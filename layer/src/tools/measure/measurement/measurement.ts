@@ -1,6 +1,6 @@
 import { MeasureError } from "../../../errors/index.js";
 import { measureAngle } from "../figures/angle.js";
-import { measureArea } from "../figures/area.js";
+import { measureArea, measureGroundArea } from "../figures/area.js";
 import { measureCircle } from "../figures/circle.js";
 import { measureDirection } from "../figures/direction.js";
 import { measureDistance } from "../figures/distance.js";
@@ -137,8 +137,10 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
   polyline: {
     ...{ title: "Line", least: 2, most: Number.POSITIVE_INFINITY, shape: "line" },
     values: (vertices, options) => {
-      const { parts, ...whole } = measurePolyline(vertices, options);
-      const { space, horizontal, geodesic, grid, ascent, descent } = whole;
+      const { parts, space, horizontal, geodesic, grid, ascent, descent } = measurePolyline(
+        vertices,
+        options,
+      );
       return [
         value("space", "straight", space),
         value("horizontal", "horizontal", horizontal),
@@ -200,7 +202,7 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
   },
   volume: {
     ...{ title: "Volume", least: 3, most: Number.POSITIVE_INFINITY, shape: "ring" },
-    values: (vertices, options) => [value("area", "area", measureArea(vertices, options).geodesic)],
+    values: (vertices, options) => [value("area", "area", measureGroundArea(vertices, options))],
   },
   aboveGround: {
     ...{ title: "Above ground", least: 1, most: 1, shape: "points" },

@@ -2,6 +2,7 @@ import { dot, type Vector } from "@groma/georef";
 import { type Axes, axesAt, combined } from "../vertex/axes.js";
 import { isSameRecord, type MeasuredCloud, recordKey, type Vertex } from "../vertex/vertex.js";
 import { COVERAGE, coverageFactor, RECTANGULAR_KURTOSIS } from "./coverage.js";
+import { lackOf } from "./lack.js";
 import { cloudErrors, type PointError, type WorthOptions } from "./point-errors.js";
 
 /** SI units of values; 1: a ratio. */
@@ -189,19 +190,12 @@ function addShared(
     return vector;
   });
   const left = x * x + y * y + z * z;
-  let variance = left;
-  let correlation = 1;
-  for (let i = 0; i < members.length; i++) {
-    const [ax, ay, az] = members[i].vertex.ecef;
-    for (let j = 0; j < i; j++) {
-      const [bx, by, bz] = members[j].vertex.ecef;
-      const square = ((ax - bx) ** 2 + (ay - by) ** 2 + (az - bz) ** 2) / reach ** 2;
-      const lack = -Math.expm1(-square / 2);
-      variance -= 2 * lack * dot(weighted[i], weighted[j]);
-      if (1 - lack < correlation) correlation = 1 - lack;
-    }
-  }
-  sum.variance += Math.max(0, variance);
+  const { lack, correlation } = lackOf(
+    members.map(({ vertex }) => vertex.ecef),
+    weighted,
+    reach,
+  );
+  sum.variance += Math.max(0, left - lack);
   // What points of two data sets have in common is nothing.
   const alone = sum.sharedBy === undefined || sum.sharedBy === cloud;
   sum.correlation = alone ? correlation : 0;
