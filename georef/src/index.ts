@@ -32,8 +32,9 @@ export type {
 } from "./crs/crs.js";
 export { epsgLookup, type PackedEpsg, packEpsg } from "./crs/epsg-table.js";
 export { keepHeights, resolveCrs, resolveWithNotes } from "./crs/resolve.js";
-export { sameHeights, samePlane, sameSize } from "./crs/same.js";
+export { isAboveOwnEllipsoid, isShifted, sameHeights, samePlane, sameSize } from "./crs/same.js";
 export { publishedAccuracy } from "./crs/shift-worth.js";
+export { doubtOfHeights } from "./crs/wkt-vertical.js";
 export { type CurvatureRadii, curvatureRadii, radiusAlong } from "./ellipsoid/curvature.js";
 export { ecefToGeodetic } from "./ellipsoid/ecef-to-geodetic.js";
 export { type Ellipsoid, ellipsoid, WGS84 } from "./ellipsoid/ellipsoid.js";

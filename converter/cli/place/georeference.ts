@@ -4,6 +4,7 @@ import {
   type CrsNote,
   type CrsSources,
   decodeRecord,
+  doubtOfHeights,
   type GeoreferenceRecord,
   keepHeights,
   likelySystems,
@@ -17,6 +18,7 @@ import {
 } from "@groma/georef";
 import type { Scan } from "../core/core.js";
 import { knownCrs } from "../proj/known-crs.js";
+import { written } from "../proj/source.js";
 import { chosenProj, type EngineChoice } from "./engine.js";
 import { epsg, heightSystems } from "./epsg.js";
 import { type GivenPlace, isPlaced, type LocalPlace, localPlace } from "./local.js";
@@ -65,7 +67,7 @@ export async function georeference(scan: Named, given: Given): Promise<Georefere
   const record = readable(scan);
   if (!record || given.crs !== undefined || given.vertical !== undefined) {
     try {
-      return named(scan, given, record);
+      return await inWordsOfProj(named(scan, given, record), given);
     } catch (error) {
       const known = await knownToProj(scan, given, record, error);
       if (known) return known;
@@ -122,6 +124,26 @@ function declarationOf(scan: Named, record: GeoreferenceRecord | undefined): Crs
   return { file, wkt: wktOnEarth(scan), geoTiff, las, recordedHeights };
 }
 
+/**
+ * The same CRS with WKT of PROJ's, where it was given in words that would be lost otherwise: PROJJSON, and a PROJ string with
+ * a geoid, say more than what is read of them here.
+ */
+async function inWordsOfProj(found: Georeferenced, given: Given): Promise<Georeferenced> {
+  const { crs, basis } = found;
+  const text = basis === "given" ? given.crs?.trim() : undefined;
+  const isWordy = text?.startsWith("{") || (text?.startsWith("+") && crs.height.kind === "geoid");
+  const proj = isWordy && given.engine !== "proj4js" ? await chosenProj(given) : undefined;
+  if (!proj || text === undefined) return found;
+  try {
+    const wkt = await written(proj, { name: crs.name, text }, "WKT2:2019");
+    return { ...found, crs: { ...crs, wkt } };
+  } catch (error) {
+    // Whoever places the data set says what PROJ does not understand.
+    if (error instanceof CrsError) return found;
+    throw error;
+  }
+}
+
 /** Refusals of CRSs that PROJ may know all the same. */
 const PROJ_MAY_KNOW = new Set(["CRS_UNKNOWN", "CRS_UNSUPPORTED"]);
 
@@ -143,7 +165,7 @@ async function knownToProj(
   const proj = text === undefined ? undefined : await chosenProj(given);
   if (!proj || text === undefined) return undefined;
   try {
-    const known = await knownCrs(proj, { name: scan.file, text });
+    const known = withDoubt(await knownCrs(proj, { name: scan.file, text }), text);
     const keeps = basis === "given" && given.vertical === undefined;
     const { crs, notes } = keeps
       ? keepHeights(known, declarationOf(scan, record), epsg)
@@ -153,6 +175,12 @@ async function knownToProj(
     if (error instanceof CrsError) return undefined;
     throw error;
   }
+}
+
+function withDoubt(crs: Crs, text: string): Crs {
+  const { height } = crs;
+  const doubt = height.kind === "unknown" ? undefined : doubtOfHeights(text);
+  return doubt === undefined || height.kind === "unknown" ? crs : { ...crs, height: { ...height, doubt } };
 }
 
 /** A code with the heights that are given apart from it; nothing where they cannot be joined. */

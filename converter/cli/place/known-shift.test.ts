@@ -54,6 +54,8 @@ it("a conversion alone is worth what its datum is, also where proj4js does not k
   const zero = { ...unstated, operation: "PROJ's", accuracy: 0 };
   expect(withKnownShift(zero, crs, truth(wgs84), DOMAIN)).toMatchObject({ accuracy: 2, operation: "PROJ's" });
   expect(withKnownShift(unstated, crs, truth(wgs84), DOMAIN)).toBe(unstated);
+  const byGeoid = { ...unstated, operation: "EGM96 height to WGS 84", accuracy: 1 };
+  expect(withKnownShift(byGeoid, crs, truth(wgs84), DOMAIN).accuracy).toBe(2);
 });
 
 it("nothing is known of a way to another place, of a ballpark, or of a shift that nobody has published", () => {

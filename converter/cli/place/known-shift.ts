@@ -11,12 +11,12 @@ import {
   truthOf,
   withWorthThere,
 } from "@groma/georef";
+import { WGS84_ENSEMBLE } from "../proj/known-crs.js";
 import type { EngineReport } from "../proj/report.js";
 import { geoidsOf } from "./geoids.js";
 
 /** Metres in plane up to which two ways lead to one place; both are fitted or computed to some hundredths of a millimetre. */
 const SAME = 1e-3;
-
 /**
  * The report of an engine with what is known of the datum shift of the CRS itself, where both lead to the same places in
  * plane: whatever PROJ calls its way, the operation's stated accuracy holds for it. PROJ does not know the accuracy of a
@@ -32,9 +32,10 @@ export function withKnownShift(report: EngineReport, crs: Crs, truth: Truth, dom
   // The accuracy of a way through a country's geoid is that of heights too, which the shift says nothing of.
   const ownGeoid = geoidsOf(truth).some((grid) => grid !== EGM96);
   if (report.accuracy === null && ownGeoid) return report;
-  // A way of no worth at all is a conversion alone: what the datum itself is worth is not in it.
-  const isConversion = report.accuracy === 0;
-  if (!isConversion && !isSamePlace(truth, crs, domain)) return report;
+  // A way of no worth at all is a conversion alone, and one from the ensemble of WGS 84 says nothing of that: what the datum
+  // itself is worth is not in them.
+  const isOfHeights = report.accuracy !== null && datum.datum === WGS84_ENSEMBLE;
+  if (report.accuracy !== 0 && !isOfHeights && !isSamePlace(truth, crs, domain)) return report;
   if (report.accuracy !== null) return { ...report, accuracy: published };
   const accuracy = withWorthThere(crs, truth, domain).datum?.accuracy ?? null;
   return { ...report, operation: datum.operation, accuracy };

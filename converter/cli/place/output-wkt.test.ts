@@ -8,6 +8,7 @@ const UTM32 = epsg(25832)!.wkt!;
 const WKT2 =
   'PROJCRS["RD",BASEGEOGCRS["Amersfoort",DATUM["Amersfoort",ELLIPSOID["Bessel 1841",6377397.155,299.1528128]]],CONVERSION["RD",METHOD["Oblique Stereographic"],PARAMETER["Latitude of natural origin",52.1561605555556],PARAMETER["Longitude of natural origin",5.38763888888889],PARAMETER["Scale factor at natural origin",0.9999079],PARAMETER["False easting",155000],PARAMETER["False northing",463000]],CS[Cartesian,2],AXIS["x",east],AXIS["y",north],LENGTHUNIT["metre",1]]';
 const AWKWARD = `COMPD_CS["a ] [ ""b""",${UTM32},${epsg(5783)!.wkt}]`;
+const OWN = `COMPD_CS["a",${epsg(21781)!.wkt},VERT_CS["e",VERT_DATUM["Ellipsoid",2002],UNIT["metre",1],AXIS["Up",UP]]]`;
 
 function settled(sources: Omit<Parameters<typeof resolveWithNotes>[0], "file">): Georeferenced {
   return resolveWithNotes({ file: "scan.las", ...sources }, epsg);
@@ -22,6 +23,7 @@ describe("the WKT of an output", () => {
     ["a height system added to it", { wkt: UTM32, givenVertical: "EPSG:7837" }],
     ["a height system that replaces that of the file", { wkt: AWKWARD, givenVertical: "EPSG:7837" }],
     ["heights above the ellipsoid", { wkt: UTM32, givenVertical: "ellipsoidal" }],
+    ["heights above the ellipsoid of the plane's datum", { wkt: OWN }],
     ["WKT 2 with a height system", { wkt: WKT2, givenVertical: "EPSG:5709" }],
     ["depths", { given: "EPSG:25832", givenVertical: "EPSG:5861" }],
     ["depths in feet, by codes", { given: "EPSG:26918+6358" }],
@@ -40,6 +42,12 @@ describe("the WKT of an output", () => {
     expect(samePlane(again, plane)).toBe(true);
     expect(sameHeights(again, georeferenced.crs)).toBe(true);
     expect(again.verticalUnit.declared || !georeferenced.crs.verticalUnit.declared).toBe(true);
+  });
+
+  it("does not give heights above WGS 84 away as those above the ellipsoid of another datum", () => {
+    const wkt = outputWkt(settled({ given: "EPSG:21781", givenVertical: "ellipsoidal" }));
+    expect(wkt).not.toContain("2002");
+    expect(resolveCrs({ file: "output.laz", wkt }, epsg).height).toEqual({ kind: "unknown" });
   });
 
   it.each([

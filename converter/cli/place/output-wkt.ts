@@ -1,4 +1,4 @@
-import { type Crs, CrsError, resolveCrs, sameHeights } from "@groma/georef";
+import { type Crs, CrsError, isAboveOwnEllipsoid, isShifted, resolveCrs, sameHeights } from "@groma/georef";
 import { epsg } from "./epsg.js";
 import type { Georeferenced } from "./georeference.js";
 
@@ -63,14 +63,18 @@ function firstPart(wkt: string): string {
   return wkt;
 }
 
-/** Vertical part of WKT 1 (OGC 01-009): datum type 2005 above a geoid, 2002 above the ellipsoid. */
-function vertical1({ height, verticalUnit }: Crs): string {
+/**
+ * Vertical part of WKT 1 (OGC 01-009): datum type 2005 above a geoid, 2002 above the ellipsoid of the plane's datum. It has no
+ * words for heights above that of WGS 84 over a plane of another datum: readers would take them for the other.
+ */
+function vertical1(crs: Crs): string {
+  const { height, verticalUnit, proj4 } = crs;
   const own = ownVertical({ height, verticalUnit });
   if (own) return own.wkt;
   const [name, type] =
     height.kind === "geoid"
       ? [quoted(height.model), 2005]
-      : height.kind === "ellipsoidal"
+      : height.kind === "ellipsoidal" && (isAboveOwnEllipsoid(crs) || !isShifted(proj4))
         ? ['"Ellipsoid"', 2002]
         : ['"unknown"', 2005];
   const axis = verticalUnit.size < 0 ? 'AXIS["Depth",DOWN]' : 'AXIS["Up",UP]';

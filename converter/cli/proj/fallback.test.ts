@@ -3,6 +3,8 @@ import {
   compileTransformation,
   cutWindow,
   type Domain,
+  ecefToGeodetic,
+  exactTransform,
   guessHeight,
   resolveCrs,
 } from "@groma/georef";
@@ -46,6 +48,22 @@ describe("without PROJ", () => {
     expect(report.grids).toEqual([]);
     expect(report.notes.join()).toMatch(/height reference unknown/);
     expect(transformation.steps).toContainEqual({ kind: "height", metresPerUnit: 0.3048 });
+  });
+
+  it("heights above the ellipsoid of the datum move with its shift, those above WGS 84 do not", async () => {
+    const domain = box(150_000, 450_000);
+    const kinds = [{ kind: "ellipsoidal", ellipsoid: "own" }, { kind: "ellipsoidal" }] as const;
+    for (const height of kinds) {
+      const crs = crsOf(RD, height);
+      const { transformation } = await proj4jsTransformation(crs, domain);
+      const [a, b] = [new Float64Array(3), new Float64Array(6)];
+      compileTransformation(transformation).evaluate(152_000, 452_000, 0, a, 0);
+      exactTransform(crs)(152_000, 452_000, b, 0);
+      expect(Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2])).toBeLessThan(2e-4);
+      const geodetic = new Float64Array(3);
+      ecefToGeodetic(a[0], a[1], a[2], geodetic);
+      expect(geodetic[2]).toBeCloseTo(height === kinds[0] ? 43.3 : 0, 0);
+    }
   });
 
   it.skipIf(!proj).each([

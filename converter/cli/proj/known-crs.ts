@@ -37,7 +37,7 @@ export async function knownCrs(proj: Proj, source: CrsText, signal?: AbortSignal
     wkt: await written(proj, source, "WKT2:2019", signal),
     horizontalUnit,
     verticalUnit: { ...(declared ?? fallback), declared: declared !== undefined },
-    height: heightOf(vertical, z),
+    height: heightOf(plane, vertical, z),
     datum: {
       operation: `as PROJ knows "${plane.name}"`,
       accuracy: null,
@@ -47,7 +47,7 @@ export async function knownCrs(proj: Proj, source: CrsText, signal?: AbortSignal
 }
 
 /** EPSG code of the ensemble of all realisations of WGS 84. */
-const WGS84_ENSEMBLE = 6326;
+export const WGS84_ENSEMBLE = 6326;
 
 function isOfWgs84(crs: ProjJson): boolean {
   const { base_crs: base, datum_ensemble: ensemble, datum = ensemble } = inside(crs);
@@ -92,12 +92,18 @@ function codeOf(whole: ProjJson, plane: ProjJson, vertical: ProjJson | undefined
   return parts.every((part) => part !== undefined) ? parts.join("+") : idOf(whole);
 }
 
-function heightOf(vertical: ProjJson | undefined, z: ProjAxis | undefined): Crs["height"] {
+function heightOf(plane: ProjJson, vertical: ProjJson | undefined, z: ProjAxis | undefined): Crs["height"] {
   const system = vertical && inside(vertical);
-  if (system && isUnshifted(vertical)) return { kind: "unknown" };
-  if (!system) return { kind: z ? "ellipsoidal" : "unknown" };
+  if (system && (isUnshifted(vertical) || isUnnamed(vertical))) return { kind: "unknown" };
+  if (!system && z) return { kind: "ellipsoidal", ...(!isOfWgs84(plane) && { ellipsoid: "own" }) };
+  if (!system) return { kind: "unknown" };
   const epsg = idOf(system);
   return { kind: "geoid", model: system.name ?? "unnamed", ...(epsg !== undefined && { epsg }) };
+}
+
+/** Whether nobody knows a vertical datum, and no grid stands for it. */
+function isUnnamed({ type, name, datum }: ProjJson): boolean {
+  return type !== "BoundCRS" && /^unknown(?![a-z])/i.test(datum?.name ?? name ?? "");
 }
 
 /** Whether the grid of a bound CRS is PROJ's `@null`: heights are to be taken as they are. */

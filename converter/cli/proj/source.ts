@@ -1,7 +1,7 @@
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { type Crs, CrsError } from "@groma/georef";
+import { type Crs, CrsError, isAboveOwnEllipsoid } from "@groma/georef";
 import type { Proj } from "./program/find.js";
 import { failed, run } from "./program/run.js";
 
@@ -97,8 +97,9 @@ const EPSG_MAX = 32767;
 function textsOf({ code, wkt, proj4, height }: Pick<Crs, "code" | "wkt" | "proj4" | "height">): string[] {
   const number = Number(/^EPSG:(\d+)$/.exec(code ?? "")?.[1]);
   const named = number > EPSG_MAX ? `ESRI:${number}` : code;
-  // Of heights that have no code themselves, such as those of a grid, the code of the plane says nothing.
-  const wordless = height.kind === "geoid" && height.epsg === undefined;
+  // Of heights that have no code themselves, such as those of a grid or above a country's ellipsoid, that of the plane says
+  // nothing.
+  const wordless = height.kind === "geoid" ? height.epsg === undefined : isAboveOwnEllipsoid({ height });
   return (wordless ? [wkt, named, proj4] : [named, wkt, proj4]).filter((text) => text !== undefined);
 }
 

@@ -1,10 +1,12 @@
 /**
- * What a height is measured from. `geoid` heights are gravity-related ("above sea level"): `model` is the name
- * of the vertical CRS or of the geoid grid that was named, `epsg` the code of the vertical CRS if known.
+ * What a height is measured from. `ellipsoidal` heights are above the ellipsoid of WGS 84, or, where `ellipsoid` is `own`, above
+ * that of the CRS's own datum, which lies elsewhere: a CRS of three dimensions. `geoid` heights are gravity-related ("above sea level"): `model` is the name
+ * of the vertical CRS or of the geoid grid that was named, `epsg` the code of the vertical CRS if known. `doubt` says what
+ * a text declares of its heights and what is not applied, or not read alike by others.
  */
 export type HeightReference =
-  | { readonly kind: "ellipsoidal" }
-  | { readonly kind: "geoid"; readonly model: string; readonly epsg?: number }
+  | { readonly kind: "ellipsoidal"; readonly ellipsoid?: "own"; readonly doubt?: string }
+  | { readonly kind: "geoid"; readonly model: string; readonly epsg?: number; readonly doubt?: string }
   | { readonly kind: "unknown" };
 
 /** A unit of measure; `size` is in metres (linear) or radians (angular) per unit. */

@@ -218,7 +218,7 @@ export function heightsOf({ horizontal, vertical }: CrsModel): VerticalModel | u
   if (vertical) return vertical;
   if (horizontal.kind === "geocentric") return ELLIPSOIDAL;
   const { heightUnit: unit } = horizontal;
-  return unit && { ...ELLIPSOIDAL, unit };
+  return unit && { ...ELLIPSOIDAL, unit, ellipsoid: "own" };
 }
 
 const ELLIPSOIDAL: VerticalModel = { name: "ellipsoidal height", reference: "ellipsoidal", unit: METRE };

@@ -66,6 +66,12 @@ export interface VerticalModel {
   /** Absent when the text names none; of depths its size is negative. */
   readonly unit?: Unit | undefined;
   readonly reference: HeightReference["kind"];
+  /** Ellipsoidal heights above the ellipsoid of the CRS's own datum, and not that of WGS 84. */
+  readonly ellipsoid?: "own" | undefined;
+  /** Name of the geodetic datum that ESRI's texts give for ellipsoidal heights. */
+  readonly datum?: string | undefined;
+  /** What the text declares of its heights and what is not applied, or not read alike by others. */
+  readonly doubt?: string | undefined;
 }
 
 /** What a CRS text says. */

@@ -5,6 +5,7 @@ import { projectionOf } from "./methods.js";
 import type { CrsModel, HorizontalModel, VerticalModel } from "./model.js";
 import { NO_DATUM, readProjString, shiftOfProjString } from "./proj-string.js";
 import { unsupported } from "./refusal.js";
+import { isShifted } from "./same.js";
 import { shiftAccuracy } from "./shift-worth.js";
 import { METRE, projUnit } from "./units.js";
 import { WEB_MERCATOR } from "./web-mercator.js";
@@ -24,23 +25,45 @@ export function normalise(model: CrsModel, lookup?: EpsgLookup): Omit<Crs, "wkt"
   const { horizontal, vertical } = model;
   if (horizontal.projString) {
     const own = normalise(readProjString(horizontal.projString), lookup);
-    return { ...own, ...identity(model), ...heights(horizontal, vertical) };
+    return { ...own, ...identity(model), ...heightsThere(own.proj4, horizontal, vertical) };
   }
   const shift = findShift(horizontal, lookup);
-  const proj4 = [
+  const words = [
     projection(horizontal),
     ...meridian(horizontal),
     ...shiftText(shift),
     ...unitText(horizontal),
     "+no_defs",
   ];
+  const proj4 = words.join(" ");
   return {
     ...identity(model),
-    proj4: proj4.join(" "),
+    proj4,
     horizontalUnit: horizontal.unit,
-    ...heights(horizontal, vertical),
+    ...heightsThere(proj4, horizontal, vertical),
     datum: shift.datum,
   };
+}
+
+/**
+ * The heights of a plane: where its datum is not shifted, its ellipsoid is as good as that of WGS 84. Where it is, PROJ takes
+ * heights above it whatever datum the text names for them.
+ */
+function heightsThere(
+  proj4: string,
+  horizontal: HorizontalModel,
+  vertical: VerticalModel | undefined,
+): Pick<Crs, "verticalUnit" | "height"> {
+  const { verticalUnit, height } = heights(horizontal, vertical);
+  if (height.kind !== "ellipsoidal") return { verticalUnit, height };
+  if (!isShifted(proj4)) {
+    const { ellipsoid: _, ...same } = height;
+    return { verticalUnit, height: same };
+  }
+  const [own, other] = [horizontal.datum.name, vertical?.datum];
+  if (other === undefined || other === own || height.doubt !== undefined) return { verticalUnit, height };
+  const doubt = `declared above the ellipsoid of ${other}, and taken as above that of ${own}, as PROJ does`;
+  return { verticalUnit, height: { ...height, doubt } };
 }
 
 /** Heights without a code take nothing from what is known of the plane: its code stays. */
@@ -70,13 +93,14 @@ function heightReference(
 ): HeightReference {
   if (!vertical) {
     const threeDimensional = horizontal.heightUnit !== undefined || horizontal.kind === "geocentric";
-    return { kind: threeDimensional ? "ellipsoidal" : "unknown" };
+    return threeDimensional ? { kind: "ellipsoidal", ellipsoid: "own" } : { kind: "unknown" };
   }
-  if (vertical.reference !== "geoid") return { kind: vertical.reference };
+  const { reference, name: model, code: epsg, ellipsoid, doubt } = vertical;
+  const doubted = doubt === undefined ? {} : { doubt };
+  if (reference === "ellipsoidal") return { kind: reference, ...(ellipsoid && { ellipsoid }), ...doubted };
   // Nothing is known of heights that are to be taken as they are.
-  if (isNullGrid(vertical.name)) return { kind: "unknown" };
-  const geoid = { kind: "geoid", model: vertical.name } as const;
-  return vertical.code === undefined ? geoid : { ...geoid, epsg: vertical.code };
+  if (reference === "unknown" || isNullGrid(model)) return { kind: "unknown" };
+  return { kind: reference, model, ...(epsg !== undefined && { epsg }), ...doubted };
 }
 
 function projection(model: HorizontalModel): string {

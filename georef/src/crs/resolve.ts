@@ -119,7 +119,9 @@ function heightsOfFile(sources: CrsSources, lookup: EpsgLookup | undefined): Ver
     const { height, verticalUnit } = recorded;
     const unit = verticalUnit.declared ? verticalUnit : undefined;
     const name = height.kind === "geoid" ? height.model : "ellipsoidal height";
-    return { name, code: height.kind === "geoid" ? height.epsg : undefined, unit, reference: height.kind };
+    const ellipsoid = height.kind === "ellipsoidal" ? height.ellipsoid : undefined;
+    const code = height.kind === "geoid" ? height.epsg : undefined;
+    return { name, code, unit, reference: height.kind, ellipsoid, doubt: height.doubt };
   }
   // A CRS may be given because that of the file cannot be used.
   return readDeclaredHeights(sources, lookup);

@@ -37,7 +37,21 @@ export function samePlane(a: Crs, b: Crs): boolean {
 export function sameHeights(a: Crs, b: Crs): boolean {
   requireFields(b, { verticalUnit: "object", height: "object" }, "sameHeights: b");
   requireFields(a, { verticalUnit: "object", height: "object" }, "sameHeights: a");
-  return sameSize(a.verticalUnit.size, b.verticalUnit.size) && sameZero(a.height, b.height);
+  return (
+    sameSize(a.verticalUnit.size, b.verticalUnit.size) &&
+    sameZero(a.height, b.height) &&
+    isAboveOwnEllipsoid(a) === isAboveOwnEllipsoid(b)
+  );
+}
+
+/** Whether a PROJ string of {@link Crs} shifts its datum. */
+export function isShifted(proj4: string): boolean {
+  return /\+towgs84=\S*[1-9]/.test(proj4);
+}
+
+/** Whether heights are above the ellipsoid of the CRS's own datum, and so move with its shift. */
+export function isAboveOwnEllipsoid({ height }: Pick<Crs, "height">): boolean {
+  return height.kind === "ellipsoidal" && height.ellipsoid === "own";
 }
 
 /** Whether two height references are one: by their EPSG codes, else by their names. */

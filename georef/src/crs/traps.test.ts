@@ -1,6 +1,15 @@
 import { describe, expect, it } from "vitest";
 import { distance } from "../cartesian/points.fixture.js";
-import { type Crs, CrsError, type CrsSources, exactTransform, placePoint, resolveCrs } from "../index.js";
+import {
+  accuracyParts,
+  type Crs,
+  CrsError,
+  type CrsSources,
+  exactTransform,
+  placePoint,
+  resolveCrs,
+  sameHeights,
+} from "../index.js";
 import { lookup } from "./epsg-table.fixture.js";
 
 const DEGREE = 'UNIT["degree",0.0174532925199433]';
@@ -190,6 +199,60 @@ describe("heights", () => {
     expect(read({ given: "EPSG:4979" }).height.kind).toBe("ellipsoidal");
     expect(read({ given: "EPSG:4326" }).height.kind).toBe("unknown");
     expect(read({ given: "EPSG:4326" }).verticalUnit).toMatchObject({ size: 1, declared: false });
+  });
+
+  const ch1903 = wkt1({ datum: `DATUM["CH1903",${BESSEL}]` });
+  const esri = (datum: string, shift = 0, direction = 1) =>
+    `VERTCS["v",${datum},PARAMETER["Vertical_Shift",${shift}],PARAMETER["Direction",${direction}],UNIT["Meter",1.0]]`;
+
+  it.each([
+    ["WKT 1", `COMPD_CS["c",${ch1903},VERT_CS["e",VERT_DATUM["Ellipsoid",2002],${METRE},AXIS["Up",UP]]]`],
+    ["ESRI's", `${ch1903},${esri(`DATUM["CH1903",${BESSEL}]`)}`],
+    ["three axes", ch1903.replace(METRE, `${METRE},AXIS["E",EAST],AXIS["N",NORTH],AXIS["h",UP]`)],
+  ])("above the ellipsoid of a national datum move with its shift: %s", (_, wkt) => {
+    const own = read({ wkt });
+    expect(own.height).toEqual({ kind: "ellipsoidal", ellipsoid: "own" });
+    // The ellipsoid of Bessel lies 50 m above that of WGS 84 there; heights of a receiver stay what they are.
+    const gnss = read({ wkt, givenVertical: "ellipsoidal" });
+    expect(gnss.height).toEqual({ kind: "ellipsoidal" });
+    expect(sameHeights(own, gnss)).toBe(false);
+    expect(distance(ecef(own, 0, 5e6), ecef(gnss, 0, 5e6))).toBeGreaterThan(40);
+    const flat = read({ wkt: ch1903 });
+    expect(distance(ecef(flat, 0, 5e6, 7), ecef(gnss, 0, 5e6, 7))).toBe(0);
+  });
+
+  it("above an ellipsoid are WGS 84's where the datum is", () => {
+    const wkt = `COMPD_CS["c",${wkt1()},VERT_CS["e",VERT_DATUM["Ellipsoid",2002],${METRE}]]`;
+    expect(read({ wkt }).height).toEqual({ kind: "ellipsoidal" });
+    const datum = 'DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137,298.257223563]]';
+    expect(read({ wkt: `${wkt1()},${esri(datum)}` }).height).toEqual({ kind: "ellipsoidal" });
+  });
+
+  it("are doubted where a text says of them what nobody applies", () => {
+    const doubtIn = (wkt: string) => (read({ wkt }).height as { doubt?: string }).doubt;
+    const bessel = `DATUM["CH1903",${BESSEL}]`;
+    expect(doubtIn(`${ch1903},${esri(bessel)}`)).toBeUndefined();
+    expect(doubtIn(`${ch1903},${esri(bessel, 25)}`)).toMatch(/shifted by 25/);
+    expect(doubtIn(`${ch1903},${esri('VDATUM["EGM96_Geoid"]', 25)}`)).toMatch(/shifted by 25/);
+    expect(doubtIn(`${ch1903},${esri(bessel, 0, -1)}`)).toMatch(/depths below an ellipsoid/);
+    const other = 'DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137,298.257223563]]';
+    expect(doubtIn(`${ch1903},${esri(other)}`)).toMatch(/ellipsoid of D_WGS_1984.*that of CH1903/);
+    const crs = read({ wkt: `${ch1903},${esri(bessel, 25)}` });
+    const [height] = accuracyParts(crs, [1, 1, 1], 0).filter(({ name }) => name === "height");
+    expect(height).toEqual({ name: "height", metres: null, note: expect.stringMatching(/shifted by 25/) });
+  });
+
+  it("are above the grid that is bound to them, whatever their datum is called", () => {
+    const vertical =
+      'VERTCRS["unknown",VDATUM["unknown using geoidgrids=g.gtx"],CS[vertical,1],AXIS["h",up],LENGTHUNIT["metre",1]]';
+    const bound = `BOUNDCRS[SOURCECRS[${vertical}],TARGETCRS[x],ABRIDGEDTRANSFORMATION["t",METHOD["m"],PARAMETERFILE["f","g.gtx"]]]`;
+    expect(read({ wkt: `COMPOUNDCRS["c",${wkt1()},${bound}]` }).height).toEqual({
+      kind: "geoid",
+      model: "g.gtx",
+    });
+    expect(read({ wkt: `COMPOUNDCRS["c",${wkt1()},${vertical}]` }).height).toEqual({ kind: "unknown" });
+    const esris = `${wkt1()},${esri('VDATUM["unknown_using_geoidgrids_g_gtx"]')}`;
+    expect(read({ wkt: esris }).height).toEqual({ kind: "unknown" });
   });
 
   it("count downwards as depths", () => {

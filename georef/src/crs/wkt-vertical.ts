@@ -1,6 +1,6 @@
 import type { VerticalModel } from "./model.js";
-import { unsupported } from "./refusal.js";
-import { child, children, epsgCode, number, text, type WktNode } from "./tree.js";
+import { Refusal } from "./refusal.js";
+import { child, children, epsgCode, number, parseWkt, text, type WktNode } from "./tree.js";
 import { directed, METRE, unitOf } from "./units.js";
 
 export const VERTICAL = ["VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"];
@@ -11,30 +11,50 @@ const ELLIPSOIDAL = 2002;
 /**
  * Reads a vertical CRS.
  * @param grid name of the geoid grid that a BOUNDCRS ties to it, if any
- * @throws Refusal CRS_UNSUPPORTED for shifted heights
  */
 export function readVertical(node: WktNode, grid?: string): VerticalModel {
   const name = text(node, 1);
   const downAxis = children(node, "AXIS").some((axis) => text(axis, 2).toLowerCase() === "down");
   const parameters = new Map(children(node, "PARAMETER").map((item) => [text(item, 1), number(item, 2)]));
-  if ((parameters.get("Vertical_Shift") ?? 0) !== 0) throw unsupported(`"${name}" shifts its heights`);
-
+  const down = downAxis || parameters.get("Direction") === -1;
   const measure =
     child(node, "UNIT", "LENGTHUNIT") ?? child(child(node, "AXIS") ?? node, "UNIT", "LENGTHUNIT");
   const unit = measure && unitOf(text(measure, 1), "linear", number(measure, 2));
   const datum = child(node, "VERT_DATUM", "VDATUM", "VERTICALDATUM", "VRF");
   const extension = datum && children(datum, "EXTENSION").find((item) => text(item, 1) === "PROJ4_GRIDS");
+  const bound = grid ?? (extension && text(extension, 2));
   // ESRI marks ellipsoidal heights with the geodetic datum in place of a vertical one.
-  const ellipsoidal = datum ? number(datum, 2) === ELLIPSOIDAL : child(node, "DATUM") !== undefined;
+  const geodetic = datum ? undefined : child(node, "DATUM");
+  const ellipsoidal = datum ? number(datum, 2) === ELLIPSOIDAL : geodetic !== undefined;
   return {
-    name: grid ?? (extension ? text(extension, 2) : name),
+    name: bound ?? name,
     code: epsgCode(node),
-    unit: downAxis || parameters.get("Direction") === -1 ? directed(unit ?? METRE, true) : unit,
-    reference: ellipsoidal ? "ellipsoidal" : isUnknown(datum) ? "unknown" : "geoid",
+    unit: down ? directed(unit ?? METRE, true) : unit,
+    reference: ellipsoidal ? "ellipsoidal" : bound === undefined && isUnknown(datum) ? "unknown" : "geoid",
+    ...(ellipsoidal && { ellipsoid: "own" as const, datum: geodetic && text(geodetic, 1) }),
+    doubt: doubtOf(parameters.get("Vertical_Shift") ?? 0, ellipsoidal && down),
   };
 }
 
-/** A datum that says that nobody knows it: GDAL's way to write a unit of heights alone. */
+/** The `doubt` of the heights in a WKT text whose plane may not be understood; none of a text that is no WKT. */
+export function doubtOfHeights(text: string): string | undefined {
+  try {
+    const nodes = parseWkt(text).flatMap((node) => [node, ...children(node)]);
+    const vertical = nodes.find(([keyword]) => VERTICAL.includes(keyword));
+    return vertical && readVertical(vertical).doubt;
+  } catch (error) {
+    if (error instanceof Refusal) return undefined;
+    throw error;
+  }
+}
+
+/** What ESRI's texts say of heights and nobody follows, PROJ among them. */
+function doubtOf(shift: number, depth: boolean): string | undefined {
+  if (shift !== 0) return `declared as shifted by ${shift} (Vertical_Shift), which is not applied`;
+  return depth ? "declared as depths below an ellipsoid, which other software takes for heights" : undefined;
+}
+
+/** A datum that says that nobody knows it: GDAL's way, and ESRI's, to write a unit of heights alone. */
 function isUnknown(datum: WktNode | undefined): boolean {
-  return datum !== undefined && /^(unknown|not specified)\b/i.test(text(datum, 1));
+  return datum !== undefined && /^(unknown|not[ _]specified)(?![a-z])/i.test(text(datum, 1));
 }

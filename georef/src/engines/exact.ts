@@ -1,5 +1,6 @@
 import proj4 from "proj4";
 import type { Crs } from "../crs/crs.js";
+import { isAboveOwnEllipsoid } from "../crs/same.js";
 import { ecefToGeodetic } from "../ellipsoid/ecef-to-geodetic.js";
 import type { Ellipsoid } from "../ellipsoid/ellipsoid.js";
 import { geodeticToEcef } from "../ellipsoid/geodetic-to-ecef.js";
@@ -40,7 +41,7 @@ export const ENGINE = {
  *
  * A horizontal datum shift must not touch a height that is not measured from the shifted ellipsoid, so as PROJ does
  * (push and pop of v_3) the shift moves longitude and latitude only, and z is taken as height above WGS 84. Only where
- * the CRS says that its heights are ellipsoidal, and so above its own ellipsoid, does the shift move all three.
+ * the CRS has three dimensions, and so heights above its own ellipsoid, does the shift move all three.
  *
  * Without a `+towgs84` the geodetic coordinates are taken as WGS 84, as PROJ does.
  *
@@ -66,7 +67,7 @@ export function exactTransform(
   const shape = ellipsoidOf(projection);
   const shift = helmert(projection);
   const place =
-    shift && crs.height.kind !== "ellipsoidal"
+    shift && !isAboveOwnEllipsoid(crs)
       ? keepingHeight(shape, shift, vertical, middle * vertical)
       : onEllipsoid(shape, shift, vertical);
   const inverse = inverseOf(projection, horizontal);

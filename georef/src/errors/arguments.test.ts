@@ -11,7 +11,16 @@ const FOR_EACH_POINT = [
 const BETWEEN_OTHERS = [
   ...["areOverlapping", "areaOf", "areaOfDomain", "aroundPoints", "boundsInWords", "boundsOfPlaces"],
   ...["countriesIn", "cutWindow", "distanceTo", "domainAround", "domainOf", "eastNorthUp", "egm96Step"],
-  ...["everyStep", "extentOf", "guessHeight", "isAboveGeoid", "isInside", "isOwnPlane", "levelFrame"],
+  ...[
+    "everyStep",
+    "extentOf",
+    "guessHeight",
+    "isAboveGeoid",
+    "isAboveOwnEllipsoid",
+    "isInside",
+    "isOwnPlane",
+    "levelFrame",
+  ],
   ...["ownLevel", "ownLevelNote", "pointTransform", "publishedAccuracy", "requireSame", "sourceTransform"],
   ...["spread", "truthOnMap", "undulationOf", "withHeights", "withWorthThere"],
 ];

@@ -1,5 +1,6 @@
 import type { Domain } from "../cartesian/domain.js";
 import type { Crs } from "../crs/crs.js";
+import { isAboveOwnEllipsoid } from "../crs/same.js";
 import { WGS84 } from "../ellipsoid/ellipsoid.js";
 import { inverseOf, open } from "../engines/projection.js";
 import { requireFields } from "../errors/arguments.js";
@@ -29,8 +30,8 @@ const ARC_SECOND = Math.PI / 648_000;
 
 /**
  * The way from source coordinates to ECEF as far as `crs.proj4` knows it: proj4js's projection, the seven parameters of
- * the datum, EGM96 for heights above a geoid. As PROJ does for a CRS without heights of its own, the datum shift leaves
- * heights alone.
+ * the datum, EGM96 for heights above a geoid. As PROJ does, the datum shift leaves heights alone that are not above the
+ * ellipsoid of the CRS's own datum.
  *
  * @param domain source units
  * @throws CrsError CRS_UNSUPPORTED
@@ -53,7 +54,7 @@ export async function deriveTransformation(
   const patchwork = await fitPatchwork(async (points) => sample(points), domain, tolerance, undefined, file);
   const steps: Step[] = [{ kind: "projection", patchwork }];
   if (crs.verticalUnit.size !== 1) steps.push({ kind: "height", metresPerUnit: crs.verticalUnit.size });
-  const shift = datumShift(crs.proj4);
+  const shift = datumShift(crs);
   if (shift) steps.push(shift);
   if (egm96 && isAboveGeoid(crs)) steps.push(egm96Step(egm96, boundsOf(sample, domain)));
   steps.push({ kind: "geocentric", ellipsoid: { a: WGS84.a, f: WGS84.f } });
@@ -70,8 +71,9 @@ function sampler(crs: Crs): (points: Float64Array) => Float64Array {
   };
 }
 
-/** The shift of a PROJ string: position vector rotations in arc-seconds, taken for their sines, as PROJ's `+towgs84`. */
-function datumShift(text: string): DatumShiftStep | undefined {
+/** The shift of a CRS's PROJ string: position vector rotations in arc-seconds, taken for their sines, as PROJ's `+towgs84`. */
+function datumShift(crs: Pick<Crs, "proj4" | "height">): DatumShiftStep | undefined {
+  const text = crs.proj4;
   const given = (TOWGS84.exec(text)?.[1] ?? "").split(",").map(Number);
   if (given.every((value) => value === 0)) return undefined;
   const [x, y, z] = given;
@@ -87,7 +89,7 @@ function datumShift(text: string): DatumShiftStep | undefined {
     to: { a: WGS84.a, f: WGS84.f },
     translation: [x, y, z],
     matrix: [1, -rz, ry, rz, 1, -rx, -ry, rx, 1].map((value) => scale * value),
-    keepHeight: true,
+    keepHeight: !isAboveOwnEllipsoid(crs),
   };
 }
 

@@ -141,6 +141,8 @@ function heightPart(
   placing: Placing | undefined,
 ): AccuracyPart {
   const name = "height";
+  if (height.kind !== "unknown" && height.doubt !== undefined)
+    return { name, metres: null, note: height.doubt };
   if (height.kind === "ellipsoidal") return { name, metres: 0, note: "ellipsoidal" };
   if (height.kind === "unknown") {
     return { name, metres: null, note: placing?.guess ?? "reference unknown, drawn as ellipsoidal" };

@@ -75,9 +75,15 @@ function readUnit(value: unknown, member: string, counts: "up" | "either way" = 
 }
 
 function readHeight(height: Json): HeightReference {
-  if (height.kind === "ellipsoidal" || height.kind === "unknown") return { kind: height.kind };
+  if (height.kind === "unknown") return { kind: height.kind };
+  const doubt = height.doubt === undefined ? {} : { doubt: text(height.doubt, "crs.height.doubt") };
+  if (height.kind === "ellipsoidal") {
+    if (height.ellipsoid === undefined) return { kind: height.kind, ...doubt };
+    if (height.ellipsoid !== "own") throw new FieldError("crs.height.ellipsoid", "own");
+    return { kind: height.kind, ellipsoid: height.ellipsoid, ...doubt };
+  }
   if (height.kind !== "geoid") throw new FieldError("crs.height.kind", "ellipsoidal, geoid or unknown");
-  const geoid = { kind: "geoid", model: text(height.model, "crs.height.model") } as const;
+  const geoid = { kind: "geoid", model: text(height.model, "crs.height.model"), ...doubt } as const;
   if (height.epsg === undefined) return geoid;
   return { ...geoid, epsg: epsgCode(height.epsg, "crs.height.epsg") };
 }

@@ -77,6 +77,11 @@ describe("georeference record", () => {
     ["a unit of no size", bytesOf(changed("crs.horizontalUnit.size", 0)), "RECORD_FIELD"],
     ["a unit of null size", bytesOf(changed("crs.horizontalUnit.size", null)), "RECORD_FIELD"],
     ["heights in degrees", bytesOf(changed("crs.verticalUnit.kind", "angular")), "RECORD_FIELD"],
+    [
+      "heights above whose ellipsoid",
+      bytesOf(changed("crs.height", { kind: "ellipsoidal", ellipsoid: "my" })),
+      "RECORD_FIELD",
+    ],
     ["heights over nothing known", bytesOf(changed("crs.height.kind", "moon")), "RECORD_FIELD"],
     ["a geoid without a name", bytesOf(changed("crs.height.model")), "RECORD_FIELD"],
     ["a fractional EPSG code", bytesOf(changed("crs.height.epsg", 5728.5)), "RECORD_FIELD"],
