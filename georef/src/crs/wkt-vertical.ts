@@ -1,3 +1,4 @@
+import { requireKind } from "../errors/arguments.js";
 import type { VerticalModel } from "./model.js";
 import { Refusal } from "./refusal.js";
 import { child, children, epsgCode, number, parseWkt, text, type WktNode } from "./tree.js";
@@ -36,8 +37,13 @@ export function readVertical(node: WktNode, grid?: string): VerticalModel {
   };
 }
 
-/** The `doubt` of the heights in a WKT text whose plane may not be understood; none of a text that is no WKT. */
+/**
+ * The `doubt` of the heights in a WKT text whose plane may not be understood; none of a text that is no WKT.
+ *
+ * @throws ArgumentError ARGUMENT_INVALID
+ */
 export function doubtOfHeights(text: string): string | undefined {
+  requireKind(text, "text", "doubtOfHeights: text");
   try {
     const nodes = parseWkt(text).flatMap((node) => [node, ...children(node)]);
     const vertical = nodes.find(([keyword]) => VERTICAL.includes(keyword));
