@@ -87,6 +87,7 @@ function start(viewer: Viewer): void {
     pointed: (place) => void beside.view?.then((view) => view.mark(place)),
     failed: (thrown) => message.show(thrown),
   });
+  ledger.further = () => profile.ledger;
   measuring.tool.onChange(() => {
     if (measuring.tool.drawing) profile.finish();
   });

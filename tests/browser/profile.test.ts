@@ -277,9 +277,14 @@ async function plotIsMovedAndMeasured(page: Page): Promise<void> {
   await page.focus("#profile-plot");
   await page.keyboard.press("ArrowRight");
   await page.keyboard.press("Enter");
-  for (let step = 0; step < 5; step++) await page.keyboard.press("ArrowRight");
+  for (let step = 0; step < 20; step++) await page.keyboard.press("ArrowRight");
   await page.keyboard.press("Enter");
-  expect(await readout(page)).toMatch(/^along [\d.-]+ m, up [\d.-]+ m, slant [\d.]+ m, .*°; ground above/);
+  expect(await readout(page)).toMatch(
+    /^along [\d.-]+ m, up [\d.-]+ m, slant [\d.]+ m, .*°; a level sight rises 0\.00\d m .*; the ground (lies|stands) .*; ground above/,
+  );
+  await expect
+    .poll(() => page.locator("#profile-axes .sight").getAttribute("points"))
+    .toMatch(/^(\S+ ){48}\S+$/);
   await screenshot(page, "profile-measured");
   await page.click("#profile-measure");
   await page.selectOption("#profile-colour", "offset");

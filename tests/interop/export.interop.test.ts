@@ -166,7 +166,7 @@ describe.skipIf(left ?? coreMissing ?? pythonMissing)(
         const ring = [at(0.2, 0.1), at(0.9, 0.3), at(0.6, 0.95), at(0.5, 0.4)];
         const clips = new ClipSet([Clip.polygon(ring, { coordinates: "source" })]);
         const filter = {
-          ...{ classes: [1, 2], returns: ["last"] as const },
+          ...{ classes: [0], returns: ["last"] as const },
           ranges: { intensity: [20, 120] as const, elevation: [410, 480] as const },
         };
         const wanted = { polygon: [ring], ...filter };

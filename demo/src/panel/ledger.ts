@@ -17,6 +17,9 @@ export class Ledger {
     this.#place.addEventListener("toggle", () => this.#write());
   }
 
+  /** Further rows, beside those of the layer; asked for whenever they are written. */
+  further: () => readonly LedgerRow[] = () => [];
+
   attach(layer: PointCloudLayer): void {
     this.#layer = layer;
     this.#place.hidden = false;
@@ -26,7 +29,7 @@ export class Ledger {
   #write(): void {
     const layer = this.#layer;
     if (!this.#place.open || !layer || layer.isDestroyed() || document.hidden) return;
-    this.#rows.replaceChildren(...layer.ledger.map(rowOf));
+    this.#rows.replaceChildren(...[...layer.ledger, ...this.further()].map(rowOf));
     setText(this.#frame, frameWords(layer.statistics.gpuMilliseconds));
   }
 }

@@ -2,6 +2,7 @@ import type { PlotPlace, PlotView, TerrainStation } from "@groma/layer/tools";
 import { axisBottom, axisLeft } from "d3-axis";
 import { scaleLinear } from "d3-scale";
 import { select } from "d3-selection";
+import { sightIn } from "./measured-words.js";
 
 /** Room for the axes, CSS pixels; `style.css` leaves it around the canvas. */
 const MARGIN = { left: 64, right: 12, top: 8, bottom: 36 } as const;
@@ -56,6 +57,8 @@ export function drawAxes(root: SVGSVGElement, view: PlotView, overlay: PlotOverl
   drawGround(inner.node()!, view, overlay.secondGround, "ground second");
   drawGround(inner.node()!, view, overlay.ground, "ground");
   const pixels = overlay.measured.map(([along, up]) => view.pixelOf(along, up));
+  const sight = sightIn(overlay.measured).map(([along, up]) => view.pixelOf(along, up));
+  inner.append("polyline").attr("class", "sight").attr("points", sight.map(String).join(" "));
   if (pixels.length > 0) {
     inner.append("polyline").attr("class", "measured").attr("points", pixels.map(String).join(" "));
     for (const [left, down] of pixels)

@@ -1,7 +1,6 @@
-import type { PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import type { LedgerRow, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import { profileLedger } from "@groma/layer/plot";
 import {
-  areaToDatum,
-  distanceInPlot,
   type PlotPlace,
   type PlottedPoint,
   Profile,
@@ -18,6 +17,7 @@ import { Comparison } from "./comparison.js";
 import { CutClips } from "./cut-clips.js";
 import { groundTable } from "./ground-table.js";
 import { LineTools } from "./line-tools.js";
+import { measuredWords, TOLERANCE } from "./measured-words.js";
 import { ProfilePlot, placeOf } from "./plot.js";
 import { PlotStyle } from "./plot-style.js";
 import { FORMATS, writeProfile } from "./profile-files.js";
@@ -111,6 +111,11 @@ export class ProfilePanel {
   /** Points in the picture. */
   get shown(): number {
     return this.#plot?.count ?? 0;
+  }
+
+  /** What its plot could leave out; nothing without a profile. */
+  get ledger(): readonly LedgerRow[] {
+    return this.#profile ? profileLedger(this.#profile, TOLERANCE) : [];
   }
 
   get plot(): ProfilePlot | undefined {
@@ -341,7 +346,7 @@ export class ProfilePanel {
     if (!profile) return;
     if (this.#measure.getAttribute("aria-pressed") === "true") {
       this.#measured = this.#measured.length === 1 ? [...this.#measured, place] : [place];
-      const words = this.#measuredWords();
+      const words = measuredWords(this.#measured, this.#ground);
       this.#plot?.measured(this.#measured, words.split("; ")[0]!);
       if (words !== "") setText(this.#readout, words);
     } else if (point) {
@@ -349,18 +354,6 @@ export class ProfilePanel {
       this.#events.picked(profile.origin as PointCloud, batch.node, batch.inside[point.index]!);
       setText(this.#readout, `${placeOf(point)[0].toFixed(2)} m: its record is shown beside the globe`);
     }
-  }
-
-  /** Length, rise, slope; and the area between the ground and the height of the first place. */
-  #measuredWords(): string {
-    const [a, b] = this.#measured;
-    if (!a || !b) return "";
-    const { along, up, slant, grade, angle } = distanceInPlot(a, b);
-    const slope = Number.isFinite(grade) ? `${(100 * grade).toFixed(2)} %, ` : "";
-    const words = `along ${along.toFixed(3)} m, up ${up.toFixed(3)} m, slant ${slant.toFixed(3)} m, ${slope}${((180 * angle) / Math.PI).toFixed(2)}°`;
-    const { above, below, length } = areaToDatum(this.#ground, a[1], a[0], b[0]);
-    if (length === 0) return words;
-    return `${words}; ground above the first place ${above.toFixed(2)} m², below ${below.toFixed(2)} m²`;
   }
 
   async #save(): Promise<void> {

@@ -1,5 +1,6 @@
 export type * from "../every-view.js";
 export type * from "../tools/index.js";
+export { type ProfiledLine, profileLedger } from "./plot-ledger.js";
 export { PlotPicture } from "./plot-picture.js";
 export { type PlotDrawing, PlotSeries } from "./plot-series.js";
 export { OFFSET } from "./section-vertices.js";

@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { richFacts, styleOf } from "../effects/scene.fixture.js";
 import { PlotView } from "../tools/plot/plot-view.js";
 import { plotCamera } from "./plot-camera.js";
+import { profileLedger } from "./plot-ledger.js";
 import { planSeries, plotStyle } from "./plot-plan.js";
 import { LEVEL, OFFSET } from "./section-vertices.js";
 
@@ -80,4 +81,13 @@ describe("the effects of a plot", () => {
     expect(range(OFFSET)).toEqual([-1.5, 1.5]);
     expect(range(LEVEL)).toEqual([0, 4]);
   });
+});
+
+it("the ledger of a profile tells of curvature and refraction from the length on at which they reach the tolerance", () => {
+  // d = √(2 R · 1 mm / 0.87)
+  const [short] = profileLedger({ length: 121 }, 0.001);
+  const [long] = profileLedger({ length: 122 }, 0.001);
+  expect([short!.active, long!.active]).toEqual([false, true]);
+  expect(long!.magnitude).toBeCloseTo(0.0010163, 7);
+  expect(profileLedger({ length: 5000 }, 0.001, { refraction: 0 })[0]!.magnitude).toBeCloseTo(1.962, 3);
 });

@@ -79,6 +79,13 @@ export {
   type PlotPlace,
 } from "./plot/plot-measures.js";
 export { type PlotAxes, type PlotExtent, PlotView } from "./plot/plot-view.js";
+export {
+  type SightClearance,
+  type SightOptions,
+  sightBetween,
+  sightClearance,
+  sightRise,
+} from "./plot/sight.js";
 export { Corridor, type LinePlace, type Stationing } from "./profile/corridor.js";
 export { sourceLine } from "./profile/source-line.js";
 export { type CrossSection, CrossSections, type SectionWidths } from "./sections/cross-sections.js";
