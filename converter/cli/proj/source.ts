@@ -98,9 +98,13 @@ function textsOf({ code, wkt, proj4, height }: Pick<Crs, "code" | "wkt" | "proj4
   const number = Number(/^EPSG:(\d+)$/.exec(code ?? "")?.[1]);
   const named = number > EPSG_MAX ? `ESRI:${number}` : code;
   // Of heights that have no code themselves, such as those of a grid or above a country's ellipsoid, that of the plane says
-  // nothing.
+  // nothing, nor of a transformation that is bound to it. The TOWGS84 of WKT 1 gives way to a code, as GDAL has it: writers
+  // add it to every code.
   const wordless = height.kind === "geoid" ? height.epsg === undefined : isAboveOwnEllipsoid({ height });
-  return (wordless ? [wkt, named, proj4] : [named, wkt, proj4]).filter((text) => text !== undefined);
+  const isBound = /\bBOUNDCRS\s*\[/i.test(wkt ?? "");
+  return (wordless || isBound ? [wkt, named, proj4] : [named, wkt, proj4]).filter(
+    (text) => text !== undefined,
+  );
 }
 
 /** The first of the texts that PROJ understands. */
