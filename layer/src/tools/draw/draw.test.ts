@@ -19,6 +19,7 @@ import { checkChange, checkKind, checkMeasurement } from "./given.js";
 import { freshName, grown, History, isSame, withChange } from "./history.js";
 import { KnownValues } from "./known-values.js";
 import { Placing } from "./placing.js";
+import { aroundPole } from "./pole-ring.js";
 import { snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 
@@ -97,6 +98,40 @@ describe("the way back and forth", () => {
   it("gives names that are free", () => {
     expect(freshName([line], "Line")).toBe("Line 2");
     expect(freshName([line], "Area")).toBe("Area 1");
+  });
+});
+
+describe("rings around a pole", () => {
+  /** Mercator, ten pixels a degree, the world nearest to a place. */
+  const mercator = ({ longitude, latitude }: Vertex, near?: ScreenPoint): ScreenPoint => {
+    const x = (1800 * longitude) / Math.PI;
+    const turns = near ? Math.round((near.x - x) / 3600) : 0;
+    return { x: x + 3600 * turns, y: (-1800 / Math.PI) * Math.log(Math.tan(Math.PI / 4 + latitude / 2)) };
+  };
+  const wayOfRing = (vertices: readonly Vertex[]) => {
+    let near: ScreenPoint | undefined;
+    return [...vertices, vertices[0]!].map((vertex) => {
+      near = mercator(vertex, near);
+      return near;
+    });
+  };
+
+  it.each([75, -75])("enclose what lies between them and the pole: %d°", (latitude) => {
+    const cap = [0, 120, 240].map((longitude) =>
+      placeVertex((longitude * Math.PI) / 180, (latitude * Math.PI) / 180, 0),
+    );
+    const inside = aroundPole(cap, wayOfRing(cap), mercator)!;
+    const ys = inside.map(({ y }) => y);
+    const xs = inside.map(({ x }) => x);
+    expect([Math.min(...xs), Math.max(...xs)]).toEqual([expect.closeTo(0, 6), expect.closeTo(3600, 6)]);
+    expect(latitude > 0 ? Math.min(...ys) < -1e4 : Math.max(...ys) > 1e4).toBe(true);
+    expect(latitude > 0 ? Math.max(...ys) < 0 : Math.min(...ys) > 0).toBe(true);
+  });
+
+  it("are rings like any other where they come back to where they began", () => {
+    const ring = [a, b, d];
+    expect(aroundPole(ring, wayOfRing(ring), mercator)).toBeUndefined();
+    expect(aroundPole(ring, [undefined], mercator)).toBeUndefined();
   });
 });
 

@@ -2,6 +2,7 @@ import type { Vertex } from "../measure/index.js";
 import { courseOf } from "./course.js";
 import type { Grip } from "./grip.js";
 import { placeLabels, type ScreenBox, seenAnchor } from "./labels.js";
+import { aroundPole } from "./pole-ring.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
 
 /** A figure as it is shown. */
@@ -32,6 +33,8 @@ export interface OverlayEvents {
 interface Elements {
   readonly group: SVGGElement;
   readonly line: SVGPathElement;
+  /** Of a ring around a pole, on a map: its line alone encloses nothing there. */
+  readonly fill: SVGPathElement;
   readonly grips: { readonly element: SVGElement; readonly grip: Grip }[];
   readonly dots: SVGCircleElement[];
   readonly label: HTMLElement;
@@ -46,6 +49,8 @@ interface Seen {
   readonly ahead: ScreenPoint | undefined;
   /** The way through all of it, long edges along the earth; a ring is closed. */
   readonly way: readonly (ScreenPoint | undefined)[];
+  /** What it encloses, where that is not what its way goes around. */
+  readonly inside?: readonly ScreenPoint[] | undefined;
 }
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -138,7 +143,6 @@ export class Overlay {
     const elements = this.#elements.get(key) ?? this.#make(figure);
     this.#elements.set(key, elements);
     elements.group.classList.toggle("groma-open", figure.open);
-    elements.line.classList.toggle("groma-ring", figure.shape === "ring");
     elements.label.classList.toggle("groma-wrong", figure.wrong);
     if (elements.label.textContent !== figure.label) elements.label.textContent = figure.label;
     const count = figure.vertices.length;
@@ -168,9 +172,9 @@ export class Overlay {
 
   #make(figure: ShownFigure): Elements {
     const group = svgElement("g");
-    const line = svgElement("path");
+    const [fill, line] = [svgElement("path"), svgElement("path")];
     line.classList.add("groma-line");
-    group.append(line);
+    group.append(fill, line);
     this.#svg.insertBefore(group, this.#cross);
     const label = document.createElement("div");
     label.className = "groma-label";
@@ -178,7 +182,7 @@ export class Overlay {
     const { id } = figure;
     if (id !== undefined) label.addEventListener("click", () => this.#events.chosen(id));
     this.root.append(label);
-    return { group, line, grips: [], dots: [], label };
+    return { group, line, fill, grips: [], dots: [], label };
   }
 
   #grip(grip: Grip, { name }: ShownFigure, group: SVGGElement): Elements["grips"][number] {
@@ -269,16 +273,21 @@ export class Overlay {
     }
     if (next) way.push(places[0]);
     else way.push(...[...courseOf(vertices[vertices.length - 1], first), first].map(see));
-    return { places, ahead: next, way };
+    const project = (vertex: Vertex, beside: ScreenPoint) => this.#view.project(vertex, beside);
+    return { places, ahead: next, way, inside: next ? undefined : aroundPole(vertices, way, project) };
   }
 
   /** @returns where its label belongs; undefined where nothing of it is in the view */
   #place(
     { id, shape }: ShownFigure,
-    { line, dots, grips }: Elements,
-    { places, way, ahead }: Seen,
+    { line, fill, dots, grips }: Elements,
+    { places, way, ahead, inside }: Seen,
   ): ScreenPoint | undefined {
     line.setAttribute("d", pathOf(way));
+    fill.setAttribute("d", inside ? `${pathOf(inside)}Z` : "");
+    // One of the two is filled.
+    line.classList.toggle("groma-ring", shape === "ring" && !inside);
+    fill.classList.toggle("groma-ring", inside !== undefined);
     for (const [i, place] of places.entries()) move(dots[i], place);
     for (const { element, grip } of grips) {
       const a = places[grip.vertex];
