@@ -163,7 +163,7 @@ module.exports = {
     ]),
     layer("webgl2", ["drawing", "effects", "workers", "errors"]),
     layer("plot", [
-      ...["tools", "webgl2", "drawing", "effects", "cloud", "octree", "workers", "every-view.ts"],
+      ...["tools", "webgl2", "drawing", "effects", "cloud", "query", "octree", "workers", "every-view.ts"],
     ]),
     layer("openlayers", [
       "webgl2",

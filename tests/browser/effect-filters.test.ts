@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { type PointFilter, passesFilter } from "../../layer/src/effects/index.js";
+import { type PointFilter, recordTest } from "../../layer/src/effects/index.js";
 import { styleOf } from "../../layer/src/effects/scene.fixture.js";
 import { draw, random, usePage } from "./effect-draw.js";
 
@@ -46,11 +46,13 @@ describe("filters on the GPU", () => {
       ["gl_Position"],
     );
     const drawn = points.map((_, point) => values[4 * point] !== 2);
-    const kept = points.map((point) => {
-      // The record's own decimal number: stored hundredths over 12.
-      const record = { ...point, elevation: (1200 + point.elevation) / 100 };
-      return passesFilter(record, filter, styleOf());
-    });
+    // Hundredths over 12, as a record has them.
+    const records = points.map((point) => ({ ...point, elevation: point.elevation * 0.01 + 12 }));
+    const passes = recordTest(filter, styleOf(), (name) => ({
+      value: (record) => records[record]![name as keyof (typeof records)[number]],
+      step: name === "elevation" ? 0.01 : 1,
+    }));
+    const kept = records.map((_, record) => passes(record));
     expect(drawn).toEqual(kept);
     expect(new Set(kept).size).toBe(2);
   });

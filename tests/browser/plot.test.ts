@@ -1,3 +1,4 @@
+import { readFileSync } from "node:fs";
 import { basename, dirname } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
@@ -213,6 +214,69 @@ describe.skipIf(left)(`the plot of a million points${left ? ` (skipped: ${left})
       expect(frames.buffers).toBe(0);
       expect(reading.threadMs).toBeLessThan(8);
       expect(panning.threadMs).toBeLessThan(8);
+    } finally {
+      await stage.close();
+    }
+  });
+});
+
+describe.skipIf(left)(`exports of a page${left ? ` (skipped: ${left})` : ""}`, () => {
+  it("take a third more than decoding, and half a gigabyte for ten million points", {
+    timeout: 900_000,
+  }, async () => {
+    const file = converted(autzen.path);
+    const stage = await openStage("map-stage", { "/scans/": dirname(file) });
+    const { page } = stage;
+    try {
+      const session = await page.context().browser()!.newBrowserCDPSession();
+      const renderers = async () => {
+        const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+        return processInfo.filter(({ type }) => type === "renderer");
+      };
+      const seconds = async () => (await renderers()).reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+      await page.evaluate(async (name) => {
+        const { layer, tools, lineThrough } = window.map;
+        const cloud = await layer.PointCloud.fromUrl(`/scans/${name}`);
+        const { min, max } = cloud.boundingBox;
+        const width = ((max[1] - min[1]) / 6) * 0.3048;
+        Object.assign(window, {
+          cloud,
+          profile: new tools.Profile(cloud, { line: lineThrough(cloud), width }),
+        });
+      }, basename(file));
+      const timed = async (task: "decode" | "profile" | "all") => {
+        const before = await seconds();
+        const points = await page.evaluate(async (what) => {
+          const { exporting } = window.map;
+          const { cloud, profile } = window as unknown as {
+            cloud: import("@groma/layer/openlayers").PointCloud;
+            profile: import("@groma/layer/tools").Profile;
+          };
+          const nowhere = { write: async () => {}, overwrite: async () => {} };
+          if (what !== "decode") return exporting.exportPoints(what === "all" ? cloud : profile, nowhere);
+          const { volume } = profile;
+          const touched = { toBox: (box: Float64Array) => volume.toBox(box), contains: () => false };
+          let read = 0;
+          for await (const { records } of cloud.query({ volume: touched }).batches()) read += records.count;
+          return read;
+        }, task);
+        return { points, seconds: (await seconds()) - before };
+      };
+      await timed("decode");
+      const least = { decode: Number.POSITIVE_INFINITY, profile: Number.POSITIVE_INFINITY };
+      for (let round = 0; round < 2; round++) {
+        for (const task of ["decode", "profile"] as const)
+          least[task] = Math.min(least[task], (await timed(task)).seconds);
+      }
+      const all = await timed("all");
+      const peaks = (await renderers()).map(({ id }) =>
+        Number(/VmHWM:\s+(\d+)/.exec(readFileSync(`/proc/${id}/status`, "utf8"))![1]),
+      );
+      const megabytes = Math.max(...peaks) / 1024;
+      console.info(JSON.stringify({ ...least, ratio: least.profile / least.decode, all, megabytes }));
+      expect(all.points).toBe(10_653_336);
+      expect(least.profile / least.decode).toBeLessThan(1.3);
+      expect(megabytes).toBeLessThan(500);
     } finally {
       await stage.close();
     }

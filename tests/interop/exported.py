@@ -13,6 +13,8 @@ box or a plane may be there or not: PROJ and the certified map of the file diffe
 
 import json
 import sys
+from fractions import Fraction
+from math import ceil, floor
 
 import laspy
 import numpy as np
@@ -77,8 +79,13 @@ if "returns" in wanted:
     kinds = {"first": first, "last": last, "single": first & last, "intermediate": ~first & ~last}
     inside &= np.any([kinds[kind] for kind in wanted["returns"]], axis=0)
 for name, (least, greatest) in wanted.get("ranges", {}).items():
-    values = {"elevation": z, "gpsTime": None}.get(name)
-    values = values if values is not None else np.array(scan[{"gpsTime": "gps_time"}.get(name, name)])
+    if name == "elevation":
+        # In whole steps, as decimals: what float64 makes of them decides nothing.
+        step, begin = Fraction(str(scale[2])), Fraction(str(offset[2]))
+        low, high = (Fraction(str(value)) - begin for value in (least, greatest))
+        inside &= (scan.Z >= ceil(low / step)) & (scan.Z <= floor(high / step))
+        continue
+    values = np.array(scan[{"userData": "user_data"}.get(name, name)])
     inside &= (values >= least) & (values <= greatest)
 
 doubtful = away < NEAR

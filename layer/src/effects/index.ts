@@ -14,10 +14,10 @@ export { drawnSpacing, footprint } from "./declaration/drawn-spacing.js";
 export type { ColumnScale, DrawnNode, PlacingFacts, SceneFacts } from "./declaration/facts.js";
 export {
   checkFilter,
-  isOfReturns,
+  type FilteredNumbers,
   type PointFilter,
-  passesFilter,
   type ReturnKind,
+  recordTest,
 } from "./declaration/filter.js";
 export { GRADIENTS, type GradientName, type GradientStop } from "./declaration/gradients.js";
 export type { StyledAttribute, StyledCloud } from "./declaration/option.js";

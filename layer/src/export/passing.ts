@@ -1,7 +1,12 @@
-import { isOfReturns, type PointFilter } from "../effects/index.js";
+import { type PointFilter, recordTest } from "../effects/index.js";
 import { FormatError } from "../errors/index.js";
-import { ofClasses, type PointBatch, type PointOrigin } from "../query/index.js";
-import { valueReader } from "../workers/index.js";
+import {
+  type GeodeticPlace,
+  ofClasses,
+  type PointBatch,
+  type PointOrigin,
+  recordNumbers,
+} from "../query/index.js";
 
 /** Which of the points of a data set are wanted, by what is recorded of them. */
 export interface WantedPoints {
@@ -14,11 +19,8 @@ export interface WantedPoints {
    * Where source coordinates are, for GeoJSON: longitude and latitude (degrees, WGS 84) and height above the ellipsoid
    * (metres), written to `out`.
    */
-  readonly geodetic?: ((x: number, y: number, z: number, out: Float64Array) => void) | undefined;
+  readonly geodetic?: GeodeticPlace | undefined;
 }
-
-/** Whether a record passes, by its index. */
-type Test = (point: number) => boolean;
 
 /**
  * Those of a batch's points that a selection's classes and filter let pass: indices of records, rising. The same records as a
@@ -29,46 +31,12 @@ export function passing(batch: PointBatch, selection: WantedPoints): Uint32Array
   const { classes, filter } = selection;
   const wanted = classes ? ofClasses(batch, classes) : batch.inside;
   if (!filter) return wanted;
-  const tests = testsOf(batch, selection, filter);
-  return tests.length === 0 ? wanted : wanted.filter((point) => tests.every((test) => test(point)));
-}
-
-function testsOf(batch: PointBatch, selection: WantedPoints, filter: PointFilter): Test[] {
-  const tests: Test[] = [];
-  const { classes, returns, ranges = {} } = filter;
-  if (classes) {
-    const [passes, value] = [new Set(classes), readerOf(batch, selection, "classification")];
-    tests.push((point) => passes.has(value(point)));
-  }
-  if (returns) {
-    const number = readerOf(batch, selection, "returnNumber");
-    const of = readerOf(batch, selection, "numberOfReturns");
-    tests.push((point) => isOfReturns(returns, number(point), of(point)));
-  }
-  for (const [name, [least, greatest]] of Object.entries(ranges)) {
-    const value = readerOf(batch, selection, name);
-    tests.push((point) => value(point) >= least && value(point) <= greatest);
-  }
-  return tests;
-}
-
-/** Reads an attribute, recorded or one of the heights that layers add; NaN where there is none of that name. */
-function readerOf({ records }: PointBatch, selection: WantedPoints, name: string): (point: number) => number {
-  const { xyz, attributes } = records;
-  const { name: file, scale, offset } = selection.origin;
-  const axis = (point: number, which: number) => xyz[3 * point + which] * scale[which] + offset[which];
-  if (name === "elevation") return (point) => axis(point, 2);
-  if (name === "ellipsoidalHeight") {
-    const { geodetic } = selection;
-    if (!geodetic) throw noPlace(file, "heights above the ellipsoid");
-    const place = new Float64Array(3);
-    return (point) => {
-      geodetic(axis(point, 0), axis(point, 1), axis(point, 2), place);
-      return place[2];
-    };
-  }
-  const found = attributes.find((attribute) => attribute.name === name);
-  return found ? valueReader(found) : () => Number.NaN;
+  const { origin, geodetic } = selection;
+  if (filter.ranges && "ellipsoidalHeight" in filter.ranges && !geodetic)
+    throw noPlace(origin.name, "heights above the ellipsoid");
+  return wanted.filter(
+    recordTest(filter, undefined, (name) => recordNumbers(name, batch.records, origin, geodetic)),
+  );
 }
 
 /** The error for points whose place on the globe is asked for and not known. */

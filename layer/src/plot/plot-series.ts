@@ -3,19 +3,19 @@ import {
   layerUniforms,
   type PointCloudStyle,
   type PointFilter,
-  passesFilter,
   passesOf,
+  recordTest,
 } from "../effects/index.js";
 import { OctreeNode } from "../octree/index.js";
+import { recordNumbers } from "../query/index.js";
 import type { ProfilePoints } from "../tools/cut/profile.js";
 import type { PlotView } from "../tools/plot/plot-view.js";
 import type { FlatCamera } from "../webgl2/flat-camera.js";
 import { LayerRenderer } from "../webgl2/layer-renderer.js";
 import type { GlNode } from "../webgl2/node-drawable.js";
-import { colourBits } from "../workers/index.js";
+import { colourBits, type RecordedNode } from "../workers/index.js";
 import { planSeries, plotStyle } from "./plot-plan.js";
-import { recordedValues } from "./recorded-values.js";
-import { type PlottedCloud, SectionVertices } from "./section-vertices.js";
+import { geodeticOf, type PlottedCloud, SectionVertices } from "./section-vertices.js";
 
 /** How a series is drawn: as a layer is. A `PointCloudLayer` is one. */
 export interface PlotDrawing {
@@ -41,6 +41,8 @@ export class PlotSeries {
   readonly #vertices = new Map<OctreeNode, SectionVertices>();
   #drawing: PlotDrawing;
   #plotted: PointCloudStyle;
+  /** What tells of the records of a node whether they are seen. */
+  #tests = new WeakMap<RecordedNode, (record: number) => boolean>();
   #bits: 8 | 16;
   #points = 0;
   #deepest = 0;
@@ -71,6 +73,7 @@ export class PlotSeries {
     const { style, filter } = this.#drawing;
     if (style === drawing.style && filter === drawing.filter) return;
     this.#drawing = { style: drawing.style, filter: drawing.filter };
+    this.#tests = new WeakMap();
     this.#plotted = plotStyle(drawing.style);
     this.#changed();
   }
@@ -102,13 +105,16 @@ export class PlotSeries {
   }
 
   /** Whether the style's classes and the filter let a point be seen, by its exact values. */
-  shows(points: ProfilePoints, index: number): boolean {
-    const { style, filter } = this.#drawing;
-    return passesFilter(
-      recordedValues(this.#cloud, points, index, Object.keys(filter?.ranges ?? {})),
-      filter,
-      style,
-    );
+  shows({ batch: { records, inside } }: ProfilePoints, index: number): boolean {
+    let test = this.#tests.get(records);
+    if (!test) {
+      const { style, filter } = this.#drawing;
+      const cloud = this.#cloud;
+      const geodetic = geodeticOf(cloud);
+      test = recordTest(filter, style, (name) => recordNumbers(name, records, cloud, geodetic));
+      this.#tests.set(records, test);
+    }
+    return test(inside[index]);
   }
 
   /** Prepares a picture as far as a frame may. @internal @returns how many steps wait for a later one */

@@ -1,6 +1,7 @@
 import { ecefToGeodetic, type Frame } from "@groma/georef";
 import type { PointCloud } from "../cloud/index.js";
 import type { DrawnVertices } from "../drawing/drawn-vertices.js";
+import { type GeodeticPlace, recordNumbers } from "../query/index.js";
 import type { ProfilePoints } from "../tools/cut/profile.js";
 import { type Column, constantColumn, recordedColumn } from "../workers/index.js";
 
@@ -15,6 +16,14 @@ export type PlottedCloud = Pick<
   PointCloud,
   "name" | "attributes" | "scale" | "offset" | "place" | "bounds" | "appearance"
 >;
+
+/** Heights of a cloud's points above the ellipsoid, as its own map has them. */
+export function geodeticOf(cloud: PlottedCloud): GeodeticPlace {
+  return (x, y, z, out) => {
+    cloud.place(x, y, z, out);
+    ecefToGeodetic(out[0], out[1], out[2], out);
+  };
+}
 
 /** Directions stay as they are. */
 const LEVEL_ROTATION = Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1);
@@ -96,18 +105,11 @@ export class SectionVertices implements DrawnVertices {
    */
   #ellipsoidalHeight(): Column {
     const { chainage, height, batch } = this.#points;
-    const { scale, offset } = this.#cloud;
-    const { xyz } = batch.records;
+    const heights = recordNumbers("ellipsoidalHeight", batch.records, this.#cloud, geodeticOf(this.#cloud))!;
     const step = Math.max(1, Math.ceil(this.count / KNOTS));
-    const out = new Float64Array(3);
-    const geodetic = new Float64Array(3);
     const knots: { chainage: number; above: number }[] = [];
     for (let point = 0; point < this.count; point += step) {
-      const at = 3 * batch.inside[point];
-      const [x, y, z] = [0, 1, 2].map((axis) => xyz[at + axis] * scale[axis] + offset[axis]);
-      this.#cloud.place(x, y, z, out);
-      ecefToGeodetic(out[0], out[1], out[2], geodetic);
-      knots.push({ chainage: chainage[point], above: geodetic[2] - height[point] });
+      knots.push({ chainage: chainage[point], above: heights.value(batch.inside[point]) - height[point] });
     }
     knots.sort((a, b) => a.chainage - b.chainage);
     const data = new Float32Array(this.count);

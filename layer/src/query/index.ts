@@ -13,6 +13,7 @@ export {
   type QueryParts,
   type QueryVolume,
 } from "./point-query.js";
+export { type GeodeticPlace, recordNumbers } from "./record-numbers.js";
 export {
   type PointOrigin,
   RecordedPoints,

@@ -1,3 +1,4 @@
+import * as exporting from "@groma/layer/export";
 import * as layer from "@groma/layer/openlayers";
 import * as tools from "@groma/layer/tools";
 import { MapStage } from "./map-stage.js";
@@ -11,6 +12,7 @@ declare global {
       readonly ol: typeof ol;
       readonly layer: typeof layer;
       readonly tools: typeof tools;
+      readonly exporting: typeof exporting;
       readonly MapStage: typeof MapStage;
       readonly PlotStage: typeof PlotStage;
       readonly lineThrough: typeof lineThrough;
@@ -25,7 +27,7 @@ declare global {
 }
 
 window.map = {
-  ...{ ol, layer, tools, MapStage, PlotStage, lineThrough },
+  ...{ ol, layer, tools, exporting, MapStage, PlotStage, lineThrough },
   plot: undefined as unknown as PlotStage,
   stage: undefined as unknown as MapStage,
   measure: undefined as unknown as tools.MeasureTool,

@@ -2,8 +2,21 @@ import { describe, expect, it } from "vitest";
 import { nodeUniforms } from "../effect-plan.js";
 import { planEffects } from "../plan.js";
 import { richFacts, styleOf } from "../scene.fixture.js";
+import type { ClassStyle } from "./classes.js";
 import { ASPRS_CLASSES } from "./classes.js";
-import { checkFilter, type PointFilter, passesFilter } from "./filter.js";
+import { checkFilter, type PointFilter, recordTest } from "./filter.js";
+
+/** Whether a record of some values passes; values are stored as they are, or as steps of a thousandth. */
+function passesFilter(
+  record: Readonly<Record<string, unknown>>,
+  filter: PointFilter,
+  style: ClassStyle | undefined,
+  step = 0,
+): boolean {
+  const numbersOf = (name: string) =>
+    Object.hasOwn(record, name) ? { value: () => Number(record[name]), step } : undefined;
+  return recordTest(filter, style, numbersOf)(0);
+}
 
 describe("filters on exact records", () => {
   const filter: PointFilter = { returns: ["intermediate", "single"], ranges: { gpsTime: [10, 20] } };
@@ -19,6 +32,14 @@ describe("filters on exact records", () => {
     const classes = { ...ASPRS_CLASSES, 7: { ...ASPRS_CLASSES[7], show: false } };
     expect(passesFilter(record, filter, { classes })).toBe(passes);
   });
+});
+
+it("takes in what lies at a bound but for the rounding of float64, where integers are stored", () => {
+  const filter = { ranges: { height: [0.1, 0.7] as const } };
+  expect(70 * 0.01).toBeGreaterThan(0.7);
+  expect(passesFilter({ height: 70 * 0.01 }, filter, undefined, 0.01)).toBe(true);
+  expect(passesFilter({ height: 71 * 0.01 }, filter, undefined, 0.01)).toBe(false);
+  expect(passesFilter({ height: 70 * 0.01 }, filter, undefined)).toBe(false);
 });
 
 describe("a filter that is given", () => {

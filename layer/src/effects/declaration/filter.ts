@@ -43,28 +43,53 @@ function returnBits(number: number, of: number): number {
 }
 
 /** Whether a return is of one of some kinds. */
-export function isOfReturns(kinds: readonly ReturnKind[], number: number, of: number): boolean {
+function isOfReturns(kinds: readonly ReturnKind[], number: number, of: number): boolean {
   const bits = returnBits(number, of);
   return kinds.some((kind) => (RETURN_BITS[kind] & bits) !== 0);
 }
 
+/** Numbers of an attribute that are held against a filter. */
+export interface FilteredNumbers {
+  /** By the index of a record, in the attribute's unit; NaN where it has none. */
+  readonly value: (record: number) => number;
+  /** What stored integers are multiplied by; 0 of numbers that are stored as they are. */
+  readonly step: number;
+}
+
+/** Share of a step by which a value may lie beyond a bound: what float64 makes of `integer · step + offset` decides nothing. */
+const SLACK = 1e-6;
+
 /**
- * Whether a record passes, on its exact values: what the GPU does in float32, for picks and exports.
- * @param attributes values by name, in their units; an attribute that a record has not got passes no range
+ * What tells whether records pass, on their exact values: what the GPU does in float32, for exports and for what is pointed at.
+ * @param style whose hidden classes do not pass. Default: none is hidden
+ * @param numbersOf undefined where records have no such attribute, which then passes no range
  */
-export function passesFilter(
-  attributes: Readonly<Record<string, unknown>>,
+export function recordTest(
   filter: PointFilter | undefined,
-  style: ClassStyle,
-): boolean {
-  const value = (name: string) => Number(Object.hasOwn(attributes, name) ? attributes[name] : Number.NaN);
-  if (hidesClasses(style, filter) && !showsClass(style, filter, value("classification"))) return false;
-  const { returns } = filter ?? {};
-  if (returns && !isOfReturns(returns, value("returnNumber"), value("numberOfReturns"))) return false;
-  return Object.entries(filter?.ranges ?? {}).every(([name, [least, greatest]]) => {
-    const at = value(name);
-    return at >= least && at <= greatest;
-  });
+  style: ClassStyle | undefined,
+  numbersOf: (name: string) => FilteredNumbers | undefined,
+): (record: number) => boolean {
+  const { classes, returns, ranges = {} } = filter ?? {};
+  const tests: ((record: number) => boolean)[] = [];
+  const numberOf = (name: string) => numbersOf(name)?.value ?? (() => Number.NaN);
+  if (style ? hidesClasses(style, filter) : classes) {
+    const value = numberOf("classification");
+    const passing = new Set(classes);
+    tests.push((record) => (style ? showsClass(style, filter, value(record)) : passing.has(value(record))));
+  }
+  if (returns) {
+    const [number, of] = [numberOf("returnNumber"), numberOf("numberOfReturns")];
+    tests.push((record) => isOfReturns(returns, number(record), of(record)));
+  }
+  for (const [name, [least, greatest]] of Object.entries(ranges)) {
+    const { value, step } = numbersOf(name) ?? { value: () => Number.NaN, step: 0 };
+    const slack = SLACK * Math.abs(step);
+    tests.push((record) => {
+      const at = value(record);
+      return at >= least - slack && at <= greatest + slack;
+    });
+  }
+  return (record) => tests.every((test) => test(record));
 }
 
 /**
