@@ -1,8 +1,10 @@
 import { cross, difference, dot, type Vector } from "@groma/georef";
 import type { Vertex } from "../vertex/vertex.js";
+import { acrossError, lengthTerm } from "../worth/near-noise.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity } from "../worth/quantity.js";
-import { azimuthSensitivity, isOneFoot, joined, type Line, lineOf, scaled } from "./line.js";
+import { directionOf } from "./direction.js";
+import { azimuthTerm, isOneFoot, joined, type Line, lineOf, scaled } from "./line.js";
 import { coincident } from "./refusals.js";
 
 /** The angle between two lines that meet. */
@@ -32,19 +34,23 @@ export function measureAngle(a: Vertex, apex: Vertex, b: Vertex, options: WorthO
     { vertex: apex, gradient: ofApex },
     { vertex: b, gradient: ofB },
   ];
+  // Straight on, or back: what the angle lacks to that is the length of what is across, either way.
+  const axis = scaled(u, 1 / Math.hypot(...u));
+  const sideways = gradients.map(({ vertex, gradient }) => ({ vertex, gradient: cross(axis, gradient) }));
+  const bend = Math.min(value, Math.PI - value);
+  const { sensitivities, across } = lengthTerm(bend, gradients, () => [gradients, sideways], options);
   return {
-    space: quantity(value, "rad", [gradients], options),
+    space: quantity(value, "rad", sensitivities, { ...options, own: acrossError(across) }),
     ...(!isOneFoot(toA) && !isOneFoot(toB) && { horizontal: betweenAzimuths(toA, toB, options) }),
   };
 }
 
 function betweenAzimuths(toA: Line, toB: Line, options: WorthOptions): Quantity<"rad"> {
   const turned = toB.geodesic.azimuthFrom - toA.geodesic.azimuthFrom;
-  const ofA = azimuthSensitivity(toA, "a").map((list) =>
-    list.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, -1) })),
-  );
-  const sensitivities = joined([ofA, azimuthSensitivity(toB, "a")]);
-  return quantity(turned < 0 ? turned + 2 * Math.PI : turned, "rad", sensitivities, options);
+  const [ofA, ofB] = [azimuthTerm(toA, "a", options), azimuthTerm(toB, "a", options)];
+  const away = ofA?.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, -1) }));
+  const turning = away && ofB && joined([[away], [ofB]])[0];
+  return directionOf(turned < 0 ? turned + 2 * Math.PI : turned, turning, options);
 }
 
 /** How the angle from v grows with the end of u: across u, away from v, over its length; any way where they are in line. */

@@ -1,7 +1,10 @@
 import { cross, dot, turnOut, type Vector } from "@groma/georef";
 import { ecefVertex, type Vertex } from "../vertex/vertex.js";
+import { acrossError, lengthTerm, spreadOf } from "../worth/near-noise.js";
 import type { WorthOptions } from "../worth/point-errors.js";
-import { type Quantity, quantity } from "../worth/quantity.js";
+import { type OwnError, type Quantity, quantity } from "../worth/quantity.js";
+import { lengthOf } from "./distance.js";
+import { lineOf, scaled, spaceTerm } from "./line.js";
 import { collinear } from "./refusals.js";
 import { frameOf, inFrame } from "./ring.js";
 
@@ -26,6 +29,9 @@ export interface Circle {
 
 /** Sine of the angle between two sides below which three points are one line. */
 const ON_A_LINE = 1e-9;
+
+/** Share of an arc's rise that its band takes: below, radii are linear in it; above, there may be no circle. */
+const [SLIGHT, FLAT] = [0.02, 0.8];
 
 /**
  * A circle and an arc in space.
@@ -56,19 +62,75 @@ export function measureCircle(a: Vertex, b: Vertex, c: Vertex, options: WorthOpt
       return { vertex, gradient: turnOut(frame, along[0], along[1], along[2]) };
     });
   };
-  const told = <Unit extends "m" | "m²" | "rad">(unit: Unit, of: (circle: PlaneCircle) => number) =>
-    quantity(of(found), unit, [sensitivities(of)], options);
+  const sagittaOf = (circle: PlaneCircle) => 2 * circle.radius * Math.sin(circle.angle / 4) ** 2;
+  const rise = sensitivities(sagittaOf);
+  // Out of the plane of three points the arc bends as easily, where it is nearly straight.
+  const out = turnOut(frame, ...normal);
+  const towards = scaled(rise[1].gradient, 1 / Math.hypot(...rise[1].gradient));
+  const sideways = rise.map(({ vertex, gradient }) => ({
+    vertex,
+    gradient: scaled(out, dot(gradient, towards)),
+  }));
+  const both = () => [rise, sideways];
+  const bent = lengthTerm(sagittaOf(found), rise, both, options);
+  const isFlat = bent.sensitivities.length > 1;
+  const spread = isFlat || bent.across > 0 ? spreadOf(both(), options) : 0;
+  /** Radii grow without bound as the rise of the arc goes to 0. */
+  const widened = (linear: number, power: number): OwnError[] => {
+    const share = (1.96 * Math.sqrt(spreadOf([rise], options))) / sagittaOf(found);
+    if (share < SLIGHT) return [];
+    const standard = share < FLAT ? linear * Math.sqrt((1 - share) ** (-2 * power) - 1) : null;
+    return [{ name: "flatness", standard, note: "the arc rises by little more than its points are off" }];
+  };
+  const told = <Unit extends "m" | "m²" | "rad">(
+    unit: Unit,
+    of: (circle: PlaneCircle) => number,
+    own: (linear: number) => OwnError[],
+  ) => {
+    const lists = [sensitivities(of)];
+    return quantity(of(found), unit, lists, { ...options, own: own(Math.sqrt(spreadOf(lists, options))) });
+  };
+  const angle = isFlat
+    ? quantity(
+        found.angle,
+        "rad",
+        both().map((list) =>
+          list.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, 8 / chord) })),
+        ),
+        options,
+      )
+    : told(
+        "rad",
+        (circle) => circle.angle,
+        () => acrossError((8 / chord) * bent.across),
+      );
   return {
     centre: ecefVertex([origin[0] + x, origin[1] + y, origin[2] + z]),
     normal: turnOut(frame, ...normal),
-    radius: told("m", (circle) => circle.radius),
-    circumference: told("m", (circle) => 2 * Math.PI * circle.radius),
-    area: told("m²", (circle) => Math.PI * circle.radius ** 2),
+    radius: told(
+      "m",
+      (circle) => circle.radius,
+      (linear) => widened(linear, 1),
+    ),
+    circumference: told(
+      "m",
+      (circle) => 2 * Math.PI * circle.radius,
+      (linear) => widened(linear, 1),
+    ),
+    area: told(
+      "m²",
+      (circle) => Math.PI * circle.radius ** 2,
+      (linear) => widened(linear, 2),
+    ),
     arc: {
-      length: told("m", (circle) => circle.radius * circle.angle),
-      angle: told("rad", (circle) => circle.angle),
-      chord: told("m", (circle) => circle.chord),
-      sagitta: told("m", (circle) => 2 * circle.radius * Math.sin(circle.angle / 4) ** 2),
+      length: told(
+        "m",
+        (circle) => circle.radius * circle.angle,
+        () => acrossError(((8 / 3) * spread) / chord),
+      ),
+      angle,
+      chord: lengthOf(chord, spaceTerm(lineOf(a, c), options), options),
+      sagitta: lengthOf(sagittaOf(found), bent, options),
     },
   };
 }

@@ -2,10 +2,23 @@ import type { Vector } from "@groma/georef";
 import { axesAt, combined } from "../vertex/axes.js";
 import { commonGrid, convergenceAt, type Grid, geodesicOfGrid, turn } from "../vertex/grid.js";
 import type { Vertex } from "../vertex/vertex.js";
+import { ANY_DIRECTION, acrossError, directionTerm } from "../worth/near-noise.js";
 import type { WorthOptions } from "../worth/point-errors.js";
-import { type Quantity, quantity } from "../worth/quantity.js";
+import { type Quantity, type QuantityOptions, quantity, type Sensitivity } from "../worth/quantity.js";
 import { heightDifference } from "./distance.js";
-import { azimuthSensitivity, ends, isOneFoot, type Line, lineOf, raised } from "./line.js";
+import {
+  azimuthTerm,
+  ends,
+  isOneFoot,
+  type Line,
+  levelComponents,
+  levelTerm,
+  lineOf,
+  raised,
+  scaled,
+  spaceComponents,
+  verticalSensitivity,
+} from "./line.js";
 
 /** A direction in the plane of a projection. */
 export interface GridBearing {
@@ -44,8 +57,8 @@ export function measureDirection(a: Vertex, b: Vertex, options: WorthOptions = {
   const grid = commonGrid([a, b]);
   const { azimuthFrom, azimuthTo } = line.geodesic;
   return {
-    forward: quantity(positive(azimuthFrom), "rad", azimuthSensitivity(line, "a"), options),
-    back: quantity(positive(azimuthTo + Math.PI), "rad", azimuthSensitivity(line, "b"), options),
+    forward: directionOf(positive(azimuthFrom), azimuthTerm(line, "a", options), options),
+    back: directionOf(positive(azimuthTo + Math.PI), azimuthTerm(line, "b", options), options),
     ...(grid && { grid: gridBearing(grid, line, options) }),
     ...(slope && { slope }),
   };
@@ -56,13 +69,11 @@ function gridBearing(grid: Grid, line: Line, options: WorthOptions): GridBearing
   if (a[0] === b[0] && a[1] === b[1]) return undefined;
   const bearing = Math.atan2(b[0] - a[0], b[1] - a[1]);
   const convergence = convergenceAt(grid, a);
+  const ofRecords: QuantityOptions = { ...options, ofRecords: true };
   const azimuth = geodesicOfGrid(grid, a, b).azimuthFrom;
   return {
     name: grid.name,
-    bearing: quantity(positive(bearing), "rad", azimuthSensitivity(line, "a"), {
-      ...options,
-      ofRecords: true,
-    }),
+    bearing: directionOf(positive(bearing), azimuthTerm(line, "a", ofRecords), ofRecords),
     convergence,
     arcToChord: turn(azimuth - bearing - convergence),
   };
@@ -77,8 +88,32 @@ function slopeOf(line: Line, options: WorthOptions): Quantity<"rad"> | undefined
   const [sin, cos] = [Math.sin(slope) / space, Math.cos(slope) / space];
   const gradient = (vertex: Vertex, azimuth: number, sign: number): Vector =>
     combined(axesAt(vertex), -sign * sin * Math.sin(azimuth), -sign * sin * Math.cos(azimuth), sign * cos);
-  const sensitivities = ends(line, gradient(a, geodesic.azimuthFrom, -1), gradient(b, geodesic.azimuthTo, 1));
-  return quantity(slope, "rad", [sensitivities], options);
+  const turning = ends(line, gradient(a, geodesic.azimuthFrom, -1), gradient(b, geodesic.azimuthTo, 1));
+  const tilting = directionTerm(space, turning, () => spaceComponents(line), options);
+  if (!tilting) return directionOf(slope, undefined, options);
+  // Near the vertical the level part is a length that may be noise.
+  const part = levelTerm(line, options);
+  const alone = part.sensitivities.length === 1;
+  const lists = alone
+    ? [tilting]
+    : [...levelComponents(line, sin), ...verticalSensitivity(line).map((list) => scaledList(list, cos))];
+  const own = acrossError(Math.abs(sin) * part.across);
+  return quantity(slope, "rad", lists, { ...options, own });
+}
+
+/** A direction with its worth: half a turn where it may be any. */
+export function directionOf(
+  value: number,
+  turning: readonly Sensitivity[] | undefined,
+  options: QuantityOptions,
+): Quantity<"rad"> {
+  return turning
+    ? quantity(value, "rad", [turning], options)
+    : quantity(value, "rad", [], { ...options, own: ANY_DIRECTION });
+}
+
+function scaledList(list: readonly Sensitivity[], factor: number): Sensitivity[] {
+  return list.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, factor) }));
 }
 
 /** An azimuth as 0 … 2π. */

@@ -2,16 +2,10 @@ import { sameHeights } from "@groma/georef";
 import { axesAt } from "../vertex/axes.js";
 import { commonGrid, type Grid, geodesicOfGrid, scaleFactorAt } from "../vertex/grid.js";
 import type { Vertex } from "../vertex/vertex.js";
+import { acrossError, type Term } from "../worth/near-noise.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, type QuantityOptions, quantity } from "../worth/quantity.js";
-import {
-  type Line,
-  levelSensitivity,
-  lineOf,
-  raised,
-  spaceSensitivity,
-  verticalSensitivity,
-} from "./line.js";
+import { type Line, levelTerm, lineOf, raised, spaceTerm, verticalSensitivity } from "./line.js";
 
 /** A length in the plane of a projection, and what leads from it to the ground. */
 export interface GridDistance {
@@ -51,12 +45,21 @@ export function measureDistance(a: Vertex, b: Vertex, options: WorthOptions = {}
   const horizontal = line.geodesic.distance * raised(line);
   const grid = commonGrid([a, b]);
   return {
-    space: quantity(line.space, "m", spaceSensitivity(line), options),
-    geodesic: quantity(line.geodesic.distance, "m", levelSensitivity(line), options),
-    horizontal: quantity(horizontal, "m", levelSensitivity(line, raised(line)), options),
+    space: lengthOf(line.space, spaceTerm(line, options), options),
+    geodesic: lengthOf(line.geodesic.distance, levelTerm(line, options), options),
+    horizontal: lengthOf(horizontal, levelTerm(line, options, raised(line)), options),
     ...heightDifference(line, options),
     ...(grid && { grid: gridDistance(grid, line, options) }),
   };
+}
+
+/** A length with its worth. */
+export function lengthOf(
+  value: number,
+  { sensitivities, across }: Term,
+  options: QuantityOptions,
+): Quantity<"m"> {
+  return quantity(value, "m", sensitivities, { ...options, own: acrossError(across) });
 }
 
 /** Height of the end less that of the start, in the system that both were recorded in where they share one. */
@@ -95,9 +98,10 @@ function gridDistance(grid: Grid, line: Line, options: WorthOptions): GridDistan
   const length = Math.hypot(dx, dy) * grid.unit;
   const scaleFactor = gridFactor(grid, line);
   const elevationFactor = 1 / raised(line);
+  const ofRecords: QuantityOptions = { ...options, ofRecords: true };
   return {
     name: grid.name,
-    distance: quantity(length, "m", levelSensitivity(line, scaleFactor), { ...options, ofRecords: true }),
+    distance: lengthOf(length, levelTerm(line, ofRecords, scaleFactor), ofRecords),
     scaleFactor,
     elevationFactor,
     combinedFactor: scaleFactor * elevationFactor,

@@ -1,7 +1,9 @@
 import { covariance, symmetricEigen, turnOut, type Vector } from "@groma/georef";
 import type { Vertex } from "../vertex/vertex.js";
+import { acrossError, directionTerm, lengthTerm } from "../worth/near-noise.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity, type Sensitivity } from "../worth/quantity.js";
+import { directionOf } from "./direction.js";
 import { scaled } from "./line.js";
 import { collinear, tooFew } from "./refusals.js";
 import { frameOf, inFrame } from "./ring.js";
@@ -69,17 +71,24 @@ export function bestPlane(vertices: readonly Vertex[], options: WorthOptions): B
   const steeper = 1 / Math.max(normal[2], 1e-6);
   const flat = level > 0 ? [normal[0] / level, normal[1] / level] : [1, 0];
   const downhill: Vector = [flat[0] * steeper, flat[1] * steeper, 0];
-  const around: Vector = [flat[1] / level, -flat[0] / level, 0];
+  // Across the descent: where the tilt may be noise, so may its direction.
+  const sideways: Vector = [flat[1], -flat[0], 0];
+  const tilts = () => [gradients(downhill), gradients(sideways)];
+  const tilt = Math.atan2(level, normal[2]);
+  const { sensitivities, across } = lengthTerm(tilt, gradients(downhill), tilts, options);
+  const turn = (): Quantity<"rad"> => {
+    const around = gradients([sideways[0] / level, sideways[1] / level, 0]);
+    const turned = azimuth < 0 ? azimuth + 2 * Math.PI : azimuth;
+    return directionOf(turned, directionTerm(level, around, tilts, options), options);
+  };
   const normalOut = turnOut(frame, ...normal);
   const [x, y, z] = turnOut(frame, mean[0], mean[1], mean[2]);
   const azimuth = Math.atan2(normal[0], normal[1]);
   return {
     centre: [frame.origin[0] + x, frame.origin[1] + y, frame.origin[2] + z],
     normal: normalOut,
-    slope: quantity(Math.atan2(level, normal[2]), "rad", [gradients(downhill)], options),
-    ...(level > 1e-12 && {
-      aspect: quantity(azimuth < 0 ? azimuth + 2 * Math.PI : azimuth, "rad", [gradients(around)], options),
-    }),
+    slope: quantity(tilt, "rad", sensitivities, { ...options, own: acrossError(across) }),
+    ...(level > 1e-12 && { aspect: turn() }),
     residuals,
     // Of the residuals: the least eigenvalue is a difference of great numbers.
     deviation: quantity(

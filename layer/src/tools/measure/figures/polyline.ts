@@ -1,5 +1,6 @@
 import { commonGrid } from "../vertex/grid.js";
 import type { Vertex } from "../vertex/vertex.js";
+import type { Term } from "../worth/near-noise.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity, type Sensitivity } from "../worth/quantity.js";
 import {
@@ -8,16 +9,18 @@ import {
   type GridDistance,
   gridFactor,
   heightDifference,
+  lengthOf,
   measureDistance,
 } from "./distance.js";
 import {
   joined,
   type Line,
-  levelSensitivity,
+  levelTerm,
   lineOf,
   raised,
   scaled,
-  spaceSensitivity,
+  spaceTerm,
+  summed,
   verticalSensitivity,
 } from "./line.js";
 import { tooFew } from "./refusals.js";
@@ -57,18 +60,19 @@ export function measurePolyline(
   });
   const lines = pairs.map(([a, b]) => lineOf(a, b));
   const parts = once(() => lines.map(({ a, b }) => measureDistance(a, b, options)));
-  const level = once(() => joined(lines.map((line) => levelSensitivity(line))));
-  const sumOf = (of: (line: Line) => number, sensitivities: Sensitivity[][]) =>
-    quantity(
+  const level = once(() => summed(lines.map((line) => levelTerm(line, options))));
+  const sumOf = (of: (line: Line) => number, term: Term) =>
+    lengthOf(
       lines.reduce((total, line) => total + of(line), 0),
-      "m",
-      sensitivities,
+      term,
       options,
     );
-  const space = once(() => sumOf((line) => line.space, joined(lines.map(spaceSensitivity))));
+  const space = once(() =>
+    sumOf((line) => line.space, summed(lines.map((line) => spaceTerm(line, options)))),
+  );
   const geodesic = once(() => sumOf((line) => line.geodesic.distance, level()));
   const horizontal = once(() => sumOf((line) => line.geodesic.distance * raised(line), level()));
-  const grid = once(() => gridLength(lines, level, options));
+  const grid = once(() => gridLength(lines, options));
   const [ascent, descent] = ([1, -1] as const).map((sign) => once(() => climb(lines, sign, options)));
   // Each is worked out when it is asked for: of a perimeter most are not.
   return {
@@ -104,11 +108,7 @@ function once<Value>(of: () => Value): () => Value {
   };
 }
 
-function gridLength(
-  lines: readonly Line[],
-  level: () => Sensitivity[][],
-  options: WorthOptions,
-): Polyline["grid"] {
+function gridLength(lines: readonly Line[], options: WorthOptions): Polyline["grid"] {
   const grid = commonGrid(lines.flatMap(({ a, b }) => [a, b]));
   if (!grid) return undefined;
   const lengths = lines.map(({ a, b }) => {
@@ -116,6 +116,7 @@ function gridLength(
     return Math.hypot(to[0] - from[0], to[1] - from[1]) * grid.unit;
   });
   const length = lengths.reduce((sum, one) => sum + one, 0);
+  const ofRecords = { ...options, ofRecords: true };
   const scaleFactor = once(() => {
     const factors = lines.map((line) => gridFactor(grid, line));
     const onEllipsoid = lengths.reduce((sum, one, i) => sum + one / factors[i], 0);
@@ -123,7 +124,7 @@ function gridLength(
   });
   return {
     name: grid.name,
-    distance: quantity(length, "m", level(), { ...options, ofRecords: true }),
+    distance: lengthOf(length, summed(lines.map((line) => levelTerm(line, ofRecords))), ofRecords),
     get scaleFactor() {
       return scaleFactor();
     },

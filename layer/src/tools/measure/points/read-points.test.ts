@@ -32,8 +32,7 @@ describe("points of a rectangle", () => {
     async (classes) => {
       const of = plan();
       const take = vi.spyOn(of, "take");
-      let others = 0;
-      let done = false;
+      let [others, done] = [0, false];
       const other = () => {
         others++;
         if (!done) setImmediate(other);
