@@ -42,6 +42,7 @@ const app = await Application.bootstrap(
       "cesium",
       "openlayers",
       "link",
+      "navigation",
       "tools",
       "plot",
       "query",

@@ -9,6 +9,7 @@ const ENTRIES = [
   "cesium/index.ts",
   "openlayers/index.ts",
   "link/index.ts",
+  "navigation/index.ts",
   "tools/index.ts",
   "plot/index.ts",
 ].map((entry) => `layer/src/${entry}`);

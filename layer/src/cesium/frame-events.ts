@@ -1,4 +1,4 @@
-import type { Event } from "cesium";
+import { type Event, SceneMode } from "cesium";
 import type { StreamProgress } from "../cloud/index.js";
 import type { FrameReport } from "../drawing/frame.js";
 import { FrameFailures } from "../drawing/frame-failures.js";
@@ -18,6 +18,7 @@ export class FrameEvents {
   readonly #layer: EventSource;
   readonly #failures = new FrameFailures();
   #scene: FrameState["camera"]["_scene"] | undefined;
+  #warned = false;
   /** Stops listening to the budget. */
   #unwatch: () => void = () => undefined;
 
@@ -29,6 +30,15 @@ export class FrameEvents {
   watch(budget: SharedBudget | undefined): void {
     this.#unwatch();
     this.#unwatch = budget?.onChange(() => this.#scene?.requestRender()) ?? (() => undefined);
+  }
+
+  /** Warns once where a scene has views that points are not drawn in. */
+  shownIn(mode: SceneMode): void {
+    const flat = mode === SceneMode.SCENE2D || mode === SceneMode.COLUMBUS_VIEW;
+    if (!flat || this.#warned) return;
+    this.#warned = true;
+    const { name } = this.#layer.cloud;
+    console.warn(`${name}: point clouds are drawn in 3D only, not in 2D and Columbus view`);
   }
 
   /** Raises what failed, unless it is known; undefined: nothing did. */

@@ -1,4 +1,4 @@
-import { type Camera, Matrix4 } from "cesium";
+import { type Camera, type Cartesian3, Matrix4 } from "cesium";
 import type { PickOptions } from "../drawing/drawing-options.js";
 import { pointOf } from "../drawing/drawn-node.js";
 import type { GpuMilliseconds, ProbeRequest, LayerRenderer as Renderer } from "../drawing/frame.js";
@@ -16,6 +16,7 @@ import { OffscreenPass } from "./offscreen-pass.js";
 import { candidatesAt } from "./pick-candidates.js";
 import { PointDrawing, spheresOf } from "./point-drawing.js";
 import { fitFrustum, type PointFrustum } from "./point-frustum.js";
+import { drawnPlace, pointsNear } from "./points-near.js";
 
 /** All that a layer has and does on the GPU, in one context of Cesium. */
 export class LayerRenderer implements Renderer<CesiumView> {
@@ -137,6 +138,21 @@ export class LayerRenderer implements Renderer<CesiumView> {
     const pixels = await answer;
     const id = pixels && nearestId(pixels, edge);
     return id ? pointOf(nodes, id - 1) : undefined;
+  }
+
+  /** Where a point that was picked is drawn, ECEF, metres. */
+  placeOf({ drawn, index }: { readonly drawn: CesiumNode; readonly index: number }): Cartesian3 {
+    const { vertices, modelMatrix } = drawn.uploaded;
+    return drawnPlace(modelMatrix, vertices.positions, 3 * index);
+  }
+
+  /**
+   * Where the points on the GPU are drawn, those that clips and filter leave out among them, that lie near a place.
+   * @param radius metres
+   * @returns x, y, z of each, ECEF, metres
+   */
+  near(place: Cartesian3, radius: number): number[] {
+    return pointsNear(place, radius, this.content.uploaded);
   }
 
   /** Frees all. */

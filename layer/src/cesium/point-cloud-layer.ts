@@ -1,3 +1,4 @@
+import type { Vector } from "@groma/georef";
 import { BoundingSphere, Cartesian3, DeveloperError, Event, SceneMode } from "cesium";
 import { ClipSet } from "../clips/index.js";
 import { POINT_CLOUD, PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
@@ -78,7 +79,6 @@ export class PointCloudLayer {
   #forced: Forced = {};
   #heightOffset = 0;
   #renderer: LayerRenderer | undefined;
-  #warned = false;
   #destroyed = false;
 
   /** @param ownsCloud whether `destroy()` destroys the cloud too; a cloud that several views share stays */
@@ -282,6 +282,26 @@ export class PointCloudLayer {
     return { ...record, layer: this, cloud, position: new Cartesian3(x, y, z) };
   }
 
+  /**
+   * Where that point is drawn, ECEF, metres, with the layer's height offset: nothing is read from the file, so it serves what
+   * follows the pointer.
+   * @throws as {@link pick}
+   */
+  async pickPosition(
+    windowPosition: WindowPosition,
+    given: PickOptions = {},
+  ): Promise<Cartesian3 | undefined> {
+    this.#mustExist();
+    const renderer = this.#renderer;
+    const found = await renderer?.pick(windowPosition, checkPick(windowPosition, given, this.cloud.name));
+    return found && renderer?.placeOf(found);
+  }
+
+  /** Where points drawn lately lie within some metres of a place: x, y, z of each, ECEF. @internal */
+  drawnNear(place: Vector, radius: number): readonly number[] {
+    return this.#renderer?.near(new Cartesian3(...place), radius) ?? [];
+  }
+
   /** Lets nodes that failed be asked for again. */
   retryFailed(): void {
     this.#mustExist();
@@ -302,8 +322,7 @@ export class PointCloudLayer {
   #draw(frameState: FrameState): void {
     const { passes, context, mode } = frameState;
     this.#renderer?.content.lift(this.#heightOffset);
-    const flat = mode === SceneMode.SCENE2D || mode === SceneMode.COLUMBUS_VIEW;
-    if (flat && this.show) this.#warnOfFlatView();
+    if (this.show) this.#events.shownIn(mode);
     // A lost context takes no commands.
     if (!this.show || mode !== SceneMode.SCENE3D || context._gl.isContextLost()) {
       this.#rest();
@@ -385,11 +404,5 @@ export class PointCloudLayer {
     }
     this.#renderer.begin(frameState);
     return this.#renderer;
-  }
-
-  #warnOfFlatView(): void {
-    if (this.#warned) return;
-    this.#warned = true;
-    console.warn(`${this.cloud.name}: point clouds are drawn in 3D only, not in 2D and Columbus view`);
   }
 }

@@ -56,6 +56,11 @@ export class LayerContent<V extends ViewTypes> {
     return this.#nodes;
   }
 
+  /** Nodes on the GPU: those of the last frame, and those of the frames before that there was room for. */
+  get uploaded(): Iterable<V["node"]> {
+    return this.#uploads.all;
+  }
+
   /** What they are drawn in, the rows of each of their tables as the frame began. */
   get groups(): readonly NodeGroup<V>[] {
     return this.#groups;

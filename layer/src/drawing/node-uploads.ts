@@ -40,6 +40,11 @@ export class NodeUploads<Node extends UploadedNode> {
     return this.#heightOffset;
   }
 
+  /** All of them, in view or not. */
+  get all(): Iterable<Node> {
+    return this.#nodes.values();
+  }
+
   /** The node, where all that programs with these attributes need is on the GPU. */
   ready(node: OctreeNode, sets: readonly AttributeSet[]): Node | undefined {
     const uploaded = this.#nodes.get(node);

@@ -1,4 +1,5 @@
 import * as layer from "@groma/layer/cesium";
+import { PointNavigation } from "@groma/layer/navigation";
 import * as Cesium from "cesium";
 import { Stage } from "./stage.js";
 
@@ -9,11 +10,14 @@ declare global {
       readonly Cesium: typeof Cesium;
       readonly layer: typeof layer;
       readonly Stage: typeof Stage;
+      readonly PointNavigation: typeof PointNavigation;
       /** The stage that stands, if any. */
       stage: Stage;
+      /** What moves its camera, if anything. */
+      navigation: PointNavigation;
     };
   }
 }
 
-window.page = { Cesium, layer, Stage, stage: undefined as unknown as Stage };
+window.page = { Cesium, layer, Stage, PointNavigation } as Window["page"];
 document.body.dataset.ready = "true";
