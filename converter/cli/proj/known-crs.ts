@@ -1,6 +1,6 @@
 import { type Crs, CrsError, type Unit } from "@groma/georef";
 import type { Proj } from "./program/find.js";
-import { type CrsText, idOf, type ProjAxis, type ProjJson, projJson, written } from "./source.js";
+import { type CrsText, idOf, inside, type ProjAxis, type ProjJson, projJson, written } from "./source.js";
 
 const METRE: Unit = { name: "metre", kind: "linear", size: 1 };
 /** Units that PROJJSON has a name for. */
@@ -62,10 +62,6 @@ const ON_EARTH: ReadonlySet<string> = new Set([
   ...["GeographicCRS", "GeodeticCRS", "ProjectedCRS", "DerivedGeographicCRS", "DerivedGeodeticCRS"],
   "DerivedProjectedCRS",
 ]);
-
-function inside(crs: ProjJson): ProjJson {
-  return crs.type === "BoundCRS" && crs.source_crs ? inside(crs.source_crs) : crs;
-}
 
 function isProjected(crs: ProjJson): boolean {
   return /ProjectedCRS$/.test(inside(crs).type ?? "");

@@ -1,7 +1,7 @@
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { type Crs, CrsError, isAboveOwnEllipsoid } from "@groma/georef";
+import { type Crs, CrsError, isAboveOwnEllipsoid, isShifted } from "@groma/georef";
 import type { Proj } from "./program/find.js";
 import { failed, run } from "./program/run.js";
 
@@ -72,11 +72,14 @@ export async function sourceTexts(
   const texts = own === undefined ? textsOf(crs) : [own];
   const { whole, json } = await firstKnown(proj, crs.name, texts, signal);
   if (json.coordinate_system?.subtype === "Cartesian" && json.type === "GeodeticCRS") throw inSpace(crs.name);
-  const [horizontal, vertical] = json.type === "CompoundCRS" && json.components ? json.components : [json];
+  const [first, vertical] = json.type === "CompoundCRS" && json.components ? json.components : [json];
+  const hasOther = hasThreeAxes(first) && isGivenApart(crs);
+  const horizontal = hasOther ? inPlane(first) : first;
   const code = idOf(horizontal);
-  const plain = vertical
-    ? { name: horizontal.name ?? crs.name, text: code ? `EPSG:${code}` : JSON.stringify(horizontal) }
-    : whole;
+  const plain =
+    vertical || hasOther
+      ? { name: horizontal.name ?? crs.name, text: code ? `EPSG:${code}` : JSON.stringify(horizontal) }
+      : whole;
   if (crs.height.kind !== "geoid") return { horizontal: plain };
 
   const wanted = crs.height.epsg;
@@ -89,6 +92,27 @@ export async function sourceTexts(
   const heights = await projJson(proj, { name: crs.height.model, text: `EPSG:${wanted}` }, signal);
   const compound = { type: "CompoundCRS", name: crs.name, components: [horizontal, heights] };
   return { horizontal: plain, compound: { name: crs.name, text: JSON.stringify(compound) } };
+}
+
+/** Whether heights were given that are not those of a third axis. */
+function isGivenApart({ height, proj4 }: Pick<Crs, "height" | "proj4">): boolean {
+  return height.kind === "geoid" || (height.kind === "ellipsoidal" && !height.ellipsoid && isShifted(proj4));
+}
+
+function hasThreeAxes(crs: ProjJson): boolean {
+  return inside(crs).coordinate_system?.axis?.length === 3;
+}
+
+/** A CRS without its third axis, and so without the codes that it had with it. */
+function inPlane({ id: _, ...crs }: ProjJson): ProjJson {
+  const { coordinate_system: system, source_crs, target_crs, base_crs } = crs;
+  return {
+    ...crs,
+    ...(system?.axis && { coordinate_system: { ...system, axis: system.axis.slice(0, 2) } }),
+    ...(source_crs && { source_crs: inPlane(source_crs) }),
+    ...(target_crs && { target_crs: inPlane(target_crs) }),
+    ...(base_crs && { base_crs: inPlane(base_crs) }),
+  };
 }
 
 /** The greatest code that EPSG gives out itself; ESRI's software writes its own, greater ones under EPSG's name. */
@@ -130,6 +154,7 @@ export interface ProjJson {
   readonly components?: readonly [ProjJson, ProjJson];
   /** Of a BoundCRS. */
   readonly source_crs?: ProjJson;
+  readonly target_crs?: ProjJson;
   readonly transformation?: { readonly parameters?: readonly { readonly value?: unknown }[] };
   /** Of a projected or derived CRS. */
   readonly base_crs?: ProjJson;
@@ -144,6 +169,11 @@ export interface ProjAxis {
   readonly direction?: string;
   /** A unit of PROJJSON's own (`metre`, `degree`), or one with its size in metres or radians. */
   readonly unit?: string | { readonly name?: string; readonly conversion_factor?: number };
+}
+
+/** The CRS that a transformation is bound to. */
+export function inside(crs: ProjJson): ProjJson {
+  return crs.type === "BoundCRS" && crs.source_crs ? inside(crs.source_crs) : crs;
 }
 
 /** Geocentric coordinates need no engine: they are X, Y, Z already. */
