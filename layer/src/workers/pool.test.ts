@@ -174,6 +174,18 @@ describe("WorkerPool", () => {
     await expect(next).resolves.toBe(vertices);
   });
 
+  it("says where there are no workers what to give in their place, and keeps nothing waiting", async () => {
+    const pool = new WorkerPool();
+    pool.warm();
+    const { job } = setUp(1);
+    for (let times = 0; times < 2; times++) {
+      await expect(pool.records(job())).rejects.toThrow(
+        /^DECODE_WORKER: .* new LocalExecutor\(new LazDecoder\(create\)\)/,
+      );
+      expect(pool.pending).toBe(0);
+    }
+  });
+
   it("takes a worker that does not answer for dead", async () => {
     const { pool, workers, job } = setUp(1, 10);
     await expect(pool.run(job())).rejects.toThrow(expect.objectContaining({ code: "DECODE_WORKER" }));

@@ -51,7 +51,16 @@ const MAX_DEATHS = 2;
 /** Points that all workers together have in hand at most, each of which takes them some hundred bytes. */
 const POINTS_AT_ONCE = 2 ** 21;
 
+/** @throws DecodeError DECODE_WORKER where there are none, as in Node */
 function createDefaultWorker(): WorkerLike {
+  if (typeof Worker === "undefined") {
+    throw new DecodeError({
+      code: "DECODE_WORKER",
+      file: "points",
+      cause: "there are no web workers here to decode them, as in Node",
+      fix: "Give the option executor: new LocalExecutor(new LazDecoder(create)), with create of laz-perf/lib/node",
+    });
+  }
   return new Worker(new URL("./node.worker.js", import.meta.url), { type: "module", name: "groma-node" });
 }
 
@@ -143,7 +152,13 @@ export class WorkerPool implements NodeExecutor {
       const task: Task = { request, signal, resolve: settle(resolve), reject: settle(reject), deaths: 0 };
       signal?.addEventListener("abort", abandon, { once: true });
       this.#waiting.push(task);
-      this.#dispatch();
+      try {
+        this.#dispatch();
+      } catch (thrown) {
+        // No worker can be made: nobody would ever take it.
+        abandon();
+        throw thrown;
+      }
     });
   }
 

@@ -2,9 +2,9 @@ import type { Measurement } from "../measurement/measurement.js";
 import { datasetNameOf } from "../vertex/vertex.js";
 import { knownValues, type SaveOptions } from "./write.js";
 
-const COLUMNS = "measurement,kind,value_name,value,unit,uncertainty95,at_least,unknown_parts";
+const COLUMNS = "measurement,kind,value_name,value,unit,uncertainty95,at_least,unknown_parts,id";
 const VERTEX_COLUMNS =
-  "measurement,kind,vertex,longitude_deg,latitude_deg,height_m,dataset,node,record,x_integer,y_integer,z_integer,x,y,z,dataset_identity";
+  "measurement,kind,vertex,longitude_deg,latitude_deg,height_m,dataset,node,record,x_integer,y_integer,z_integer,x,y,z,dataset_identity,id";
 
 /** A row for each value of each measurement, SI and radians (RFC 4180). An uncertainty that is unknown is empty. */
 export function valuesToCsv(measurements: readonly Measurement[], options: SaveOptions = {}): string {
@@ -12,7 +12,17 @@ export function valuesToCsv(measurements: readonly Measurement[], options: SaveO
     knownValues(measurement, options).map(
       ({ name, quantity: { value, unit, uncertainty, atLeast, parts } }) => {
         const unknown = parts.flatMap((part) => (part.standard === null ? part.name : [])).join("; ");
-        return [measurement.name, measurement.kind, name, value, unit, uncertainty, atLeast, unknown];
+        return [
+          measurement.name,
+          measurement.kind,
+          name,
+          value,
+          unit,
+          uncertainty,
+          atLeast,
+          unknown,
+          measurement.id,
+        ];
       },
     ),
   );
@@ -21,7 +31,7 @@ export function valuesToCsv(measurements: readonly Measurement[], options: SaveO
 
 /** A row for each vertex of each measurement, with the record that it stands on. */
 export function verticesToCsv(measurements: readonly Measurement[]): string {
-  const rows = measurements.flatMap(({ name, kind, vertices }) =>
+  const rows = measurements.flatMap(({ id, name, kind, vertices }) =>
     vertices.map((vertex, i) => {
       const { longitude, latitude, height, record, source } = vertex;
       const named = datasetNameOf(vertex);
@@ -30,7 +40,7 @@ export function verticesToCsv(measurements: readonly Measurement[]): string {
         ...[named?.dataset, record?.node, record?.index],
         ...(record?.integers ?? EMPTY),
         ...(source ?? EMPTY),
-        named?.identity,
+        ...[named?.identity, id],
       ];
     }),
   );

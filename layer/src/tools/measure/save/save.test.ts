@@ -148,7 +148,9 @@ describe("measurements saved and read again", () => {
       first,
       second,
     ]);
-    expect(verticesToCsv([mixed]).match(/5-[ab]{8}\r/g)).toEqual(["5-aaaaaaaa\r", "5-bbbbbbbb\r"]);
+    expect(verticesToCsv([mixed]).match(/5-[ab]{8},distance\r/g)).toEqual([
+      ...["5-aaaaaaaa,distance\r", "5-bbbbbbbb,distance\r"],
+    ]);
   });
 
   it("of a version that does not tell scans of one name apart go by the name, where one alone has it", () => {
@@ -347,11 +349,13 @@ describe("CSV", () => {
     const vertices = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 1)];
     const measurements = [one("distance", vertices, '=1+1,"x"')];
     const rows = valuesToCsv(measurements, { precision: 0.01 }).trimEnd().split("\r\n");
-    expect(rows[0]).toBe("measurement,kind,value_name,value,unit,uncertainty95,at_least,unknown_parts");
-    expect(rows[1]).toMatch(/^"'=1\+1,""x""",distance,space,10\.00\d*,m,0\.027\d*,0\.027\d*,$/);
+    expect(rows[0]).toBe("measurement,kind,value_name,value,unit,uncertainty95,at_least,unknown_parts,id");
+    expect(rows[1]).toMatch(
+      /^"'=1\+1,""x""",distance,space,10\.00\d*,m,0\.027\d*,0\.027\d*,,"'=1\+1,""x"""$/,
+    );
     const [, first] = verticesToCsv(measurements).split("\r\n");
     expect(first).toMatch(
-      /,distance,1,[\d.]+,[\d.]+,[\d.]+,__proto__,0-0-0-0,\d+,500000000,1300000000,1000,500000,5300000,1,$/,
+      /,distance,1,[\d.]+,[\d.]+,[\d.]+,__proto__,0-0-0-0,\d+,500000000,1300000000,1000,500000,5300000,1,,"'=1\+1,""x"""$/,
     );
     expect(valuesToCsv(measurements)).toContain("point precision");
   });
