@@ -14,7 +14,7 @@ export async function geodesicReport(root) {
       "length, many nearly antipodal); the planar one is taken in the UTM zone where the line begins. Areas: polygons of 24 " +
       "vertices on the equator, in between, at the antimeridian and around the pole (not planar there), against the surface " +
       "summed from small triangles, which is itself good to about 1e-9 m times the perimeter; time is per vertex. " +
-      "`geodesicPolygon` is the default: along chords up to half a kilometre, GeographicLib beyond. Errors in metres and " +
+      "`geodesicPolygon` is the default: by chords and the bulge of the ground over them up to 20 km, GeographicLib beyond. Errors in metres and " +
       "square metres.",
     svg: paretoChart({
       summaries,
