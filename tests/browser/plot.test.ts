@@ -1,6 +1,7 @@
 import { readFileSync } from "node:fs";
 import { basename, dirname } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { pointPaint } from "../../layer/src/effects/index.js";
 import { converted } from "../converted.js";
 import { data } from "../project.js";
 import { pythonMissing } from "../python.js";
@@ -69,6 +70,38 @@ describe.skipIf(pythonMissing)(
 
     afterAll(() => stage?.close());
 
+    /** Colours of the strips by the code that colours pictures on paper. */
+    const painting = async (strips: readonly number[]) => {
+      const { records, style, attributes, rgbBits } = await stage.page.evaluate(async (wanted) => {
+        const { plot, stage } = window.map;
+        const cloud = stage.source.cloud!;
+        const records = await Promise.all(
+          wanted.map(async (strip) => {
+            for (const { batch, chainage } of plot.parts) {
+              const at = chainage.findIndex((along) => Math.abs(along - 2 - 4 * strip) < 0.06);
+              if (at < 0) continue;
+              const record = await cloud.readPoint(batch.key, { record: batch.inside[at]! });
+              const geodetic = stage.heightOf(cloud, record.source);
+              return { ...record.attributes, elevation: record.source[2], ellipsoidalHeight: geodetic };
+            }
+            throw new Error("no point there");
+          }),
+        );
+        const rgbBits = cloud.statistics?.rgbBits ?? 8;
+        return { records, style: stage.layer.style!, attributes: cloud.attributes, rgbBits };
+      }, strips);
+      const values = records as Record<string, number>[];
+      const paint = pointPaint(
+        { style, attributes },
+        { numbersOf: (name) => ({ value: (record) => values[record]![name] ?? Number.NaN }), rgbBits },
+      );
+      return values.map((_, record) => {
+        const out = new Uint8ClampedArray(3);
+        paint(record, out);
+        return [...out];
+      });
+    };
+
     it("looks as the layer does, in every style and with every filter", { timeout: 240_000 }, async () => {
       for (const [name, style, filter] of LOOKS) {
         const [plot, map] = await stage.page.evaluate(
@@ -87,6 +120,14 @@ describe.skipIf(pythonMissing)(
           },
           [style, filter, STRIPS] as const,
         );
+        const painted = await painting(STRIPS);
+        for (const strip of STRIPS) {
+          if (plot[strip]![3] !== 255) continue;
+          expect(
+            colourDifference(painted[strip]!, plot[strip]!.slice(0, 3)),
+            `${name} on paper, strip ${strip}`,
+          ).toBeLessThan(2);
+        }
         if (name === "the scan's colours") await screenshot(stage.page, "plot-terraces");
         for (const strip of STRIPS) {
           const told = `${name}, strip ${strip}: ${plot[strip]} in the plot, ${map[strip]} on the map`;

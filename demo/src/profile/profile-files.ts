@@ -10,8 +10,10 @@ import {
   exportSections,
   type GroundOptions,
   MemorySink,
+  narrowed,
   type PointExportOptions,
 } from "@groma/layer/export";
+import { OFFSET, type PlotDrawing } from "@groma/layer/plot";
 import { CrossSections, type Profile, stations } from "@groma/layer/tools";
 
 /** What files of a profile are made with. */
@@ -19,6 +21,8 @@ export interface FileChoices extends ExportOptions {
   readonly title: string;
   readonly exaggeration: number;
   readonly ground: GroundOptions | undefined;
+  /** How its picture is drawn, and what it leaves out. */
+  readonly drawing: PlotDrawing;
   /** Of cross-sections, metres. */
   readonly sections: { readonly interval: number; readonly width: number; readonly thickness: number };
 }
@@ -79,7 +83,25 @@ function factsOf({ middle }: Profile, { epsg, ...facts }: CutFacts): CutFacts {
 }
 
 function picture(format: "pdf" | "svg"): Write {
-  return (profile, sink, options) => exportPicture([profile], sink, { ...options, format });
+  return (profile, sink, options) => writePicture(profile, sink, options, format);
+}
+
+/** The picture as it is seen: coloured so, and without the points that a filter hides. */
+async function writePicture(
+  profile: Profile,
+  sink: ByteSink,
+  { drawing, ...options }: Parameters<Write>[2],
+  format: "pdf" | "svg",
+): Promise<unknown> {
+  const cloud = profile.origin as PointCloud;
+  const reach = profile.strip.reach;
+  const sides = { name: OFFSET, kind: "scalar", range: [-reach, reach] } as const;
+  const paint = {
+    ...{ style: drawing.style, attributes: [sides, ...cloud.attributes] },
+    rgbBits: cloud.statistics?.rgbBits ?? undefined,
+  };
+  const seen = await narrowed(profile, { filter: drawing.filter });
+  return exportPicture([seen], sink, { ...options, paint, format });
 }
 
 function points(how: Pick<PointExportOptions, "format" | "layout">): Write {
@@ -90,7 +112,7 @@ function points(how: Pick<PointExportOptions, "format" | "layout">): Write {
 /** The picture to scale, drawn by the browser at 200 dots per inch. */
 async function writePng(...[profile, sink, options]: Parameters<Write>): Promise<void> {
   const svg = new MemorySink();
-  await exportPicture([profile], svg, { ...options, format: "svg" });
+  await writePicture(profile, svg, options, "svg");
   const address = URL.createObjectURL(svg.blob("image/svg+xml"));
   try {
     const image = new Image();

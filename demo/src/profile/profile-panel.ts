@@ -357,9 +357,9 @@ export class ProfilePanel {
   }
 
   async #save(): Promise<void> {
-    const profile = this.#profile;
+    const [profile, layer] = [this.#profile, this.#layer()];
     const format = FORMATS.get(this.#format.value);
-    if (!profile || !format) return;
+    if (!profile || !layer || !format) return;
     const { statistic, classification } = this.#groundChoice();
     const { unit } = profile;
     const classes = classification === undefined ? undefined : new Set([classification]);
@@ -370,6 +370,7 @@ export class ProfilePanel {
         ...options,
         title: this.lines.chosen?.name ?? stem,
         exaggeration: Number(this.#plot?.view.exaggeration.toPrecision(3) ?? 1),
+        drawing: this.#style.of(layer),
         ground: chosen ? { interval: intervalFor(profile.length) / unit, statistic, classes } : undefined,
         sections: {
           interval: this.#interval.valueAsNumber || 10,

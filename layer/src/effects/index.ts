@@ -10,6 +10,7 @@ export {
 export { composePointShader, nodeLayoutOf } from "./compose.js";
 export { composeQuad } from "./compose-quad.js";
 export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./declaration/classes.js";
+export { OFFSET } from "./declaration/colouring.js";
 export { drawnSpacing, footprint } from "./declaration/drawn-spacing.js";
 export type { ColumnScale, DrawnNode, PlacingFacts, SceneFacts } from "./declaration/facts.js";
 export {
@@ -73,5 +74,6 @@ export {
   widestPoint,
   withoutClips,
 } from "./plan.js";
+export { type PaintStyle, type PointPaint, pointPaint } from "./point-paint.js";
 export { completeStyle, defaultStyle, type StyleParts } from "./style.js";
 export { WEBGL2 } from "./webgl2-target.js";

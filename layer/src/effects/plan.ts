@@ -116,7 +116,13 @@ function sizeOf({ size }: PointCloudStyle) {
 }
 
 /** Where the colours of a style come from: one colouring, or two where a blend shows both. */
-function colouringsOf({ style, facts }: Pick<Scene<PointCloudStyle>, "style" | "facts">): Colouring[] {
+export function colouringsOf({
+  style,
+  facts,
+}: {
+  readonly style: PointCloudStyle;
+  readonly facts: Pick<SceneFacts, "attributes">;
+}): Colouring[] {
   const share = style.blend?.share ?? 0;
   const first = 1 - share >= LEAST_SHARE ? [style.color] : [];
   const second = style.blend && share >= LEAST_SHARE ? [style.blend.color] : [];

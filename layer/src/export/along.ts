@@ -1,5 +1,6 @@
-import { Pace, type PointBatch } from "../query/index.js";
-import { valueReader } from "../workers/index.js";
+import { OFFSET, type PaintStyle, type PointPaint, pointPaint } from "../effects/index.js";
+import { Pace, type PointBatch, recordNumbers } from "../query/index.js";
+import { colourBits, valueReader } from "../workers/index.js";
 import { SLICE } from "./columns.js";
 import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
 
@@ -10,12 +11,18 @@ export interface PointAlong {
   offset: number;
   /** Source z. */
   height: number;
-  /** The scan's own colour as it is recorded, or a grey. */
+  /** The colour that is asked for, 0 to 255; else the scan's own as it is recorded, or a grey. */
   red: number;
   green: number;
   blue: number;
   /** Undefined where the data set has no classes. */
   classification: number | undefined;
+}
+
+/** How points are coloured on paper. */
+export interface PaintOptions {
+  /** As a layer with this style has them. Default: in the scan's own colours. */
+  readonly paint?: PaintStyle | undefined;
 }
 
 /** Colour of points without one. */
@@ -29,7 +36,7 @@ const GREY = 70;
  */
 export async function eachAlong(
   selections: readonly PointSelection[],
-  options: ExportOptions,
+  options: ExportOptions & PaintOptions,
   take: (point: PointAlong) => void,
 ): Promise<number> {
   const point: PointAlong = {
@@ -37,9 +44,13 @@ export async function eachAlong(
     classification: undefined,
   };
   const place = new Float64Array(2);
+  const colour = new Uint8ClampedArray(3);
   const pace = new Pace(options.signal);
-  return eachBatch(selections, options, async (batch, wanted, { origin: { scale, offset }, along }) => {
+  return eachBatch(selections, options, async (batch, wanted, selection) => {
+    const { origin, along } = selection;
+    const { scale, offset } = origin;
     const { xyz } = batch.records;
+    const paint = options.paint && paintOf(options.paint, batch, selection, () => point.offset);
     const [red, green, blue, classification] = numbersOf(batch, ["red", "green", "blue", "classification"]);
     for (let index = 0; index < wanted.length; index++) {
       const record = wanted[index];
@@ -49,7 +60,10 @@ export async function eachAlong(
       along?.locate(x, y, place, point.height);
       point.chainage = place[0];
       point.offset = place[1];
-      if (red && green && blue) {
+      if (paint) {
+        paint(record, colour);
+        [point.red, point.green, point.blue] = colour;
+      } else if (red && green && blue) {
         point.red = red(record);
         point.green = green(record);
         point.blue = blue(record);
@@ -58,6 +72,20 @@ export async function eachAlong(
       take(point);
       if (index % SLICE === 0) await pace.rest();
     }
+  });
+}
+
+/** What colours the points of a batch. @param offset of the point that is coloured, in the unit of its line */
+function paintOf(
+  style: PaintStyle,
+  { records }: PointBatch,
+  { origin, geodetic }: PointSelection,
+  offset: () => number,
+): PointPaint {
+  return pointPaint(style, {
+    numbersOf: (name) =>
+      name === OFFSET ? { value: offset } : recordNumbers(name, records, origin, geodetic),
+    rgbBits: style.rgbBits ?? colourBits(records),
   });
 }
 

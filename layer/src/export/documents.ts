@@ -24,7 +24,7 @@ export interface PictureFileOptions extends DocumentOptions {
 
 /**
  * Writes the picture of a profile, to scale: chainage and height in the units of the data set, every point a dot in its own
- * colour, the ground as a line where it is asked for.
+ * colour, or as a layer of the style given has it, the ground as a line where it is asked for.
  *
  * @param selections with the same line
  * @returns number of points that lie along the line, 0 where nothing was written

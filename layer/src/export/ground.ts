@@ -1,5 +1,5 @@
 import { TerrainLine, type TerrainOptions, type TerrainStatistic } from "../tools/terrain/terrain-line.js";
-import { eachAlong } from "./along.js";
+import { eachAlong, type PaintOptions } from "./along.js";
 import { type CutFacts, coordinatesInWords, type LengthUnit } from "./cut-facts.js";
 import type { GroundRuns } from "./landxml.js";
 import { type PictureScale, ProfilePicture } from "./picture/profile-picture.js";
@@ -13,7 +13,7 @@ export interface GroundOptions extends TerrainOptions {
 }
 
 /** What documents about a cut are made with. */
-export interface DocumentOptions extends ExportOptions, PictureScale {
+export interface DocumentOptions extends ExportOptions, PictureScale, PaintOptions {
   readonly facts: CutFacts;
   /** Default of LandXML: stations every metre, the percentile 25. Of pictures: none is drawn. */
   readonly ground?: GroundOptions | undefined;

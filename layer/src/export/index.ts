@@ -1,3 +1,4 @@
+export type { PaintOptions } from "./along.js";
 export { type ArchiveEntry, writeArchive } from "./archive.js";
 export { BlobStore, type BlockStore } from "./block-store.js";
 export { type ByteSink, MemorySink } from "./byte-sink.js";

@@ -48,7 +48,8 @@ export async function narrowed<S extends PointSelection>(
   if (volumes.length > 0 && !space) throw noPlace(name, "clips of the globe");
   const volume =
     space && volumes.length > 0 ? await clipped(volumes, space, selection.volume, signal) : selection.volume;
-  return { ...selection, volume, filter: filter ?? selection.filter };
+  // What a class has as a getter is not copied with the rest.
+  return { ...selection, along: selection.along, volume, filter: filter ?? selection.filter };
 }
 
 async function clipped(

@@ -1,5 +1,6 @@
 import {
   type EffectPlan,
+  OFFSET,
   type PointCloudStyle,
   type PointFilter,
   planEffects,
@@ -7,7 +8,7 @@ import {
   type StyledAttribute,
 } from "../effects/index.js";
 import type { PlotView } from "../tools/plot/plot-view.js";
-import { LEVEL, OFFSET } from "./section-vertices.js";
+import { LEVEL } from "./section-vertices.js";
 
 /** What of a series a plan follows from. */
 export interface PlannedSeries {

@@ -1,11 +1,12 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { OFFSET } from "../effects/index.js";
 import { richFacts, styleOf } from "../effects/scene.fixture.js";
 import { PlotView } from "../tools/plot/plot-view.js";
 import { plotCamera } from "./plot-camera.js";
 import { profileLedger } from "./plot-ledger.js";
 import { planSeries, plotStyle } from "./plot-plan.js";
-import { LEVEL, OFFSET } from "./section-vertices.js";
+import { LEVEL } from "./section-vertices.js";
 
 /** Clip coordinates of a place of the plot, in the node frame of an origin. */
 function clip(camera: ReturnType<typeof plotCamera>, origin: number[], local: number[]): number[] {

@@ -1,12 +1,10 @@
 import { ecefToGeodetic, type Frame } from "@groma/georef";
 import type { PointCloud } from "../cloud/index.js";
 import type { DrawnVertices } from "../drawing/drawn-vertices.js";
+import { OFFSET } from "../effects/index.js";
 import { type GeodeticPlace, recordNumbers } from "../query/index.js";
 import type { ProfilePoints } from "../tools/cut/profile.js";
 import { type Column, constantColumn, recordedColumn } from "../workers/index.js";
-
-/** The column that has distances from the line, metres, left positive. */
-export const OFFSET = "offset from the line";
 
 /** The column that has the level of each point's node. */
 export const LEVEL = "levelOfDetail";

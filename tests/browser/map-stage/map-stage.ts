@@ -1,4 +1,6 @@
+import { ecefToGeodetic } from "@groma/georef";
 import {
+  type PointCloud,
   PointCloudLayer,
   type PointCloudLayerOptions,
   PointCloudSource,
@@ -106,6 +108,14 @@ export class MapStage {
       context.drawImage(canvas, 0, 0, width, height);
     }
     return context.getImageData(0, 0, width, height);
+  }
+
+  /** Height above the ellipsoid of source coordinates. */
+  heightOf(cloud: PointCloud, [x, y, z]: readonly [number, number, number]): number {
+    const [px, py, pz] = cloud.place(x, y, z);
+    const geodetic = new Float64Array(3);
+    ecefToGeodetic(px!, py!, pz!, geodetic);
+    return geodetic[2]!;
   }
 
   destroy(): void {

@@ -5,8 +5,8 @@ import {
   colouringsOf,
   colourStatements,
 } from "../declaration/colouring.js";
-import { type Effect, type Scene, showsColour } from "../declaration/effect.js";
-import type { ColumnScale } from "../declaration/facts.js";
+import { type Effect, showsColour } from "../declaration/effect.js";
+import type { ColumnScale, SceneFacts } from "../declaration/facts.js";
 import {
   GRADIENT_COLOUR,
   GRADIENT_NAMES,
@@ -82,9 +82,12 @@ export function styleGradient({ gradient, color }: GradientStyle & ColourStyle) 
 }
 
 /** Values at the ends of the gradient for an attribute: the style's, else the data set's, else those of 16 bits. */
-function rangeOf(
+export function rangeOf(
   name: string,
-  { style, facts }: Pick<Scene<GradientStyle & ColourStyle>, "style" | "facts">,
+  {
+    style,
+    facts,
+  }: { readonly style: GradientStyle & ColourStyle; readonly facts: Pick<SceneFacts, "attributes"> },
 ): readonly [number, number] {
   // A range is given in the unit of the first colouring.
   if (style.range && name === style.color) return style.range;

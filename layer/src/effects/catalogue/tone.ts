@@ -24,7 +24,7 @@ vec3 tone(vec3 value) {
 `;
 
 /** Exponent, summand, slope around the middle. */
-function toneOf({ gamma, brightness, contrast }: ToneStyle): [number, number, number] {
+export function toneOf({ gamma, brightness, contrast }: ToneStyle): [number, number, number] {
   return [gamma, brightness, contrast < 0 ? 1 + contrast : 1 / Math.max(1 - contrast, 1e-3)];
 }
 

@@ -8,6 +8,9 @@ export const LEAST_SHARE = 0.5 / 255;
 /** The scan's own colours: their attribute, their column, and the colouring by them. */
 export const RGB = "rgb";
 
+/** What points of a profile are coloured by that show how far they lie from its line, metres, left positive. */
+export const OFFSET = "offset from the line";
+
 /** The part of a style that says where colours come from. */
 export interface ColourStyle {
   readonly color: string;
