@@ -30,4 +30,6 @@ it("a ballpark is a missing transformation", () => {
 it("an unknown total says which system is out of its place", () => {
   const parts = [{ name: "height", metres: null, note: "LN02 height: not in use at this place" }];
   expect(accuracyInWords(parts, crs)).toBe("total accuracy unknown: height system not in use at this place");
+  const doubted = { height: { kind: "ellipsoidal", doubt: "declared as shifted" } } as const;
+  expect(accuracyInWords(parts, doubted)).toBe("total accuracy unknown: heights declared as shifted");
 });

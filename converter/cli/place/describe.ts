@@ -118,7 +118,7 @@ export function accuracyInWords(parts: readonly AccuracyPart[], crs: Pick<Crs, "
 /** Why the accuracies of the parts do not add up: `total accuracy unknown: height reference not declared`. */
 function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "height">): string {
   const lacks: ReadonlyMap<string, string> = new Map([
-    ["height", height.kind === "unknown" ? "height reference not declared" : unknownHeight(parts)],
+    ["height", height.kind === "unknown" ? "height reference not declared" : unknownHeight(parts, height)],
     ["datum operation", "accuracy of the datum operation not published"],
     ["anchor", "accuracy of the anchor not stated"],
   ]);
@@ -126,8 +126,12 @@ function unknownTotal(parts: readonly AccuracyPart[], { height }: Pick<Crs, "hei
   return `total accuracy unknown: ${unknown.join(", ")}`;
 }
 
-/** Why heights above a geoid are of unknown worth. */
-function unknownHeight(parts: readonly AccuracyPart[]): string {
+/** Why heights of a known reference are of unknown worth. */
+function unknownHeight(
+  parts: readonly AccuracyPart[],
+  { doubt }: Exclude<Crs["height"], { kind: "unknown" }>,
+): string {
+  if (doubt !== undefined) return `heights ${doubt}`;
   const note = parts.find(({ name }) => name === "height")?.note ?? "";
   if (/not in use at this place/.test(note)) return "height system not in use at this place";
   return /level of its own/.test(note) ? "heights count from a level of their own" : "geoid not applied";

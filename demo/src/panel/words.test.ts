@@ -81,6 +81,15 @@ describe("a cloud in words", () => {
     expect(warningsOf(operation, { remark: `unknown: ${guess}` })).toEqual(["another"]);
   });
 
+  it("says above whose ellipsoid, and what is declared and not applied", () => {
+    const doubt = "declared as shifted by 25 (Vertical_Shift), which is not applied";
+    expect(heightWords(crs({ kind: "ellipsoidal", ellipsoid: "own", doubt }), { geoids: [] }).note).toBe(
+      `that of the system's own datum; ${doubt}`,
+    );
+    const geoid = crs({ kind: "geoid", model: "NAP height", doubt });
+    expect(heightWords(geoid, { geoids: ["EGM96"] }).note).toContain(doubt);
+  });
+
   it("names the geoid that is applied, or says that none is", () => {
     const nap = crs({ kind: "geoid", model: "NAP height", epsg: 5709 });
     expect(heightWords(nap, { geoids: ["nl_nsgi_nlgeo2018.tif"] })).toEqual({

@@ -49,7 +49,10 @@ export function heightWords(
   { geoids, remark }: { geoids: readonly string[]; remark?: string | undefined },
 ): Words {
   const unit = verticalUnit.declared ? [] : [`unit not declared, taken as ${verticalUnit.name}`];
-  if (height.kind === "ellipsoidal") return noted("above the ellipsoid", unit);
+  if (height.kind === "ellipsoidal") {
+    const own = height.ellipsoid === "own" ? ["that of the system's own datum"] : [];
+    return noted("above the ellipsoid", [...own, ...(height.doubt ? [height.doubt] : []), ...unit]);
+  }
   if (height.kind === "unknown") {
     const said = remark?.replace(/^(reference )?unknown[:,] /, "");
     return noted("unknown", [said ?? "drawn as ellipsoidal", ...unit]);
@@ -65,7 +68,7 @@ export function heightWords(
       : "geoid not applied: drawn as if above the ellipsoid";
   return noted(
     `${verticalUnit.size < 0 ? "counted downwards from" : "above"} ${height.model.replace(/ height$/i, "")}${code}`,
-    [geoid, ...unit],
+    [geoid, ...(height.doubt ? [height.doubt] : []), ...unit],
   );
 }
 
