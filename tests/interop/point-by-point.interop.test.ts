@@ -8,6 +8,7 @@ import {
   encodeTransformation,
 } from "@groma/georef";
 import { describe, expect, it } from "vitest";
+import { georeference } from "../../converter/cli/place/georeference.js";
 import { geoTiff } from "../../converter/cli/proj/grids/geotiff.fixture.js";
 import { findProj } from "../../converter/cli/proj/program/find.js";
 import { projTransformation } from "../../converter/cli/proj/transformation.js";
@@ -74,6 +75,32 @@ describe.skipIf(missing)(
       expect(report.accuracy ?? 999).toBeGreaterThan(1);
       expect(report.notes.join()).toMatch(/points are placed by another operation, as PROJ does/);
     });
+    it.each([
+      ["EPSG:9308", 2023.25],
+      ["EPSG:9308", undefined],
+      ["EPSG:9000", 2020.5],
+    ])("%s, whose operation changes with time, at the epoch %s", async (code, epoch) => {
+      const domain = { minX: 145.5, minY: -37.2, minZ: 0, maxX: 145.51, maxY: -37.19, maxZ: 100 };
+      const file = epoch === undefined ? code : `${code}@${epoch}`;
+      const { crs } = await georeference({ file }, { crs: file });
+      expect(crs.code).toBe(file);
+      const { transformation, report } = await projTransformation(proj!, crs, domain);
+      expect(report).toMatchObject({ unstated: epoch === undefined, ballpark: false });
+      expect(report.accuracy === null).toBe(epoch === undefined);
+      const points = raster(domain);
+      const theirs = runPython<number[][]>(
+        "interop/point_by_point.py",
+        [code, database()],
+        JSON.stringify(epoch === undefined ? points : points.map((point) => [...point, epoch])),
+      );
+      const { forward } = compileTransformation(transformation);
+      const ecef = new Float64Array(3);
+      for (const [i, [x, y, z]] of points.entries()) {
+        forward(x!, y!, z!, ecef);
+        expect(distance([...ecef], theirs[i]!)).toBeLessThan(1e-3);
+      }
+    });
+
     it.each([
       // Two operations with one name; that for the smaller area is taken.
       ["EPSG:4901", 0, 53, 0.3],

@@ -85,7 +85,7 @@ describe("the engine", () => {
         maxZ: 420,
       };
       const { transformation, report } = await engineTransformation(crs, far, { engine: "proj" }, { file });
-      expect(report).toMatchObject({ ballpark: false, outside: true, accuracy: null });
+      expect(report).toMatchObject({ ballpark: false, unstated: true, accuracy: null });
       expect(report.notes.join()).toMatch(/no operation of PROJ is meant for this place/);
       expect(withKnownShift(report, crs, compileTransformation(transformation), far).accuracy).toBeNull();
       // By cs2cs of PROJ 9.6.

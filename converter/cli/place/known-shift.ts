@@ -27,7 +27,7 @@ const SAME = 1e-3;
 export function withKnownShift(report: EngineReport, crs: Crs, truth: Truth, domain: Domain): EngineReport {
   const { datum } = crs;
   const published = datum && publishedAccuracy(datum);
-  if (!datum || typeof published !== "number" || report.ballpark || report.outside) return report;
+  if (!datum || typeof published !== "number" || report.ballpark || report.unstated) return report;
   if (report.accuracy !== null && report.accuracy >= published) return report;
   // The accuracy of a way through a country's geoid is that of heights too, which the shift says nothing of.
   const ownGeoid = geoidsOf(truth).some((grid) => grid !== EGM96);

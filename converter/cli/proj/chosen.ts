@@ -1,8 +1,16 @@
-import { type Crs, CrsError, type Domain, type GromaError, isAboveGeoid } from "@groma/georef";
+import {
+  type AreaOfUse,
+  areOverlapping,
+  type Crs,
+  CrsError,
+  type Domain,
+  type GromaError,
+  isAboveGeoid,
+} from "@groma/georef";
 import { type Choice, choose, type PassedOver } from "./candidate.js";
 import type { Listed } from "./elsewhere.js";
 import { howToGet } from "./grids/current-names.js";
-import { type DegreeBox, listOperations, type Operation } from "./operation.js";
+import { type DegreeBox, listOperations, type Operation, operationAreas } from "./operation.js";
 import type { Proj } from "./program/find.js";
 import { OTHER_WAY } from "./refuse.js";
 import type { CrsText, SourceTexts } from "./source.js";
@@ -45,44 +53,57 @@ export async function chooseFor(
   const withHeights = source.compound ? await list(source.compound) : [];
   const best = await choose(proj, withHeights, domain, metresPerUnit, signal);
   if (best.choice && !takesHeightsOver(best.choice)) {
-    const from = { source: source.compound!, operations: withHeights };
+    const from = { source: source.compound!, operations: withHeights, box };
     return { ...best, choice: best.choice, operations: withHeights, from, substitute: false, outside: false };
   }
   const flat = await list(source.horizontal);
   const near = await choose(proj, flat, domain, metresPerUnit, signal);
   const { passedOver, blocked } = near;
   const far = near.choice?.candidate.operation.ballpark
-    ? await outsideOfAll(proj, source.horizontal, domain, metresPerUnit, signal)
+    ? await fromAllPlaces(proj, source.horizontal, domain, box, metresPerUnit, signal)
     : undefined;
-  const choice = far ?? near.choice;
+  const choice = far?.choice ?? near.choice;
   if (!choice) throw noWay(crs, [...withHeights, ...flat], best.blocked ?? blocked);
   return {
     choice,
     passedOver: [...best.passedOver, ...passedOver],
     operations: withHeights.length > 0 ? withHeights : flat,
-    from: { source: source.horizontal, operations: flat },
+    from: far?.from ?? { source: source.horizontal, operations: flat, box },
     substitute: isAboveGeoid(crs),
-    outside: far !== undefined,
+    outside: far?.outside ?? false,
   };
 }
 
 /**
- * What PROJ takes for points in the area of none of its operations: the first that needs no grid, unless its list has a ballpark,
- * which is for the world. Nobody states what it is worth there.
+ * What PROJ takes for its points where only ballparks are listed for their place: one from the list for all places that is for
+ * the place; else the first that needs no grid, unless that list has a ballpark, which is for the world.
  */
-async function outsideOfAll(
+async function fromAllPlaces(
   proj: Proj,
   source: CrsText,
   domain: Domain,
+  box: DegreeBox | undefined,
   metresPerUnit: number,
   signal?: AbortSignal,
-): Promise<Choice | undefined> {
-  const everywhere = await listOperations(proj, source, { signal });
-  const [first] = everywhere.filter(({ pipeline = "" }) => !/\+grids=/.test(pipeline));
-  if (!first || everywhere.some(({ ballpark }) => ballpark)) return undefined;
+): Promise<Pick<Chosen, "choice" | "from" | "outside"> | undefined> {
+  if (!box) return undefined;
+  const operations = await listOperations(proj, source, { signal });
+  const areas = await operationAreas(proj, source, { signal });
+  const place: AreaOfUse = [box.west, box.south, box.east, box.north];
+  const shifting = operations.filter(({ ballpark }) => !ballpark);
+  const here = shifting.filter((one) => {
+    const area = areas[operations.indexOf(one)];
+    return area !== undefined && areOverlapping(area, place);
+  });
+  const from = { source, operations, box: undefined };
+  const near = await choose(proj, here, domain, metresPerUnit, signal);
+  if (near.choice) return { choice: near.choice, from, outside: false };
+  const [first] = operations.filter(({ pipeline = "" }) => !/\+grids=/.test(pipeline));
+  if (!first || shifting.length < operations.length) return undefined;
+  // Nobody states what it is worth there.
   const unstated = { ...first, accuracy: null };
   const { choice } = await choose(proj, [unstated], domain, metresPerUnit, signal);
-  return choice;
+  return choice && { choice, from, outside: true };
 }
 
 /** Whether PROJ takes heights above a geoid for heights above the ellipsoid, for want of a grid or of an operation. */

@@ -38,6 +38,8 @@ export interface Farthest {
 export interface Listed {
   readonly source: CrsText;
   readonly operations: readonly Operation[];
+  /** Where the data are, if the list is for that place. */
+  readonly box: DegreeBox | undefined;
 }
 
 /** What a reader has to know where PROJ's other operations are not followed. */
@@ -66,17 +68,15 @@ function percent(share: number): number {
  * point lies in and that has a place for it (`pj_get_suggested_operation`).
  *
  * @param candidate the one that was chosen for all of them
- * @param box where the data are, as the operations were listed for
  * @param metresPerUnit of the source's z
  * @returns nothing where that is the chosen one everywhere, or all of them lead to the same places
  * @throws ProjError PROJ_FAILED, PROJ_OUTPUT
  */
 export async function pointByPoint(
   proj: Proj,
-  { source, operations }: Listed,
+  { source, operations, box }: Listed,
   candidate: Candidate,
   domain: Domain,
-  box: DegreeBox | undefined,
   metresPerUnit: number,
   signal?: AbortSignal,
 ): Promise<PointByPoint | undefined> {

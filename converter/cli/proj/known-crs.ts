@@ -17,7 +17,8 @@ const NAMED: ReadonlyMap<string, Unit> = new Map([
  *   height system alone, geocentric or engineering coordinates)
  */
 export async function knownCrs(proj: Proj, source: CrsText, signal?: AbortSignal): Promise<Crs> {
-  const whole = await projJson(proj, source, signal);
+  const given = await projJson(proj, source, signal);
+  const { crs: whole = given, coordinateEpoch: epoch } = given;
   const [plane, vertical] =
     whole.type === "CompoundCRS" && whole.components ? whole.components : [whole, undefined];
   const [x, , z] = axesOf(plane);
@@ -30,9 +31,10 @@ export async function knownCrs(proj: Proj, source: CrsText, signal?: AbortSignal
   const declared = upwards && up.direction === "down" ? { ...upwards, size: -upwards.size } : upwards;
   const fallback = horizontalUnit.kind === "linear" ? horizontalUnit : METRE;
   const code = codeOf(whole, plane, vertical);
+  const at = epoch === undefined ? "" : `@${epoch}`;
   return {
-    name: whole.name ?? source.name,
-    ...(code !== undefined && { code: `EPSG:${code}` }),
+    name: `${whole.name ?? source.name}${epoch === undefined ? "" : `, epoch ${epoch}`}`,
+    ...(code !== undefined && { code: `EPSG:${code}${at}` }),
     proj4: await projString(proj, source, plane, signal),
     wkt: await written(proj, source, "WKT2:2019", signal),
     horizontalUnit,

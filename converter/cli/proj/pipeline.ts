@@ -1,3 +1,4 @@
+import { dated } from "./epoch.js";
 import { compose, helmertMap, IDENTITY, isIdentity, type LinearMap } from "./helmert.js";
 import type { EllipsoidText, GridName, Plan, PlannedStep } from "./plan.js";
 import { refuseStep } from "./refuse.js";
@@ -24,12 +25,13 @@ const WGS84: EllipsoidText = new Map([["ellps", "WGS84"]]);
  * @throws CrsError CRS_OPERATION_UNSUPPORTED naming the step that is not known here
  */
 export function parsePipeline(text: string): Plan {
-  const pipeline = splitPipeline(text).filter(({ name }) => name !== "noop");
+  const { steps: given, undated } = dated(splitPipeline(text));
+  const pipeline = given.filter(({ name }) => name !== "noop");
   if (pipeline[0]?.name === "axisswap" && pipeline[0].parameters.get("order") === "2,1") pipeline.shift();
   const { count, metresPerUnit } = readProjection(pipeline);
   const steps = new Walk(pipeline, count, metresPerUnit).steps();
   const scale = steps.reduce((size, step) => (step.kind === "height" ? size * step.metresPerUnit : size), 1);
-  return { pipeline, projection: count, steps, metresPerUnit: scale };
+  return { pipeline, projection: count, steps, metresPerUnit: scale, undated };
 }
 
 /** The steps from source coordinates to longitude and latitude in radians, and what they do to z. */

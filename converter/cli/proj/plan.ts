@@ -64,4 +64,6 @@ export interface Plan {
   readonly steps: readonly PlannedStep[];
   /** Metres per unit of z by the pipeline's own account. */
   readonly metresPerUnit: number;
+  /** A step changes with time, and no epoch of the coordinates is known. */
+  readonly undated: boolean;
 }

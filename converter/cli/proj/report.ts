@@ -20,8 +20,8 @@ export interface EngineReport {
   readonly accuracy: number | null;
   /** A difference of datums is passed over: the place may be off by hundreds of metres. */
   readonly ballpark: boolean;
-  /** No operation is meant for the place of the data: nobody states what that one is worth there. */
-  readonly outside?: boolean;
+  /** Nobody states what the operation is worth for these data: it is meant for another place, or for another time. */
+  readonly unstated?: boolean;
   /** Names of the grids that are applied. */
   readonly grids: readonly string[];
   readonly lacking: readonly Lacking[];

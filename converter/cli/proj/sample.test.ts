@@ -54,6 +54,37 @@ const ykj = {
 };
 writeFileSync(join(folder, "fi_nls_ykj_etrs35fin.json"), JSON.stringify(ykj));
 
+/** Velocities on nodes every tenth of a degree from 2° E, 48° N, millimetres a year: the formats that `deformation` reads. */
+const NODES = 11;
+const velocity = (row: number, column: number, part: number) =>
+  20 * Math.sin(0.3 * row + 0.2 * column + 2 * part);
+/** CTABLE V2: east and north. */
+function ctable2(): Buffer {
+  const bytes = Buffer.alloc(160 + 8 * NODES * NODES);
+  bytes.write("CTABLE V2.0     made for a test");
+  const radians = Math.PI / 180;
+  for (const [i, value] of [2, 48, 0.1, 0.1].entries()) bytes.writeDoubleLE(value * radians, 96 + 8 * i);
+  for (const at of [128, 132]) bytes.writeInt32LE(NODES, at);
+  for (let i = 0; i < NODES * NODES; i++) {
+    for (const part of [0, 1])
+      bytes.writeFloatLE(velocity(Math.floor(i / NODES), i % NODES, part), 160 + 8 * i + 4 * part);
+  }
+  return bytes;
+}
+/** GTX: up. */
+function gtx(): Buffer {
+  const bytes = Buffer.alloc(40 + 4 * NODES * NODES);
+  for (const [i, value] of [48, 2, 0.1, 0.1].entries()) bytes.writeDoubleBE(value, 8 * i);
+  for (const at of [32, 36]) bytes.writeInt32BE(NODES, at);
+  for (let i = 0; i < NODES * NODES; i++)
+    bytes.writeFloatBE(velocity(Math.floor(i / NODES), i % NODES, 2), 40 + 4 * i);
+  return bytes;
+}
+writeFileSync(join(folder, "velocities.ct2"), ctable2());
+writeFileSync(join(folder, "uplift.gtx"), gtx());
+const deformation = (time: string) =>
+  `+step +proj=cart +ellps=WGS84 +step +proj=deformation +xy_grids=velocities.ct2 +z_grids=uplift.gtx +ellps=WGS84 ${time} +step +inv +proj=cart +ellps=WGS84`;
+
 const plain = await findProj();
 const proj = plain && (await findProj({ grids: folder }));
 const box = (minX: number, minY: number, size: number): Domain => {
@@ -76,13 +107,20 @@ describe.skipIf(!proj)(
         "+step +proj=vertoffset +lat_0=48 +lon_0=2 +dh=-0.245 +slope_lat=-0.21 +slope_lon=-0.032 +ellps=GRS80",
         20_000,
       ],
+      ["deformation, over twenty years, in one cell", deformation("+dt=20"), 2000, 450_500],
+      [
+        "deformation, at an epoch",
+        `+step +proj=set +v_4=2020.5 ${deformation("+t_epoch=2000")}`,
+        2000,
+        450_500,
+      ],
       [
         "xyzgridshift",
         "+step +proj=push +v_3 +step +proj=cart +ellps=clrk80ign +step +proj=xyzgridshift +grids=translations.tif +grid_ref=output_crs +ellps=GRS80 +step +inv +proj=cart +ellps=GRS80 +step +proj=pop +v_3",
         2000,
       ],
-    ])("are taken as PROJ gives them: %s", async (_, steps, size) => {
-      const domain = box(448_000, 5_411_000, size);
+    ])("are taken as PROJ gives them: %s", async (_, steps, size, east = 448_000) => {
+      const domain = box(east, 5_411_000, size);
       const { sampled, worstDifference, patchwork } = await followed(
         `+proj=pipeline ${UTM} ${steps} ${CART}`,
         domain,
@@ -90,6 +128,34 @@ describe.skipIf(!proj)(
       expect(sampled).toBe(1);
       expect(worstDifference).toBeLessThan(4e-5);
       expect(worstDifference).toBeLessThanOrEqual(patchwork.bound + 1e-6);
+    });
+
+    it("move with the velocities of a grid for the time since their epoch", async () => {
+      const place = async (steps: string) => {
+        const operation = { name: "test", accuracy: 1, area: "", ballpark: false, missingGrids: [] };
+        const pipeline = `+proj=pipeline ${UTM} ${steps} ${CART}`;
+        const { places } = await tryOperation(
+          proj!,
+          { ...operation, pipeline },
+          box(448_000, 5_411_000, 2000),
+          1,
+        );
+        return places.slice(0, 3);
+      };
+      const [still, moved, dated] = [
+        await place(""),
+        await place(deformation("+dt=20.5")),
+        await place(`+step +proj=set +v_4=2020.5 ${deformation("+t_epoch=2000")}`),
+      ];
+      expect(moved).toEqual(dated);
+      const far = Math.hypot(...still.map((value, axis) => value - moved[axis]));
+      expect(far).toBeGreaterThan(0.2);
+      expect(far).toBeLessThan(0.8);
+      // PROJ itself needs a time for it.
+      await expect(place(deformation("+t_epoch=2000"))).rejects.toMatchObject({
+        code: "CRS_OPERATION_UNSUPPORTED",
+        cause: expect.stringContaining("deformation"),
+      });
     });
 
     it("give way where no raster is fine enough", async () => {

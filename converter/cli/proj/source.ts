@@ -21,9 +21,12 @@ export interface SourceTexts {
   readonly compound?: CrsText;
 }
 
-/** A code of an authority, such as `EPSG:2154+5720` or `IGNF:RGF93LAMB93.IGN69`, or the URN of one. */
+/**
+ * A code of an authority, such as `EPSG:2154+5720` or `IGNF:RGF93LAMB93.IGN69`, with or without the epoch of the coordinates
+ * (`EPSG:9309@2023.25`), or the URN of one.
+ */
 const CODE =
-  /^([A-Za-z][A-Za-z0-9]{1,15}:[A-Za-z0-9_.]{1,60}(\+([A-Za-z][A-Za-z0-9]{1,15}:)?[A-Za-z0-9_.]{1,60})?|urn:ogc:def:crs:[A-Za-z0-9]{2,15}:[0-9.]*:[A-Za-z0-9_.]{1,60})$/;
+  /^([A-Za-z][A-Za-z0-9]{1,15}:[A-Za-z0-9_.]{1,60}(\+([A-Za-z][A-Za-z0-9]{1,15}:)?[A-Za-z0-9_.]{1,60})?(@\d{4}(\.\d{1,9})?)?|urn:ogc:def:crs:[A-Za-z0-9]{2,15}:[0-9.]*:[A-Za-z0-9_.]{1,60})$/;
 
 /**
  * Calls with an argument that `projinfo` takes for the CRS: a code or PROJ string as it is, anything else as a file of
@@ -70,15 +73,22 @@ export async function sourceTexts(
   signal?: AbortSignal,
 ): Promise<SourceTexts> {
   const texts = own === undefined ? textsOf(crs) : [own];
-  const { whole, json } = await firstKnown(proj, crs.name, texts, signal);
+  const { whole, json: given } = await firstKnown(proj, crs.name, texts, signal);
+  const { crs: json = given, coordinateEpoch } = given;
   if (json.coordinate_system?.subtype === "Cartesian" && json.type === "GeodeticCRS") throw inSpace(crs.name);
   const [first, vertical] = json.type === "CompoundCRS" && json.components ? json.components : [json];
   const hasOther = hasThreeAxes(first) && isGivenApart(crs);
   const horizontal = hasOther ? inPlane(first) : first;
   const code = idOf(horizontal);
+  const suffix = coordinateEpoch === undefined ? "" : `@${coordinateEpoch}`;
+  const at = (one: ProjJson) => {
+    return JSON.stringify(
+      coordinateEpoch === undefined ? one : { type: "CoordinateMetadata", crs: one, coordinateEpoch },
+    );
+  };
   const plain =
     vertical || hasOther
-      ? { name: horizontal.name ?? crs.name, text: code ? `EPSG:${code}` : JSON.stringify(horizontal) }
+      ? { name: horizontal.name ?? crs.name, text: code ? `EPSG:${code}${suffix}` : at(horizontal) }
       : whole;
   if (crs.height.kind !== "geoid") return { horizontal: plain };
 
@@ -87,11 +97,12 @@ export async function sourceTexts(
     return { horizontal: plain, compound: whole };
   if (wanted === undefined) return { horizontal: plain };
   if (code) {
-    return { horizontal: plain, compound: { name: crs.name, text: `EPSG:${code}+${wanted}` } };
+    return { horizontal: plain, compound: { name: crs.name, text: `EPSG:${code}+${wanted}${suffix}` } };
   }
   const heights = await projJson(proj, { name: crs.height.model, text: `EPSG:${wanted}` }, signal);
-  const compound = { type: "CompoundCRS", name: crs.name, components: [horizontal, heights] };
-  return { horizontal: plain, compound: { name: crs.name, text: JSON.stringify(compound) } };
+  const components = [horizontal, heights] as const;
+  const compound = { type: "CompoundCRS", name: crs.name, components };
+  return { horizontal: plain, compound: { name: crs.name, text: at(compound) } };
 }
 
 /** Whether heights were given that are not those of a third axis. */
@@ -152,6 +163,9 @@ export interface ProjJson {
   readonly type?: string;
   readonly name?: string;
   readonly components?: readonly [ProjJson, ProjJson];
+  /** Of coordinate metadata: what the epoch belongs to, and the epoch, years. */
+  readonly crs?: ProjJson;
+  readonly coordinateEpoch?: number;
   /** Of a BoundCRS. */
   readonly source_crs?: ProjJson;
   readonly target_crs?: ProjJson;

@@ -74,12 +74,13 @@ export async function projTransformation(
   const { operations, passedOver, substitute, from, outside } = chosen;
   const { tolerance = PATCHWORK_TOLERANCE } = options;
   const taken = await pointByPoint(
-    ...([proj, from, chosen.choice.candidate, domain, box, crs.verticalUnit.size, signal] as const),
+    ...([proj, from, chosen.choice.candidate, domain, crs.verticalUnit.size, signal] as const),
   );
   const sole = taken && (await soleWay(proj, taken, domain, signal));
   const choice = sole ?? chosen.choice;
   const byPoint = sole ? undefined : taken;
   const { candidate } = choice;
+  const undated = [choice, ...(byPoint?.ways ?? [])].some((way) => way.candidate.plan.undated);
   const several = byPoint && (await waysOf(proj, choice, byPoint, domain, signal));
   const ways = several ?? ([{ ...choice, areas: [] }] as const);
   const { transformation, patchwork } = await assemble(proj, ways, { domain, tolerance, file, signal });
@@ -105,7 +106,7 @@ export async function projTransformation(
   const notes = notesFor(
     crs,
     choice,
-    { substitute, outside },
+    { substitute, outside, undated },
     told,
     main !== undefined || whole !== undefined,
   );
@@ -119,9 +120,10 @@ export async function projTransformation(
     report: {
       engine: { name: "PROJ", version: proj.version },
       operation: operation.name,
-      accuracy: worst.includes(null) ? null : Math.max(...(worst as number[]), counted?.worth ?? 0),
+      accuracy:
+        undated || worst.includes(null) ? null : Math.max(...(worst as number[]), counted?.worth ?? 0),
       ballpark: operation.ballpark || choice.leftOut.length > 0,
-      outside,
+      unstated: outside || undated,
       grids: substitute || whole ? [...grids, EGM96] : grids,
       lacking: lackingIn(operations, operation, substitute),
       passedOver,
@@ -279,13 +281,18 @@ function lackingIn(operations: readonly Operation[], chosen: Operation, substitu
 function notesFor(
   crs: Crs,
   { candidate, leftOut }: Choice,
-  { substitute, outside }: Pick<Chosen, "substitute" | "outside">,
+  { substitute, outside, undated }: Pick<Chosen, "substitute" | "outside"> & { readonly undated: boolean },
   elsewhere: string | undefined,
   several: boolean,
 ): string[] {
   const notes: string[] = [];
   if (crs.height.kind === "unknown") notes.push(UNKNOWN_HEIGHT_NOTE);
   if (substitute) notes.push(EGM96_NOTE);
+  if (undated) {
+    notes.push(
+      "the operation changes with time, and the epoch of the coordinates is not known: it is taken as it was at its own, as PROJ does; give the epoch with the code, for example --crs EPSG:9309@2023.25",
+    );
+  }
   if (outside) {
     notes.push(
       `no operation of PROJ is meant for this place: it goes by the one for ${candidate.operation.area.replace(/\.$/, "")}, as PROJ does, and nobody states what that is worth here`,
