@@ -2,6 +2,7 @@ import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
 import { CrsError } from "@groma/georef";
 import type { PointCloud, PointCloudLayer, ServerWait, SharedView } from "@groma/layer/cesium";
+import { PointNavigation } from "@groma/layer/navigation";
 import { Cartesian3, type Viewer } from "cesium";
 import { cloudAddress, type PageOptions, readPageOptions } from "./address.js";
 import { Beside } from "./map/beside.js";
@@ -20,6 +21,7 @@ import { Heights } from "./panel/heights.js";
 import { Ledger } from "./panel/ledger.js";
 import { Measuring } from "./panel/measuring.js";
 import { Message } from "./panel/message.js";
+import { Moving } from "./panel/moving.js";
 import { PageError } from "./panel/page-error.js";
 import { Picked } from "./panel/picked.js";
 import { Progress } from "./panel/progress.js";
@@ -91,7 +93,9 @@ function start(viewer: Viewer): void {
   measuring.tool.onChange(() => {
     if (measuring.tool.drawing) profile.finish();
   });
-  const groma: Groma = { viewer, measure: measuring.tool, beside, profile, layer: undefined };
+  const navigation = new PointNavigation(viewer);
+  new Moving(navigation, viewer.canvas, () => measuring.tool.drawing !== undefined || profile.drawing);
+  const groma: Groma = { viewer, navigation, measure: measuring.tool, beside, profile, layer: undefined };
   window.groma = groma;
   const picking = new Picking(
     viewer,
@@ -129,6 +133,7 @@ function start(viewer: Viewer): void {
     message.show(thrown);
     return;
   }
+  if (!options.fly) navigation.flight = 0;
   if (options.terrain) {
     addTerrain(viewer, options.terrain).catch((thrown: unknown) => message.show(thrown));
   }

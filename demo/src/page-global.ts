@@ -1,4 +1,5 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
+import type { PointNavigation } from "@groma/layer/navigation";
 import type { MeasureTool } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
 import type { Beside } from "./map/beside.js";
@@ -7,6 +8,8 @@ import type { ProfilePanel } from "./profile/profile-panel.js";
 /** What the page offers to the browser's console and to tests. */
 export interface Groma {
   readonly viewer: Viewer;
+  /** What moves the globe's camera. */
+  readonly navigation: PointNavigation;
   readonly measure: MeasureTool;
   /** The map beside the globe. */
   readonly beside: Beside;

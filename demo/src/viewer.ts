@@ -2,6 +2,7 @@ import {
   buildModuleUrl,
   CesiumTerrainProvider,
   ImageryLayer,
+  ScreenSpaceEventType,
   TileMapServiceImageryProvider,
   Viewer,
 } from "cesium";
@@ -44,8 +45,11 @@ export function createViewer(container: HTMLElement): Viewer {
     });
   }
   const { scene, canvas } = viewer;
-  canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", "Globe with the point cloud");
+  // With this role screen readers leave the keys to the globe.
+  canvas.setAttribute("role", "application");
+  canvas.setAttribute("aria-label", "Globe with the point cloud, question mark for its keys");
+  // A double click goes to a point; by default it would bind the camera to the mark on it.
+  viewer.screenSpaceEventHandler.removeInputAction(ScreenSpaceEventType.LEFT_DOUBLE_CLICK);
   scene.screenSpaceCameraController.minimumZoomDistance = 0.5;
   return viewer;
 }

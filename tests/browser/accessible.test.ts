@@ -52,6 +52,9 @@ it("the page with globe and map has nothing that axe objects to", { timeout: 180
     for (const part of Array.from(document.querySelectorAll("details"))) part.open = true;
   });
   expect(await violations()).toEqual([]);
+  await page.click("#keys-open");
+  expect(await violations()).toEqual([]);
+  await page.keyboard.press("Escape");
 
   // As wide as a phone, which is 1280 px at 400 %.
   await page.setViewportSize({ width: 320, height: 640 });

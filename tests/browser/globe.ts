@@ -1,5 +1,6 @@
 import { geodeticToEcef } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
+import type { PointNavigation } from "@groma/layer/navigation";
 import type { MeasureTool, PlotView, ProfilePoints, ViewAdapter } from "@groma/layer/tools";
 import type { Cartesian3, Viewer } from "cesium";
 import type OlMap from "ol/Map.js";
@@ -8,6 +9,7 @@ import type { Page } from "playwright-core";
 /** What the page offers to tests once a cloud is open: `window.groma` of demo/src/page-global.ts. */
 export interface Groma {
   readonly viewer: Viewer;
+  readonly navigation: PointNavigation;
   readonly beside: {
     readonly statistics: { readonly pointsDrawn: number } | undefined;
     readonly view: Promise<{ readonly map: OlMap; readonly measured: ViewAdapter }> | undefined;

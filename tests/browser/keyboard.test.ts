@@ -106,4 +106,47 @@ it("from an empty page to an exported profile, by keyboard alone", { timeout: 30
   await page.waitForSelector("#message .code");
   expect(await page.textContent("#message .code")).toBe("PAGE_STORAGE");
   expect(await page.evaluate(() => window.groma.profile.line.length)).toBe(2);
+  await page.context().close();
+});
+
+it("moves about the globe by keyboard alone, with a sheet of the keys", { timeout: 240_000 }, async () => {
+  const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
+  page.setDefaultTimeout(120_000);
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  await page.goto(server.address);
+  await settle(page);
+  const camera = () =>
+    page.evaluate(() => {
+      const { heading, pitch, positionCartographic } = window.groma.viewer.camera;
+      return { heading, pitch, height: positionCartographic.height };
+    });
+  await tabTo(page, "canvas[role=application]");
+  const before = await camera();
+  await page.keyboard.press("Shift+ArrowLeft");
+  await page.waitForFunction((was) => window.groma.viewer.camera.heading !== was, before.heading);
+  await page.keyboard.press("n");
+  await page.waitForFunction(() => Math.abs(Math.sin(window.groma.viewer.camera.heading)) < 1e-4);
+  await page.keyboard.press("+");
+  await page.waitForFunction(
+    (was) => window.groma.viewer.camera.positionCartographic.height < was,
+    before.height,
+  );
+  await page.keyboard.press("u");
+  await page.waitForFunction(() => window.groma.viewer.camera.pitch < -1.57);
+  await page.keyboard.press("f");
+  expect(await page.getAttribute("#walk", "aria-pressed")).toBe("true");
+  await page.keyboard.press("f");
+  await page.keyboard.press("?");
+  await page.waitForSelector("#keys[open]");
+  expect(await page.locator("#keys tr").count()).toBeGreaterThan(12);
+  await screenshot(page, "keyboard-sheet");
+  await page.keyboard.press("Escape");
+  await page.waitForSelector("#keys:not([open])", { state: "attached" });
+  // The globe has the keyboard again.
+  expect(await page.evaluate(() => document.activeElement?.matches("canvas[role=application]"))).toBe(true);
+  // A question mark that is written is none of the page's.
+  await tabTo(page, "#lift");
+  await page.keyboard.press("?");
+  expect(await page.locator("#keys[open]").count()).toBe(0);
+  expect(watch.errors).toEqual([]);
 });
