@@ -48,7 +48,7 @@ export interface NamedValue {
   readonly title: string;
   readonly quantity: Quantity;
   /** Which of `MeasureUnits` writes it. */
-  readonly writtenAs: "value" | "slope" | "longitude" | "latitude";
+  readonly writtenAs: "value" | "azimuth" | "slope" | "longitude" | "latitude";
 }
 
 /** What a kind of measurement is made of. */
@@ -69,6 +69,9 @@ export const value = (name: string, title: string, of: Quantity): NamedValue => 
 
 /** A value that need not be. */
 const maybe = (name: string, title: string, of: Quantity | undefined) => of && value(name, title, of);
+
+const azimuthOf = (name: string, title: string, of: Quantity<"rad"> | undefined): NamedValue | undefined =>
+  of && { name, title, quantity: of, writtenAs: "azimuth" };
 
 const slopeOf = (of: Quantity<"rad"> | undefined): NamedValue | undefined =>
   of && { name: "slope", title: "slope", quantity: of, writtenAs: "slope" };
@@ -119,9 +122,9 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
         value("geodesic", "geodesic", geodesic),
         maybe("grid", "grid", grid?.distance),
         grid && value("scaleFactor", "scale factor", ofGrid(grid.scaleFactor, "1", a, options)),
-        maybe("azimuth", "azimuth", forward),
-        maybe("backAzimuth", "azimuth back", back),
-        maybe("gridBearing", "grid bearing", inGrid?.bearing),
+        azimuthOf("azimuth", "azimuth", forward),
+        azimuthOf("backAzimuth", "azimuth back", back),
+        azimuthOf("gridBearing", "grid bearing", inGrid?.bearing),
         inGrid && value("convergence", "convergence", ofGrid(inGrid.convergence, "rad", a, options)),
         slopeOf(slope),
       ];
@@ -171,7 +174,7 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
     ...{ title: "Angle", least: 3, most: 3, shape: "line" },
     values: ([a, apex, b], options) => {
       const { space, horizontal } = measureAngle(a, apex, b, options);
-      return [value("space", "in space", space), maybe("horizontal", "between azimuths", horizontal)];
+      return [value("space", "in space", space), azimuthOf("horizontal", "between azimuths", horizontal)];
     },
   },
   circle: {
@@ -195,7 +198,7 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
       const { slope, aspect, deviation } = measurePlane(vertices, options);
       return [
         slopeOf(slope),
-        maybe("aspect", "falls towards", aspect),
+        azimuthOf("aspect", "falls towards", aspect),
         value("deviation", "deviation", deviation),
       ];
     },
@@ -237,6 +240,7 @@ export function valuesOf(
 export function wordsOf({ quantity: of, writtenAs }: NamedValue, units: MeasureUnits): Words {
   if (of.unit !== "rad" || writtenAs === "value") return units.words(of);
   const angle = of as Quantity<"rad">;
+  if (writtenAs === "azimuth") return units.azimuthWords(angle);
   if (writtenAs === "slope") return units.slopeWords(angle);
   return units.coordinateWords(angle, writtenAs === "longitude" ? "EW" : "NS");
 }

@@ -94,6 +94,13 @@ export class MeasureUnits {
     return this.#plain(quantity, symbol, size);
   }
 
+  /** A direction from 0 to a full turn, in the units of angles; what rounds to the full turn is 0. */
+  azimuthWords(quantity: Quantity<"rad">): Words {
+    const words = this.words(quantity);
+    const turn = this.words({ ...quantity, value: 2 * Math.PI });
+    return words.value === turn.value ? this.words({ ...quantity, value: 0 }) : words;
+  }
+
   /** An angle against the level, in the units of slopes. */
   slopeWords(quantity: Quantity<"rad">): Words {
     const { slope } = this;

@@ -69,6 +69,18 @@ describe("values in words", () => {
     },
   );
 
+  it.each<[ConstructorParameters<typeof MeasureUnits>[0], number, number, string]>([
+    [{}, -1e-9, 1e-4, "0.0000° ± 0.0057°"],
+    [{ angle: "gon" }, -1e-9, 1e-4, "0.0000 gon ± 0.0064 gon"],
+    [{ angle: "dms" }, -1e-9, 1e-6, "0°00′00.00″ ± 0.21″"],
+    [{}, -0.05, 3, "0° ± 170°"],
+    [{}, -0.05, 1e-4, "357.1352° ± 0.0057°"],
+    [{}, 0.05 - 2 * Math.PI, 1e-4, "2.8648° ± 0.0057°"],
+  ])("azimuths of %o that round to a full turn as 0: %d from it ± %d", (options, before, band, text) => {
+    const azimuth = known(2 * Math.PI + before, "rad", band);
+    expect(plain(english(options).azimuthWords(azimuth).text)).toBe(text);
+  });
+
   it("coordinates with their hemispheres", () => {
     const latitude = known(-46.5 * DEGREE, "rad", 1e-9);
     expect(plain(english().coordinateWords(latitude, "NS").text)).toBe("46.500000000° S ± 0.000000057°");
