@@ -96,6 +96,6 @@ function empty(out: string): SelectionError {
     code: "SELECTION_EMPTY",
     file: out,
     cause: "no point of the inputs is where points are asked for; nothing was written",
-    fix: "check the line or the area, and in which coordinates it is given",
+    fix: "check the line or the area, in which coordinates it is given, and what classes, returns and ranges leave",
   });
 }

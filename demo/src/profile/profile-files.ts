@@ -93,13 +93,7 @@ async function writePicture(
   { drawing, ...options }: Parameters<Write>[2],
   format: "pdf" | "svg",
 ): Promise<unknown> {
-  const cloud = profile.origin as PointCloud;
-  const reach = profile.strip.reach;
-  const sides = { name: OFFSET, kind: "scalar", range: [-reach, reach] } as const;
-  const paint = {
-    ...{ style: drawing.style, attributes: [sides, ...cloud.attributes] },
-    rgbBits: cloud.statistics?.rgbBits ?? undefined,
-  };
+  const paint = paintOf(profile, drawing);
   const seen = await narrowed(profile, { filter: drawing.filter });
   return exportPicture([seen], sink, { ...options, paint, format });
 }
@@ -107,6 +101,14 @@ async function writePicture(
 function points(how: Pick<PointExportOptions, "format" | "layout">): Write {
   return (profile, sink, { signal, onProgress }) =>
     exportPoints(profile, sink, { ...how, signal, onProgress });
+}
+
+/** How the points of a picture are coloured: as they are in the plot. */
+function paintOf({ origin, strip: { reach } }: Profile, { style }: PlotDrawing) {
+  const cloud = origin as PointCloud;
+  const sides = { name: OFFSET, kind: "scalar", range: [-reach, reach] } as const;
+  const rgbBits = cloud.statistics?.rgbBits ?? undefined;
+  return { style, attributes: [sides, ...cloud.attributes], rgbBits };
 }
 
 /** The picture to scale, drawn by the browser at 200 dots per inch. */
@@ -133,7 +135,10 @@ function dotsOf({ naturalWidth, naturalHeight }: HTMLImageElement): [number, num
   return [Math.round(naturalWidth * scale), Math.round(naturalHeight * scale)];
 }
 
-async function writeSections(...[profile, sink, options]: Parameters<Write>): Promise<void> {
+async function writeSections(...[profile, sink, choices]: Parameters<Write>): Promise<void> {
+  const { drawing, ...options } = choices;
+  // In sections the distance from their own line says nothing of the profile's.
+  const paint = drawing.style.color === OFFSET ? undefined : paintOf(profile, drawing);
   const { strip, origin, unit } = profile;
   const ends = [strip.chainages[0]!, strip.chainages[strip.chainages.length - 1]!] as const;
   const { interval, width, thickness } = options.sections;
@@ -144,6 +149,7 @@ async function writeSections(...[profile, sink, options]: Parameters<Write>): Pr
   const volume = profile.across(sections);
   await exportSections([{ origin, volume }], sink, {
     ...options,
+    paint,
     line: profile.along,
     files: ["las", "dxf", "svg"],
   });

@@ -253,6 +253,7 @@ export class ProfilePanel {
       this.#cut.show(profile);
       this.#tellState();
       const plot = this.#clearPicture(profile.from, profile.length);
+      setText(this.#status, `${told(profile, 0)}, reading…`);
       let complete = true;
       for await (const points of profile.points({ signal })) {
         plot.add(points);
