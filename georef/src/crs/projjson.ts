@@ -1,4 +1,4 @@
-import { unknown } from "./refusal.js";
+import { atEpoch, unknown } from "./refusal.js";
 import type { WktItem, WktNode } from "./tree.js";
 
 type Json = Readonly<Record<string, unknown>>;
@@ -41,6 +41,7 @@ export function projJsonTree(source: string): WktNode {
 }
 
 function crs(json: Json): WktNode {
+  if (json.type === "CoordinateMetadata") throw atEpoch();
   const keyword = KEYWORDS.get(string(json.type));
   if (!keyword) throw unknown(`PROJJSON of type "${string(json.type)}" is no CRS that can be read`);
   if (keyword === "COMPOUNDCRS") {

@@ -25,6 +25,14 @@ export function unsupported(cause: string, fix?: string): Refusal {
   return new Refusal("CRS_UNSUPPORTED", cause, fix);
 }
 
+/** Coordinates at an epoch: where they are at any other takes the operations of PROJ. */
+export function atEpoch(): Refusal {
+  return unsupported(
+    "what coordinates of an epoch are today is worked out by PROJ alone",
+    "convert the scan with groma where PROJ is installed, or leave the epoch out, which may cost some centimetres a year",
+  );
+}
+
 /** The text, or a code in it, is not understood. */
 export function unknown(cause: string, fix?: string): Refusal {
   return new Refusal("CRS_UNKNOWN", cause, fix);

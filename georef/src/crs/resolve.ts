@@ -7,7 +7,7 @@ import type { CrsModel, VerticalModel } from "./model.js";
 import { heights, normalise } from "./normalise.js";
 import { readProjString } from "./proj-string.js";
 import { projJsonTree } from "./projjson.js";
-import { Refusal, unknown } from "./refusal.js";
+import { atEpoch, Refusal, unknown } from "./refusal.js";
 import { excerpt, parseWkt } from "./tree.js";
 import { readWkt } from "./wkt.js";
 
@@ -142,6 +142,7 @@ function isWkt(text: string): boolean {
 function readText(text: string, lookup: EpsgLookup | undefined): CrsModel {
   const codes = epsgCodes(text);
   if (codes) return readEpsg(codes, lookup);
+  if (/^[A-Za-z]\w*:[\w.+:]+@\d{4}(\.\d+)?$/.test(text)) throw atEpoch();
   if (text.startsWith("{")) return readWkt([projJsonTree(text)]);
   if (isWkt(text)) return readWkt(parseWkt(text));
   const init = /\+init=(epsg:\d+)\b/i.exec(text);

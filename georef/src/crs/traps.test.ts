@@ -92,6 +92,15 @@ describe("traps of proj4js that are closed", () => {
     expect(read({ given: `EPSG:${code}` }).horizontalUnit.size).toBeCloseTo(Math.PI / 200, 12);
   });
 
+  it.each([
+    { given: "EPSG:9309@2023.25" },
+    { given: "EPSG:25832@2020" },
+    { given: '{"type":"CoordinateMetadata","crs":{"type":"GeographicCRS"},"coordinateEpoch":2020}' },
+    { wkt: 'COORDINATEMETADATA[GEOGCRS["ATRF2014"],EPOCH[2023.25]]' },
+  ])("names PROJ for the epoch of coordinates: %o", (sources) => {
+    expect(refusal(sources)).toMatch(/^CRS_UNSUPPORTED: .*epoch.* by PROJ alone/);
+  });
+
   it("does not believe the rotations of an EPSG table: RD New has microradians there", () => {
     expect(lookup(28992)?.wkt).toContain("1.9342,-1.6677,9.1019");
     expect(read({ given: "EPSG:28992" }).proj4).toContain(

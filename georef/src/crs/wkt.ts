@@ -2,7 +2,7 @@ import type { Unit } from "./crs.js";
 import type { Figure } from "./ellipsoids.js";
 import type { ConversionModel, CrsModel, DatumModel, HorizontalModel, ParameterId } from "./model.js";
 import { findParameter } from "./parameters.js";
-import { unknown, unsupported } from "./refusal.js";
+import { atEpoch, unknown, unsupported } from "./refusal.js";
 import { child, children, epsgCode, isNode, number, text, type WktNode } from "./tree.js";
 import { DEGREE, METRE, unitOf } from "./units.js";
 import { bursaWolf } from "./wkt-bound.js";
@@ -22,6 +22,7 @@ const UNITS = ["UNIT", "LENGTHUNIT", "ANGLEUNIT", "SCALEUNIT", "LINUNIT"];
 export function readWkt(nodes: readonly WktNode[]): CrsModel {
   const [first] = nodes;
   if (!first) throw unknown("the WKT is empty");
+  if (first[0] === "COORDINATEMETADATA") throw atEpoch();
   const parts = COMPOUND.includes(first[0]) ? children(first) : nodes;
   let horizontal: HorizontalModel | undefined;
   let vertical: CrsModel["vertical"];
