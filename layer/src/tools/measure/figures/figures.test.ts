@@ -93,6 +93,9 @@ describe("distances", () => {
       for (const { value, atLeast } of [space, vertical, horizontal])
         expect([value, atLeast]).toEqual([0, 0]);
     }
+    // What says to be the same record, and has other integers, is another one.
+    const bogus = recordVertex(utm, { ...b.record!, index: a.record!.index, source: b.source! });
+    expect(measureDistance(a, bogus, { precision: 0.01 }).space.uncertainty).toBeGreaterThan(0.02);
     const there = (back: Vertex) => measurePolyline([a, b, back], { precision: 0.01 }).space.uncertainty;
     expect(there(again)).toBe(there(a));
     expect(there(a)).toBeCloseTo(2 * measureDistance(a, b, { precision: 0.01 }).space.uncertainty!, 6);

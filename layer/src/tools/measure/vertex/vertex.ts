@@ -84,13 +84,16 @@ export function sourceVertex(cloud: MeasuredCloud, source: Vector): Vertex {
   return { ...placed(cloud.place(...source)), cloud, source };
 }
 
-/** Whether two vertices stand on one record. */
+/** Whether two vertices stand on one record: one with other integers is another one, whatever else is said of it. */
 export function isSameRecord({ record: a }: Vertex, { record: b }: Vertex): boolean {
+  if (a === undefined || b === undefined) return false;
   return (
-    a !== undefined &&
-    b !== undefined &&
-    (a === b ||
-      (a.index === b.index && a.node === b.node && a.dataset === b.dataset && a.identity === b.identity))
+    a === b ||
+    (a.index === b.index &&
+      a.node === b.node &&
+      a.dataset === b.dataset &&
+      a.identity === b.identity &&
+      a.integers.every((value, axis) => value === b.integers[axis]))
   );
 }
 
@@ -102,7 +105,8 @@ export function recordKey(vertex: Vertex): unknown {
   if (!record) return vertex;
   let key = keys.get(record);
   if (key === undefined) {
-    key = JSON.stringify([record.dataset, record.identity, record.node, record.index]);
+    const { dataset, identity, node, index, integers } = record;
+    key = JSON.stringify([dataset, identity, node, index, integers]);
     keys.set(record, key);
   }
   return key;
