@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { LinkedPage, missing, unless } from "./linked.js";
+import { serveTerrain } from "./quantized-mesh.js";
 
 describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
   const linked = new LinkedPage();
@@ -88,25 +89,21 @@ describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
     expect(apart(seen.nearer.place, seen.wanted)).toBeLessThan(0.01);
   });
 
-  it("is the terrain where the globe has one", { timeout: 180_000 }, async () => {
+  it("is the terrain where the globe has one, as soon as that is there", { timeout: 180_000 }, async () => {
+    const middle = (46.9542 * Math.PI) / 180;
+    const slope = (_: number, north: number) =>
+      1000 + 0.2 * Math.min(Math.max(6.37e6 * (north - middle), -4500), 4500);
+    await serveTerrain(linked.page, "/slope/", slope);
     const seen = await linked.page.evaluate(async () => {
       const { stage, synchronize, Cesium, Stage, ol } = window.linked;
       const globe = new Stage({ width: 400, height: 300, globe: true });
       const { scene } = globe.widget;
       const { camera, canvas } = scene;
-      // A slope: 1,000 m in the middle of the scans, and 20 m more for each 100 m to the north.
+      // A slope: 1,000 m in the middle of the scans, and 20 m more for each 100 m to the north, 4.5 km to either side.
       const [longitude, latitude] = [9, 46.9542].map(Cesium.Math.toRadians) as [number, number];
-      const heightAt = (_: number, north: number) => 1000 + 0.2 * 6.37e6 * (north - latitude);
-      const tiling = new Cesium.GeographicTilingScheme();
-      const provider = new Cesium.CustomHeightmapTerrainProvider({
-        ...{ width: 32, height: 32, tilingScheme: tiling },
-        callback(x, y, level) {
-          const { north, height } = tiling.tileXYToRectangle(x, y, level);
-          const rows = Array.from({ length: 32 }, (_, row) => heightAt(0, north - (row / 31) * height));
-          return Float32Array.from({ length: 32 * 32 }, (_, at) => rows[Math.floor(at / 32)]!);
-        },
-      });
-      scene.terrainProvider = provider;
+      const heightAt = (_: number, north: number) =>
+        1000 + 0.2 * Math.min(Math.max(6.37e6 * (north - latitude), -4500), 4500);
+      scene.terrainProvider = await Cesium.CesiumTerrainProvider.fromUrl("/slope/");
       const target = Cesium.Cartesian3.fromRadians(longitude, latitude, 1000);
       const degrees = Math.PI / 180;
       camera.lookAt(target, new Cesium.HeadingPitchRange(30 * degrees, -35 * degrees, 1500));
@@ -118,7 +115,6 @@ describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
           quiet = scene.globe.tilesLoaded ? quiet + 1 : 0;
         }
       };
-      await load();
       /** Where the ray through a place of the picture meets the slope, found by halving. */
       const meets = (x: number, y: number) => {
         const ray = camera.getPickRay(new Cesium.Cartesian2(x, y))!;
@@ -142,6 +138,10 @@ describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
       window.linked.link = link;
       const view = map.map.getView();
       const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+      const early = view.getCenter()!;
+      await load();
+      // Longer than the link waits at rest, for what it shows once all is there.
+      await new Promise((done) => setTimeout(done, 500));
       const corners = [
         [0, height],
         [width, height],
@@ -180,11 +180,13 @@ describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
       });
       link.dispose();
       globe.destroy();
-      return { before, looked, corners, wanted, led, marked, under, stands };
+      return { early, before, looked, corners, wanted, led, marked, under, stands };
     });
     const apart = (a: readonly number[], b: readonly number[]) => Math.hypot(a[0]! - b[0]!, a[1]! - b[1]!);
     // Cesium keeps the vertices of a tile to 12 bits of its size.
     const near = 2;
+    // Before there was any terrain, it was taken for the ellipsoid.
+    expect(apart(seen.early, seen.looked.at)).toBeGreaterThan(500);
     expect(apart(seen.before.center, seen.looked.at)).toBeLessThan(near);
     const perPixel = (2 * Math.tan(Math.PI / 6)) / 400;
     expect(seen.before.resolution / (seen.looked.away * perPixel)).toBeCloseTo(0.9996, 2);

@@ -59,7 +59,7 @@ export class GlobeSide {
     this.#height = this.guess() ?? 0;
     this.#known = this.#numbers();
     this.#unwatch = scene.preRender.addEventListener(() => {
-      if (!this.#isKnown() && this.shown) moved();
+      if (this.hasMoved && this.shown) moved();
     });
   }
 
@@ -125,9 +125,9 @@ export class GlobeSide {
     return ahead && heightOf(vectorOf(ahead.boundingSphere.center));
   }
 
-  /** Whether points of the view are still on their way. */
+  /** Whether points or terrain of the view are still on their way. */
   get loads(): boolean {
-    return this.layers.some(({ settled }) => !settled);
+    return this.#terrain?.tilesLoaded === false || this.layers.some(({ settled }) => !settled);
   }
 
   /** Has the camera look at another place in the way in which it looks now. @param turns whether its heading changes */
@@ -149,6 +149,14 @@ export class GlobeSide {
     standCamera(camera, pose);
     this.know();
     this.scene.requestRender();
+  }
+
+  /** Whether the camera is another than the one known. */
+  get hasMoved(): boolean {
+    return this.#numbers().some((value, at) => {
+      const off = Math.abs(value - this.#known[at]!);
+      return off > ROUNDING * Math.max(1, Math.abs(value));
+    });
   }
 
   /** Takes the camera as it is for known. */
@@ -234,13 +242,6 @@ export class GlobeSide {
     Cartesian3.fromElements(...direction, ray.direction);
     const found = this.scene.globe.pick(ray, this.scene, place);
     return found && vectorOf(found);
-  }
-
-  #isKnown(): boolean {
-    return this.#numbers().every((value, at) => {
-      const off = Math.abs(value - this.#known[at]!);
-      return off <= ROUNDING * Math.max(1, Math.abs(value));
-    });
   }
 
   /** All of the camera that says what it looks at. */

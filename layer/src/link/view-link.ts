@@ -23,6 +23,8 @@ const REST = 150;
 const MOVED = "moved";
 /** Pixels by which that height has to differ from the one held for the views to be moved again. */
 const WORTH = 0.1;
+/** Share by which their scales have to differ for that. */
+const SCALE_WORTH = 1e-3;
 
 /**
  * Carries the view of one side over to the other, once a frame at most. What it has moved itself it takes for known, so
@@ -76,8 +78,11 @@ export class ViewLink {
       this.#frame = undefined;
       if (!this.#map.hasMoved) return;
       this.#map.know();
-      // Also where the globe stays: what is drawn on the map may have to follow to another projection.
-      if (!this.#showOnGlobe("map")) this.#told(undefined);
+      if (this.#showOnGlobe("map")) return;
+      // A map that goes its own way is not to be taken back when the globe's height is read.
+      this.#cancelRest();
+      // What is drawn on the map may have to follow to another projection.
+      this.#told(undefined);
     });
   }
 
@@ -101,8 +106,7 @@ export class ViewLink {
 
   dispose(): void {
     this.#cancelFrame();
-    clearTimeout(this.#timer);
-    this.#looking?.abort();
+    this.#cancelRest();
   }
 
   #showOnMap(origin: MoveOrigin): void {
@@ -131,22 +135,37 @@ export class ViewLink {
   /** The point in the middle of the globe's picture says how high lies what the camera looks at. */
   async #readAhead(): Promise<void> {
     const globe = this.#globe;
+    const { loads } = globe;
     const found = await this.#look((signal) => globe.pick(globe.middle, signal));
     if (found === MOVED) return;
     const height = found ? heightOf(found) : globe.guess();
-    if (height !== undefined && this.#differs(height)) this.#showOnMap("globe");
+    if ((height !== undefined && this.#differs(height)) || this.#isOff()) this.#showOnMap("globe");
+    else if (loads) this.#told(undefined);
     // What is there now may not be what is there soon.
-    if (globe.loads) this.#atRest(() => this.#readAhead());
+    if (loads) this.#atRest(() => this.#readAhead());
+  }
+
+  /** Whether the map shows another view than the globe does, now that more of its terrain is there. */
+  #isOff(): boolean {
+    const [globe, map] = [this.#globe, this.#map];
+    const shown = map.wanted;
+    const view = shown && toMapView(map.plane, globe.view, shown.center[0]);
+    if (!view) return false;
+    const away = Math.hypot(view.center[0] - shown.center[0], view.center[1] - shown.center[1]);
+    return away > WORTH * view.resolution || Math.abs(view.resolution / shown.resolution - 1) > SCALE_WORTH;
   }
 
   /** The point in the middle of the map says how high lies what it shows there. */
   async #readBelow(): Promise<void> {
-    const map = this.#map;
+    const [globe, map] = [this.#globe, this.#map];
+    const { loads } = globe;
     const [width, height] = map.map.getSize() ?? [0, 0];
     const found = await this.#look((signal) => map.pick([width / 2, height / 2], signal));
     if (found === MOVED) return;
-    if (found && this.#differs(heightOf(found))) this.#showOnGlobe("map", this.#globe.height);
-    if (this.#globe.loads) this.#atRest(() => this.#readBelow());
+    const [longitude, latitude] = map.plane.inverse(...(map.view?.center ?? [0, 0]));
+    const ground = found ? heightOf(found) : globe.heightAt(longitude, latitude);
+    if (this.#differs(ground)) this.#showOnGlobe("map", globe.height);
+    if (loads) this.#atRest(() => this.#readBelow());
   }
 
   /** Takes over a height of what is looked at. @returns whether the views would show it */
@@ -165,7 +184,9 @@ export class ViewLink {
     this.#looking = looking;
     try {
       const found = await pick(looking.signal);
-      return looking.signal.aborted ? MOVED : found;
+      // A move that is not carried over yet comes first.
+      const moved = looking.signal.aborted || this.#map.hasMoved || this.#globe.hasMoved;
+      return moved ? MOVED : found;
     } catch (thrown) {
       if (!looking.signal.aborted) this.#failed(thrown);
       return MOVED;
@@ -173,11 +194,15 @@ export class ViewLink {
   }
 
   #atRest(work: () => Promise<void>): void {
-    this.#looking?.abort();
-    clearTimeout(this.#timer);
+    this.#cancelRest();
     this.#timer = setTimeout(() => {
       if (this.#globe.lives) void work();
     }, REST);
+  }
+
+  #cancelRest(): void {
+    clearTimeout(this.#timer);
+    this.#looking?.abort();
   }
 
   #cancelFrame(): void {
