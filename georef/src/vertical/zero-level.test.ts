@@ -25,12 +25,19 @@ describe("heights that count from a level of their own", () => {
     expect(ownLevel(crsOf(model, epsg, size))).toEqual({ offset });
   });
 
-  it.each(["Local site datum", "Plant height", "Chart datum", "assumed heights"])(
-    "%s, without a code",
-    (model) => {
-      expect(ownLevel(crsOf(model))).toEqual({ offset: null });
-    },
-  );
+  it.each([
+    ...[
+      "Local site datum",
+      "Plant height",
+      "Chart datum",
+      "assumed heights",
+      "Vienna_height",
+      "Caspian_height",
+    ],
+    ...["AIOC95_Height", "KOC_Construction_Datum", "Kiunga_(height)", "Instantaneous_Water_Level_Height"],
+  ])("%s, without a code", (model) => {
+    expect(ownLevel(crsOf(model))).toEqual({ offset: null });
+  });
 
   it("are depths of any name", () => {
     expect(ownLevel(crsOf("NAP", undefined, -1))).toEqual({ offset: null });

@@ -24,9 +24,12 @@ const OFFSETS: ReadonlyMap<number, number> = new Map([
   ...[5861, 5862, 5863, 5864, 5865, 5866, 5867, 5873, 9287, 9672, 10151].map((low) => [low, TIDES] as const),
 ]);
 
-/** Words of a system without a code whose zero is a place's own, or the water's. */
+/**
+ * Words of a system without a code whose zero is a place's own, or the water's; those of OFFSETS are among them, since ESRI's
+ * WKT has no codes.
+ */
 const OWN_WORDS =
-  /\b(local|site|plant|project|construction|assumed|arbitrary|relative|depths?|chart|soundings?|tid(?:al|e)|(?:low|high) water|lat|hat|mllw|mlw|mhw|mhhw)\b/i;
+  /\b(local|site|plant|project|construction|assumed|arbitrary|relative|depths?|chart|soundings?|tid(?:al|e)|(?:low|high) water|water levels?|lat|hat|mllw|mlw|mhw|mhhw|vienna|wiener|caspian|aioc ?95|koc|kuwait pwd|kiunga|poolbeg)\b/i;
 
 /**
  * Whether heights count from a level of their own: that of Vienna, of the Caspian Sea, of a chart or a site, or downwards.
@@ -41,7 +44,8 @@ export function ownLevel({
   if (height.kind !== "geoid") return undefined;
   const offset = height.epsg === undefined ? undefined : OFFSETS.get(height.epsg);
   if (offset !== undefined) return { offset };
-  const own = verticalUnit.size < 0 || (height.epsg === undefined && OWN_WORDS.test(height.model));
+  const own =
+    verticalUnit.size < 0 || (height.epsg === undefined && OWN_WORDS.test(height.model.replaceAll("_", " ")));
   return own ? { offset: null } : undefined;
 }
 
