@@ -149,4 +149,15 @@ describe("values near the noise of their points are not said to be worth more th
     const { radius } = circle(arc(S).map(vertexAt));
     expect([radius!.uncertainty, radius!.parts[0]!.name]).toEqual([null, "flatness"]);
   });
+
+  it("and of records one step of their integers apart, of which nothing else is unsure, any grid bearing", () => {
+    const steps = cloudOf(UTM, { vertical: "ellipsoidal" });
+    const bearing = (east: number, north: number) =>
+      measureDirection(steps.vertex(500000, 5300000, 0), steps.vertex(500000 + east, 5300000 + north, 0), {
+        precision: 0,
+      }).grid!.bearing!.uncertainty;
+    expect(bearing(0.001, 0)).toBeCloseTo(Math.PI, 6);
+    expect(bearing(0, -0.001)).toBeCloseTo(Math.PI, 6);
+    expect(bearing(0.003, 0)).toBeLessThan(0.5);
+  });
 });

@@ -8,8 +8,11 @@ import { type OwnError, type QuantityOptions, quantity, type Sensitivity } from 
  * components.
  */
 
-/** Square of a length over its spread, below which it may be noise alone. */
-const NOISE = 3;
+/**
+ * Square of a length over its spread, below which it may be noise alone. It is 3 for records that are one step of their
+ * integers apart on a plane, which noise alone can be, and a little more for the scale factor of projections.
+ */
+const NOISE = 3.02;
 
 /** What the components across add to a length, in its spread over it: half of what they reach in 95 % of cases, over 1.96. */
 const ACROSS = 0.5;
@@ -74,7 +77,9 @@ export const ANY_DIRECTION: readonly OwnError[] = [
 
 /** Sum of the variances of components. */
 export function spreadOf(components: readonly (readonly Sensitivity[])[], options: QuantityOptions): number {
-  return (quantity(0, "m", components, options).atLeast / 1.96) ** 2;
+  let sum = 0;
+  for (const { standard } of quantity(0, "m", components, options).parts) sum += (standard ?? 0) ** 2;
+  return sum;
 }
 
 /** A bound of the spread, by the greatest error of each vertex along any axis. */
