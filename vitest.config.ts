@@ -1,6 +1,7 @@
 import { readFileSync } from "node:fs";
 import { availableParallelism } from "node:os";
 import { join } from "node:path";
+import { lingui } from "@lingui/vite-plugin";
 import { defineConfig } from "vitest/config";
 
 /** Packages that tests read as sources, so that an edit reaches every test without a build. */
@@ -36,6 +37,7 @@ const rooms = {
 };
 
 export default defineConfig({
+  plugins: [lingui({ configPath: join(import.meta.dirname, "demo/lingui.config.ts") })],
   resolve: { alias: sources },
   test: {
     testTimeout: 30_000,

@@ -59,9 +59,10 @@ module.exports = {
     georef("record", ["engines", "vertical", "crs", "ellipsoid", "errors"]),
     onlyTo("layer-knows-georef-only", "layer", ["georef"]),
     onlyTo("demo-knows-libraries", "demo", ["layer", "georef"]),
-    onlyTo("demo-scene", "demo/src/scene", ["layer", "georef"]),
-    onlyTo("demo-profile", "demo/src/profile", ["demo/src/panel", "layer", "georef"]),
-    onlyTo("demo-panel", "demo/src/panel", ["demo/src/scene", "layer", "georef"]),
+    onlyTo("demo-language", "demo/src/language", []),
+    onlyTo("demo-scene", "demo/src/scene", ["demo/src/language", "layer", "georef"]),
+    onlyTo("demo-profile", "demo/src/profile", ["demo/src/language", "demo/src/panel", "layer", "georef"]),
+    onlyTo("demo-panel", "demo/src/panel", ["demo/src/language", "demo/src/scene", "layer", "georef"]),
     onlyTo("cli-knows-view-independent-rooms", "converter/cli", [
       "georef",
       "layer/(src|dist)/sources",

@@ -1,12 +1,24 @@
+import { join } from "node:path";
+import { lingui } from "@lingui/vite-plugin";
 import { defineConfig } from "vite";
 import { cesiumFiles } from "./vite/cesium-files.js";
 import { thirdPartyNotices } from "./vite/notices.js";
+import { completeWords } from "./vite/words.js";
 
 export default defineConfig({
   root: import.meta.dirname,
   // Relative, so that the built page works under any path of any static server.
   base: "./",
-  plugins: [cesiumFiles(), thirdPartyNotices()],
+  plugins: [
+    lingui({
+      configPath: join(import.meta.dirname, "lingui.config.ts"),
+      failOnMissing: true,
+      failOnCompileError: true,
+    }),
+    completeWords(),
+    cesiumFiles(),
+    thirdPartyNotices(),
+  ],
   resolve: { dedupe: ["cesium", "ol", "proj4"] },
   worker: { format: "es" },
   build: {

@@ -5,6 +5,7 @@ import type { PointCloud, PointCloudLayer, ServerWait, SharedView } from "@groma
 import { PointNavigation } from "@groma/layer/navigation";
 import { Cartesian3, type Viewer } from "cesium";
 import { cloudAddress, type PageOptions, readPageOptions } from "./address.js";
+import { i18n } from "./language/i18n.js";
 import { Beside } from "./map/beside.js";
 import { CloudSlot, type OpenOptions } from "./open.js";
 import type { Groma } from "./page-global.js";
@@ -18,6 +19,7 @@ import { ExportPoints } from "./panel/export-points.js";
 import { showFacts } from "./panel/facts.js";
 import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
+import { connectLanguage } from "./panel/language-choice.js";
 import { Ledger } from "./panel/ledger.js";
 import { Measuring } from "./panel/measuring.js";
 import { Message } from "./panel/message.js";
@@ -125,6 +127,7 @@ function start(viewer: Viewer): void {
     },
   });
   connectFold();
+  connectLanguage();
   watchDrawing(viewer);
   addBaseMap(viewer).catch((thrown: unknown) => message.show(thrown));
   try {
@@ -242,7 +245,7 @@ function start(viewer: Viewer): void {
     } catch (thrown) {
       if (slot.layer) progress.follow(slot.layer);
       else progress.rest();
-      const give = { label: "Give it here", run: () => chooser.askForCrs() };
+      const give = { label: i18n.t("Give it here"), run: () => chooser.askForCrs() };
       message.show(thrown, thrown instanceof CrsError ? give : undefined);
       return undefined;
     }
@@ -288,7 +291,7 @@ function tellFailures(layer: PointCloudLayer): void {
       told = false;
       layer.retryFailed();
     };
-    message.show(thrown, { label: "Try again", run: again });
+    message.show(thrown, { label: i18n.t("Try again"), run: again });
   });
 }
 

@@ -6,6 +6,7 @@ import {
   TileMapServiceImageryProvider,
   Viewer,
 } from "cesium";
+import { i18n } from "./language/i18n.js";
 import { PageError } from "./panel/page-error.js";
 
 /**
@@ -47,7 +48,7 @@ export function createViewer(container: HTMLElement): Viewer {
   const { scene, canvas } = viewer;
   // With this role screen readers leave the keys to the globe.
   canvas.setAttribute("role", "application");
-  canvas.setAttribute("aria-label", "Globe with the point cloud, question mark for its keys");
+  canvas.setAttribute("aria-label", i18n.t("Globe with the point cloud, question mark for its keys"));
   // A double click goes to a point; by default it would bind the camera to the mark on it.
   viewer.screenSpaceEventHandler.removeInputAction(ScreenSpaceEventType.LEFT_DOUBLE_CLICK);
   scene.screenSpaceCameraController.minimumZoomDistance = 0.5;

@@ -1,4 +1,6 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
+import { classWords } from "./class-words.js";
 import { byId, textElement } from "./elements.js";
 import { countWords } from "./words.js";
 
@@ -19,7 +21,8 @@ export class Classes {
 }
 
 function rowOf(layer: PointCloudLayer, number: number, count: number): HTMLElement {
-  const { name, color, show } = layer.style.classes[number]!;
+  const { name: given, color, show } = layer.style.classes[number]!;
+  const name = classWords(given);
   const shown = document.createElement("input");
   shown.type = "checkbox";
   shown.checked = show;
@@ -29,7 +32,7 @@ function rowOf(layer: PointCloudLayer, number: number, count: number): HTMLEleme
   const tint = document.createElement("input");
   tint.type = "color";
   tint.value = hexOf(color);
-  tint.setAttribute("aria-label", `Colour of ${name}`);
+  tint.setAttribute("aria-label", i18n.t("Colour of {name}", { name }));
   tint.addEventListener("input", () => {
     layer.style = { classes: { [number]: { color: colourOf(tint.value) } } };
   });

@@ -1,4 +1,5 @@
 import { PointCloud } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 import { byId, setText } from "./elements.js";
 
 /** Scans that volumes are measured against: opened beside the one that is shown, and not drawn. */
@@ -35,14 +36,16 @@ export class Compared {
   }
 
   async #open(from: () => string | File): Promise<void> {
-    setText(this.#note, "Opening…");
+    setText(this.#note, i18n.t("Opening…"));
     try {
       const cloud = await PointCloud.fromUrl(from());
       this.#clouds.get(cloud.identity)?.destroy();
       this.#clouds.set(cloud.identity, cloud);
       setText(
         this.#note,
-        `${cloud.name} is open: choose it where a volume says what it is measured against.`,
+        i18n.t("{name} is open: choose it where a volume says what it is measured against.", {
+          name: cloud.name,
+        }),
       );
       this.#changed();
     } catch (thrown) {

@@ -1,4 +1,5 @@
 import type { ByteSink, ExportOptions } from "@groma/layer/export";
+import { i18n } from "../language/i18n.js";
 import { setText } from "./elements.js";
 import { saveFile } from "./save-file.js";
 
@@ -38,14 +39,17 @@ export class ExportJob {
     const work = new AbortController();
     const { signal } = work;
     this.#work = work;
-    setText(this.#button, "Cancel");
+    setText(this.#button, i18n.t("Cancel"));
     const onProgress = ({ read, total }: { read: number; total: number }) =>
-      setText(this.#status, `writing, ${total > 0 ? Math.floor((100 * read) / total) : 100} %`);
+      setText(
+        this.#status,
+        i18n.t("writing, {percent} %", { percent: total > 0 ? Math.floor((100 * read) / total) : 100 }),
+      );
     try {
       const saved = await saveFile(name, (sink) => fill(sink, { signal, onProgress }));
-      setText(this.#status, saved ? `${name} is written.` : "Nothing was written.");
+      setText(this.#status, saved ? i18n.t("{name} is written.", { name }) : i18n.t("Nothing was written."));
     } catch (thrown) {
-      setText(this.#status, "Nothing was written.");
+      setText(this.#status, i18n.t("Nothing was written."));
       if (!signal.aborted) this.#failed(thrown);
     } finally {
       this.#work = undefined;

@@ -1,16 +1,17 @@
 import type { AccuracyPart, OperationReport } from "@groma/georef";
 import { printable } from "@groma/georef/printable";
 import type { PointCloudLayer, SourceWarning } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 import { byId, setText, textElement } from "./elements.js";
 import {
   accuracyWords,
-  counted,
   countWords,
   crsWords,
   engineWords,
   heightWords,
   lackingWords,
   lengthWords,
+  partWords,
   type Words,
   warningsOf,
 } from "./words.js";
@@ -35,17 +36,17 @@ export function showFacts({ cloud, nodeLoaded }: PointCloudLayer, { given }: { g
   });
   const facts = byId("facts", HTMLDListElement);
   facts.replaceChildren(
-    ...fact("Points", { text: countWords(pointCount) }, doubts),
-    ...fact("Coordinate system", crsWords(crs, { given })),
-    ...fact("Height", heightWords(crs, { geoids, remark })),
+    ...fact(i18n.t("Points"), { text: countWords(pointCount) }, doubts),
+    ...fact(i18n.t("Coordinate system"), crsWords(crs, { given })),
+    ...fact(i18n.t("Height"), heightWords(crs, { geoids, remark })),
     ...fact(
-      "Placed by",
+      i18n.t("Placed by"),
       engineWords(cloud),
       ...warningsOf(operation, { remark }).map(warning),
       ...operationOf(operation),
       ...lackingOf(operation),
     ),
-    ...fact("Accuracy", accuracyWords(accuracy), partsOf(accuracy.parts)),
+    ...fact(i18n.t("Accuracy"), accuracyWords(accuracy), partsOf(accuracy.parts)),
   );
   facts.hidden = false;
 }
@@ -70,7 +71,7 @@ function warning(text: string): HTMLElement {
 function operationOf(operation: OperationReport | undefined): HTMLElement[] {
   if (!operation) return [];
   const steps = operation.name.split(" + ").map((step) => row([textElement("span", step)], undefined));
-  return [folded("operation", steps)];
+  return [folded(i18n.t("operation"), steps)];
 }
 
 /** The operations that would have been better, folded away; nothing where there are none. */
@@ -78,15 +79,22 @@ function lackingOf(operation: OperationReport | undefined): HTMLElement[] {
   const lacking = lackingWords(operation);
   if (lacking.length === 0) return [];
   const items = lacking.map(({ text, note }) => row([textElement("span", text)], note));
-  return [folded(`${counted(lacking.length, "better operation")}, grids missing`, items)];
+  return [
+    folded(
+      i18n.t("{count, plural, one {# better operation} other {# better operations}}, grids missing", {
+        count: lacking.length,
+      }),
+      items,
+    ),
+  ];
 }
 
 /** The parts of an accuracy, folded away. */
 function partsOf(parts: readonly AccuracyPart[]): HTMLElement {
   const items = parts.map(({ name, metres, note }) =>
-    row([textElement("span", name), textElement("span", lengthWords(metres))], note),
+    row([textElement("span", partWords(name)), textElement("span", lengthWords(metres))], note),
   );
-  return folded(counted(parts.length, "part"), items);
+  return folded(i18n.t("{count, plural, one {# part} other {# parts}}", { count: parts.length }), items);
 }
 
 function row(cells: readonly HTMLElement[], note: string | undefined): HTMLElement {

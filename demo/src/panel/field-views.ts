@@ -1,4 +1,5 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 import { optionElement, textElement } from "./elements.js";
 import type { CheckField, ChoiceField, Field, FieldView, RangeField, SliderField } from "./field.js";
 
@@ -51,7 +52,7 @@ function slider(field: SliderField, apply: Apply): FieldView {
       // What came from elsewhere may lie beyond the slider's end.
       if (place(now) > Number(input.max)) input.max = String(place(now));
       if (input !== document.activeElement || value() !== now) input.value = String(place(now));
-      const words = now.toLocaleString("en", { maximumFractionDigits: 2 });
+      const words = now.toLocaleString(i18n.locale, { maximumFractionDigits: 2 });
       output.value = unit ? `${words} ${unit}` : words;
     },
   };
@@ -93,8 +94,8 @@ function range(field: RangeField, apply: Apply): FieldView {
   const most = inputElement("number", `${field.id}-most`);
   least.step = "any";
   most.step = "any";
-  least.setAttribute("aria-label", `${field.label}, from`);
-  most.setAttribute("aria-label", `${field.label}, to`);
+  least.setAttribute("aria-label", i18n.t("{label}, from", { label: field.label }));
+  most.setAttribute("aria-label", i18n.t("{label}, to", { label: field.label }));
   const read = (input: HTMLInputElement, whole: number | undefined) =>
     input.value === "" ? whole : input.valueAsNumber;
   const change = () =>

@@ -1,3 +1,4 @@
+import { i18n } from "../language/i18n.js";
 import type { ScreenRectangle } from "../scene/framing.js";
 import { byId, setText } from "./elements.js";
 
@@ -21,7 +22,7 @@ function setFolded(folded: boolean): void {
   const button = byId("fold", HTMLButtonElement);
   byId("body", HTMLDivElement).hidden = folded;
   button.setAttribute("aria-expanded", String(!folded));
-  setText(button, folded ? "More" : "Less");
+  setText(button, folded ? i18n.t("More") : i18n.t("Less"));
 }
 
 /** The part of the globe beside or below the panel; the whole globe where that would be too small. */

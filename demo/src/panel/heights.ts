@@ -1,5 +1,6 @@
 import type { HeightGuess } from "@groma/georef";
 import { guessHeights, type PointCloud } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 import { chooseHeight, type HeightWish } from "../scene/height-choice.js";
 import { byId, optionElement, setText, textElement } from "./elements.js";
 
@@ -74,10 +75,10 @@ export class Heights {
       ...guess.systems.map(({ code, name }) => optionElement({ value: `EPSG:${code}`, label: name })),
     );
     if (cloud.height.kind !== "unknown" || this.#wish.value !== "declared") return;
-    setText(this.#note, `Not declared by the file: ${guess.note}.`);
+    setText(this.#note, i18n.t("Not declared by the file: {note}.", { note: guess.note }));
     const [first] = guess.systems;
     if (!first) return;
-    const take = textElement("button", `Take ${first.name}`);
+    const take = textElement("button", i18n.t("Take {name}", { name: first.name }));
     take.type = "button";
     take.value = `EPSG:${first.code}`;
     take.className = "quiet";

@@ -7,15 +7,16 @@ import {
   type VolumeSettings,
   wordsOf,
 } from "@groma/layer/tools";
+import { i18n } from "../language/i18n.js";
 import { byId, optionElement, setText, textElement } from "./elements.js";
 
 /** What a volume can be measured against, by what the reader chooses. */
 const BASES = new Map<string, string>([
-  ["lowest", "its lowest vertex"],
-  ["highest", "its highest vertex"],
-  ["plane", "the plane through its vertices"],
-  ["ring", "triangles between its vertices"],
-  ["height", "a height"],
+  ["lowest", i18n.t("its lowest vertex")],
+  ["highest", i18n.t("its highest vertex")],
+  ["plane", i18n.t("the plane through its vertices")],
+  ["ring", i18n.t("triangles between its vertices")],
+  ["height", i18n.t("a height")],
 ]);
 
 /** Begins the choices that are scans; what their points are follows, or the name where that is not known. */
@@ -101,10 +102,10 @@ export class MeasurementList {
     const head = document.createElement("div");
     head.className = "row";
     const show = textElement("button", name, "name");
-    const read = textElement("button", "Stop");
-    const edit = textElement("button", "Edit");
-    const remove = textElement("button", "Delete");
-    remove.setAttribute("aria-label", `Delete ${name}`);
+    const read = textElement("button", i18n.t("Stop"));
+    const edit = textElement("button", i18n.t("Edit"));
+    const remove = textElement("button", i18n.t("Delete"));
+    remove.setAttribute("aria-label", i18n.t("Delete {name}", { name }));
     const doing = (work: (one: Measurement) => void) => () => {
       const one = this.#of(id);
       if (one) work(one);
@@ -130,24 +131,27 @@ export class MeasurementList {
   #fill({ measurement, edit, read, facts }: Entry): void {
     const { id, name, kind, vertices } = measurement;
     const edited = this.#tool.edited?.id === id;
-    setText(edit, edited ? "Done" : "Edit");
-    edit.setAttribute("aria-label", `${edited ? "Done with" : "Edit"} ${name}`);
+    setText(edit, edited ? i18n.t("Done") : i18n.t("Edit"));
+    edit.setAttribute(
+      "aria-label",
+      edited ? i18n.t("Done with {name}", { name }) : i18n.t("Edit {name}", { name }),
+    );
     const reading = this.#tool.readingOf(measurement);
     read.hidden = !readsPoints(measurement) || reading?.state === "done";
-    setText(read, reading?.state === "reading" ? "Stop" : "Measure again");
+    setText(read, reading?.state === "reading" ? i18n.t("Stop") : i18n.t("Measure again"));
     facts.replaceChildren();
     const fact = (title: string, text: string, note?: string) => {
       const told = textElement("dd", text);
       if (note) told.title = note;
       facts.append(textElement("dt", title), told);
     };
-    if (reading?.state === "reading") fact("reading points", `${Math.floor(100 * reading.share)} %`);
-    if (reading?.state === "failed") fact("no value", messageOf(reading.thrown));
+    if (reading?.state === "reading") fact(i18n.t("reading points"), `${Math.floor(100 * reading.share)} %`);
+    if (reading?.state === "failed") fact(i18n.t("no value"), messageOf(reading.thrown));
     try {
       for (const one of this.#tool.valuesOf(measurement)) fact(one.title, this.#words(one), unknownOf(one));
       if (kind === "point") for (const [title, text] of placesOf(vertices[0])) fact(title, text);
     } catch (thrown) {
-      fact("no value", messageOf(thrown));
+      fact(i18n.t("no value"), messageOf(thrown));
     }
   }
 
@@ -158,18 +162,18 @@ export class MeasurementList {
   /** What a volume is measured against, and which points make its surface. */
   #settings({ id, name }: Measurement): Settings {
     const base = document.createElement("select");
-    base.setAttribute("aria-label", `${name} is measured against`);
+    base.setAttribute("aria-label", i18n.t("{name} is measured against", { name }));
     for (const [value, label] of BASES) base.append(optionElement({ value, label }));
     const height = document.createElement("input");
     height.type = "number";
     height.step = "any";
-    height.placeholder = "metres";
-    height.setAttribute("aria-label", `Height that ${name} is measured against, metres`);
+    height.placeholder = i18n.t("metres");
+    height.setAttribute("aria-label", i18n.t("Height that {name} is measured against, metres", { name }));
     const ground = document.createElement("input");
     ground.type = "checkbox";
     const only = document.createElement("label");
     only.className = "check";
-    only.append(ground, textElement("span", "ground points only"));
+    only.append(ground, textElement("span", i18n.t("ground points only")));
     const offered = new Map<string, Scan>();
     const changed = () => {
       height.hidden = base.value !== "height";

@@ -12,6 +12,7 @@ import {
   valuesToCsv,
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
+import { i18n } from "../language/i18n.js";
 import { Compared } from "./compared.js";
 import { byId, optionElement, setText } from "./elements.js";
 import { MeasurementList } from "./measurement-list.js";
@@ -45,8 +46,9 @@ const ANGLES = new Map<string, MeasureUnitsOptions>([
 const COVERING = ["panel", "picked", "profile"];
 
 /** What the tool bar says while a figure is drawn. */
-const HINT =
-  "Click points, or move the crosshair with the arrow keys and press Enter. Twice in one place ends; Escape gives up.";
+const HINT = i18n.t(
+  "Click points, or move the crosshair with the arrow keys and press Enter. Twice in one place ends; Escape gives up.",
+);
 
 /** The tool bar of measuring, and the list of what was measured. */
 export class Measuring {

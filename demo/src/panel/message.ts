@@ -1,4 +1,5 @@
 import { type Fault, GromaError } from "@groma/georef";
+import { i18n } from "../language/i18n.js";
 import { byId, textElement } from "./elements.js";
 
 /** Something the reader can do about a fault besides what its text names. */
@@ -17,7 +18,7 @@ export class Message {
     const buttons = document.createElement("p");
     buttons.className = "row";
     if (action) buttons.append(this.#button(action));
-    buttons.append(this.#button({ label: "Dismiss", run: () => undefined }));
+    buttons.append(this.#button({ label: i18n.t("Dismiss"), run: () => undefined }));
     this.#place.replaceChildren(
       textElement("p", code, "code"),
       isolated(file, ": ", sentence(cause)),

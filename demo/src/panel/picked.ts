@@ -1,4 +1,5 @@
 import { ecefToGeodetic } from "@groma/georef";
+import { i18n } from "../language/i18n.js";
 import type { Hit } from "../scene/picking.js";
 import { attributeLabel } from "./attribute-words.js";
 import { byId, textElement } from "./elements.js";
@@ -18,12 +19,12 @@ export class Picked {
     ecefToGeodetic(position.x, position.y, position.z, geodetic);
     this.#facts.replaceChildren(
       ...row("x, y, z", coordinateWords(source, cloud.scale)),
-      ...row("longitude, latitude", `${degreeWords(geodetic[0]!)}, ${degreeWords(geodetic[1]!)}`),
-      ...row("above the ellipsoid", `${geodetic[2]!.toFixed(3)} m`),
+      ...row(i18n.t("longitude, latitude"), `${degreeWords(geodetic[0]!)}, ${degreeWords(geodetic[1]!)}`),
+      ...row(i18n.t("above the ellipsoid"), `${geodetic[2]!.toFixed(3)} m`),
       ...Object.entries(attributes).flatMap(([name, value]) =>
         row(attributeLabel(info.get(name) ?? { name }), valueWords(value)),
       ),
-      ...row("node, record", `${node}, ${index}`),
+      ...row(i18n.t("node, record"), `${node}, ${index}`),
     );
   }
 }

@@ -1,7 +1,8 @@
 import type { PointCloudLayer, ServerWait, StreamProgress } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 import { byId, setText } from "./elements.js";
 import { againWords, outageWords } from "./wait-words.js";
-import { counted, countWords } from "./words.js";
+import { countWords } from "./words.js";
 
 /** Milliseconds between two looks at what is drawn: what has come is drawn some frames later. */
 const INTERVAL = 250;
@@ -30,7 +31,7 @@ export class Progress {
   opening(name: string): void {
     this.rest();
     this.#place.hidden = false;
-    setText(this.#stage, `Opening ${name}…`);
+    setText(this.#stage, i18n.t("Opening {name}…", { name }));
     this.#bar.removeAttribute("value");
     this.#bar.hidden = false;
     setText(this.#count, "");
@@ -85,14 +86,27 @@ export class Progress {
     this.#bar.max = Math.max(wanted, 1);
     this.#bar.value = ready;
     if (waits && waiting) setText(this.#stage, outageWords(waiting));
-    else if (waits) setText(this.#stage, "Loading this view…");
+    else if (waits) setText(this.#stage, i18n.t("Loading this view…"));
     else if (failed > 0)
-      setText(this.#stage, `This view is drawn without ${counted(failed, "node")} that failed.`);
-    else setText(this.#stage, wanted > 0 ? "This view is complete." : "No points in this view.");
-    const nodes = `${countWords(ready)} of ${counted(wanted, "node")}`;
-    const limit = budgetReached ? ", limited by the point budget" : "";
+      setText(
+        this.#stage,
+        i18n.t("This view is drawn without {count, plural, one {# node} other {# nodes}} that failed.", {
+          count: failed,
+        }),
+      );
+    else
+      setText(this.#stage, wanted > 0 ? i18n.t("This view is complete.") : i18n.t("No points in this view."));
+    const nodes = i18n.t("{ready} of {wanted, plural, one {# node} other {# nodes}}", {
+      ready: countWords(ready),
+      wanted,
+    });
+    const points = budgetReached
+      ? i18n.t("{count, plural, one {# point} other {# points}} drawn, limited by the point budget", {
+          count: pointsDrawn,
+        })
+      : i18n.t("{count, plural, one {# point} other {# points}} drawn", { count: pointsDrawn });
     const again = waits && waiting ? `${againWords(waiting, Date.now())} · ` : "";
-    setText(this.#count, `${again}${nodes} · ${counted(pointsDrawn, "point")} drawn${limit}`);
+    setText(this.#count, `${again}${nodes} · ${points}`);
   }
 }
 

@@ -8,6 +8,7 @@ import {
   writePermalink,
 } from "@groma/layer/cesium";
 import type { Viewer } from "cesium";
+import { i18n } from "../language/i18n.js";
 import type { ClipBox } from "../scene/clip-box.js";
 import type { Picking } from "../scene/picking.js";
 import { byId, setText } from "./elements.js";
@@ -74,7 +75,7 @@ export class Share {
     if (!layer) return;
     const note = byId("link-note", HTMLParagraphElement);
     if (!hasAddress()) {
-      setText(note, "A file of this computer has no address that a link could name.");
+      setText(note, i18n.t("A file of this computer has no address that a link could name."));
       return;
     }
     const page = new URL(location.href);
@@ -93,7 +94,9 @@ export class Share {
     );
     setText(
       note,
-      copied ? "The link is copied; the address bar has it too." : "The address bar has the link.",
+      copied
+        ? i18n.t("The link is copied; the address bar has it too.")
+        : i18n.t("The address bar has the link."),
     );
   }
 }

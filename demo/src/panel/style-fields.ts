@@ -1,5 +1,6 @@
 import type { PointCloudLayer, PointCloudStyle, StyleParts } from "@groma/layer/cesium";
 import { eyeDomeOf, GRADIENTS } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 import { attributeLabel } from "./attribute-words.js";
 import type { FieldGroup } from "./drawing.js";
 import type { CheckField, ChoiceField, RangeField, SliderField } from "./field.js";
@@ -15,65 +16,76 @@ const scalar = ({ style, cloud }: Layer) =>
 const spaced = ({ style }: Layer) => style.size !== "fixed";
 const lit = ({ style }: Layer) => style.eyeDomeLighting !== false;
 
+/** What the values of a style are called; gradients have names of their own, the same in every language. */
+const STYLE_WORDS: ReadonlyMap<string, string> = new Map([
+  ["auto", i18n.t("auto")],
+  ["fixed", i18n.t("fixed")],
+  ["attenuated", i18n.t("attenuated")],
+  ["adaptive", i18n.t("adaptive")],
+  ["square", i18n.t("square")],
+  ["disc", i18n.t("disc")],
+  ["paraboloid", i18n.t("paraboloid")],
+]);
+
 /** The switches for everything in a style. */
 export const STYLE_GROUPS: readonly FieldGroup[] = [
   {
-    title: "Colour",
+    title: i18n.t("Colour"),
     open: true,
     fields: [
       {
         kind: "choice",
         id: "color",
-        label: "Show",
+        label: i18n.t("Show"),
         options: colourings,
         read: ({ style }) => style.color,
         // A range given for one attribute says nothing of another.
         write: (layer, color) => style(layer, { color, range: undefined }),
       },
       {
-        ...words("gradient", "gradient", "Gradient", ["auto", ...Object.keys(GRADIENTS)]),
+        ...words("gradient", "gradient", i18n.t("Gradient"), ["auto", ...Object.keys(GRADIENTS)]),
         when: scalar,
         read: ({ style: { gradient } }) => (typeof gradient === "string" ? gradient : "auto"),
       },
       range(),
-      number("gamma", "Gamma", [0.2, 5], 0.05),
-      number("brightness", "Brightness", [-1, 1], 0.05),
-      number("contrast", "Contrast", [-1, 1], 0.05),
+      number("gamma", i18n.t("Gamma"), [0.2, 5], 0.05),
+      number("brightness", i18n.t("Brightness"), [-1, 1], 0.05),
+      number("contrast", i18n.t("Contrast"), [-1, 1], 0.05),
       blendWith(),
       blendShare(),
-      number("opacity", "Opacity", [0.05, 1], 0.05),
-      onOff("dithering", "Dithering"),
+      number("opacity", i18n.t("Opacity"), [0.05, 1], 0.05),
+      onOff("dithering", i18n.t("Dithering")),
     ],
   },
   {
-    title: "Points",
+    title: i18n.t("Points"),
     fields: [
-      words("size", "mode", "Size", ["fixed", "attenuated", "adaptive"]),
-      { ...number("pointSize", "Width", [1, 10], 0.5, "px"), when: (layer) => !spaced(layer) },
-      { ...number("spacingFactor", "Width", [0.5, 4], 0.1, "spacings"), when: spaced },
-      { ...number("minimumSize", "At least", [1, 10], 0.5, "px"), when: spaced },
-      { ...number("maximumSize", "At most", [2, 64], 1, "px"), when: spaced },
-      words("shape", "shape", "Shape", ["square", "disc", "paraboloid"]),
-      { ...automatic("splats", "Blended splats") },
+      words("size", "mode", i18n.t("Size"), ["fixed", "attenuated", "adaptive"]),
+      { ...number("pointSize", i18n.t("Width"), [1, 10], 0.5, "px"), when: (layer) => !spaced(layer) },
+      { ...number("spacingFactor", i18n.t("Width"), [0.5, 4], 0.1, i18n.t("spacings")), when: spaced },
+      { ...number("minimumSize", i18n.t("At least"), [1, 10], 0.5, "px"), when: spaced },
+      { ...number("maximumSize", i18n.t("At most"), [2, 64], 1, "px"), when: spaced },
+      words("shape", "shape", i18n.t("Shape"), ["square", "disc", "paraboloid"]),
+      { ...automatic("splats", i18n.t("Blended splats")) },
       {
-        ...number("hardness", "Hardness", [0.5, 10], 0.5),
+        ...number("hardness", i18n.t("Hardness"), [0.5, 10], 0.5),
         when: ({ style }) => style.splats !== false,
       },
     ],
   },
   {
-    title: "Light",
+    title: i18n.t("Light"),
     fields: [
       {
-        ...automatic("eyeDomeLighting", "Eye-Dome Lighting"),
+        ...automatic("eyeDomeLighting", i18n.t("Eye-Dome Lighting")),
         read: ({ style: { eyeDomeLighting: now } }) => (typeof now === "object" ? "true" : String(now)),
       },
-      { ...light("strength", "Strength", [0.1, 3], 0.1), when: lit },
-      { ...light("radius", "Radius", [0.5, 5], 0.1, "px"), when: lit },
+      { ...light("strength", i18n.t("Strength"), [0.1, 3], 0.1), when: lit },
+      { ...light("radius", i18n.t("Radius"), [0.5, 5], 0.1, "px"), when: lit },
       {
         kind: "choice",
         id: "neighbours",
-        label: "Neighbours",
+        label: i18n.t("Neighbours"),
         when: lit,
         options: () => ["4", "8"].map((value) => ({ value, label: value })),
         read: ({ style }) => String(eyeDomeOf(style).neighbours),
@@ -89,11 +101,11 @@ function style(layer: Layer, parts: StyleParts): void {
 
 /** What a cloud can be coloured by. */
 function colourings({ cloud }: Layer): { value: string; label: string }[] {
-  const own = cloud.hasColour ? [{ value: "rgb", label: "the scan's colours" }] : [];
+  const own = cloud.hasColour ? [{ value: "rgb", label: i18n.t("the scan's colours") }] : [];
   const columns = cloud.attributes
     .filter(({ kind, components }) => kind !== "color" && components === 1)
     .map((attribute) => ({ value: attribute.name, label: attributeLabel(attribute) }));
-  return [...own, ...columns, { value: "levelOfDetail", label: "level of detail" }];
+  return [...own, ...columns, { value: "levelOfDetail", label: i18n.t("level of detail") }];
 }
 
 function number(
@@ -126,7 +138,7 @@ function words(
     kind: "choice",
     id,
     label,
-    options: () => values.map((value) => ({ value, label: value })),
+    options: () => values.map((value) => ({ value, label: STYLE_WORDS.get(value) ?? value })),
     read: (layer) => String(layer.style[key]),
     write: (layer, value) => style(layer, { [key]: value }),
   };
@@ -149,9 +161,9 @@ function automatic(key: "splats" | "eyeDomeLighting", label: string): ChoiceFiel
     id: key,
     label,
     options: () => [
-      { value: "false", label: "off" },
-      { value: "auto", label: "where it shows" },
-      { value: "true", label: "on" },
+      { value: "false", label: i18n.t("off") },
+      { value: "auto", label: i18n.t("where it shows") },
+      { value: "true", label: i18n.t("on") },
     ],
     read: (layer) => String(layer.style[key]),
     write: (layer, value) => style(layer, { [key]: value === "auto" ? value : value === "true" }),
@@ -182,7 +194,7 @@ function range(): RangeField {
   return {
     kind: "range",
     id: "range",
-    label: "Values",
+    label: i18n.t("Values"),
     when: scalar,
     whole: ({ cloud, style: { color } }) => cloud.attributes.find(({ name }) => name === color)?.range,
     read: (layer) => layer.style.range,
@@ -194,8 +206,8 @@ function blendWith(): ChoiceField {
   return {
     kind: "choice",
     id: "blend",
-    label: "Blended with",
-    options: (layer) => [{ value: "", label: "nothing" }, ...colourings(layer)],
+    label: i18n.t("Blended with"),
+    options: (layer) => [{ value: "", label: i18n.t("nothing") }, ...colourings(layer)],
     read: (layer) => layer.style.blend?.color ?? "",
     write: (layer, color) => style(layer, { blend: color === "" ? undefined : { color } }),
   };
@@ -205,7 +217,7 @@ function blendShare(): SliderField {
   return {
     kind: "slider",
     id: "blend-share",
-    label: "Share",
+    label: i18n.t("Share"),
     least: 0,
     most: 1,
     step: 0.05,

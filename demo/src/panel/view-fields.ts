@@ -1,26 +1,27 @@
 import type { PointCloudLayer, PointFilter, ReturnKind } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 import type { FieldGroup } from "./drawing.js";
 import type { RangeField } from "./field.js";
 
 type Layer = PointCloudLayer;
 
 const RETURNS: readonly { readonly value: ReturnKind | ""; readonly label: string }[] = [
-  { value: "", label: "all" },
-  { value: "first", label: "first" },
-  { value: "last", label: "last" },
-  { value: "intermediate", label: "in between" },
-  { value: "single", label: "the only one" },
+  { value: "", label: i18n.t("all") },
+  { value: "first", label: i18n.t("first") },
+  { value: "last", label: i18n.t("last") },
+  { value: "intermediate", label: i18n.t("in between") },
+  { value: "single", label: i18n.t("the only one") },
 ];
 
 /** The switches for how much is drawn, and which points. */
 export const VIEW_GROUPS: readonly FieldGroup[] = [
   {
-    title: "Detail",
+    title: i18n.t("Detail"),
     fields: [
       {
         kind: "slider",
         id: "budget",
-        label: "Points",
+        label: i18n.t("Points"),
         least: 10_000,
         most: 10_000_000,
         step: 0.05,
@@ -33,7 +34,7 @@ export const VIEW_GROUPS: readonly FieldGroup[] = [
       {
         kind: "slider",
         id: "error",
-        label: "Spacing",
+        label: i18n.t("Spacing"),
         least: 0.5,
         most: 16,
         step: 0.5,
@@ -46,12 +47,12 @@ export const VIEW_GROUPS: readonly FieldGroup[] = [
     ],
   },
   {
-    title: "Filter",
+    title: i18n.t("Filter"),
     fields: [
       {
         kind: "choice",
         id: "returns",
-        label: "Returns",
+        label: i18n.t("Returns"),
         options: () => RETURNS,
         read: ({ filter }) => filter?.returns?.[0] ?? "",
         write: (layer, value) => {
@@ -59,9 +60,9 @@ export const VIEW_GROUPS: readonly FieldGroup[] = [
           refilter(layer, { returns: kind ? [kind] : undefined });
         },
       },
-      range("elevation", "Elevation"),
-      range("intensity", "Intensity"),
-      range("gpsTime", "GPS time"),
+      range("elevation", i18n.t("Elevation")),
+      range("intensity", i18n.t("Intensity")),
+      range("gpsTime", i18n.t("GPS time")),
     ],
   },
 ];

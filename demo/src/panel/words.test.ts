@@ -2,7 +2,6 @@ import type { Crs } from "@groma/georef";
 import { describe, expect, it } from "vitest";
 import {
   accuracyWords,
-  counted,
   countWords,
   crsWords,
   engineWords,
@@ -29,8 +28,6 @@ const report = {
 describe("numbers in words", () => {
   it("groups counts by thousands", () => {
     expect(countWords(10_653_336)).toBe("10,653,336");
-    expect(counted(1, "node")).toBe("1 node");
-    expect(counted(0, "node")).toBe("0 nodes");
   });
 
   it.each([

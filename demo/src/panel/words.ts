@@ -1,5 +1,6 @@
 import { type Crs, EGM96, EGM96_ACCURACY, type OperationReport, type StatedAccuracy } from "@groma/georef";
 import type { PointCloud } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 
 /** A fact and, where there is one, a remark to it. */
 export interface Words {
@@ -7,23 +8,17 @@ export interface Words {
   readonly note?: string;
 }
 
-const whole = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 /** A bound is never rounded down. */
-const bound = new Intl.NumberFormat("en", { maximumSignificantDigits: 2, roundingMode: "ceil" });
+const bound = new Intl.NumberFormat(i18n.locale, { maximumSignificantDigits: 2, roundingMode: "ceil" });
 
 /** A count of points or nodes: `10,653,336`. */
 export function countWords(count: number): string {
-  return whole.format(count);
-}
-
-/** `1 point`, `2 points`. */
-export function counted(count: number, noun: string): string {
-  return `${countWords(count)} ${noun}${count === 1 ? "" : "s"}`;
+  return i18n.number(count, { maximumFractionDigits: 0 });
 }
 
 /** A bound in the unit that suits it, two digits, rounded up: `0.87 mm`, `4.2 cm`, `1.3 m`. */
 export function lengthWords(metres: number | null): string {
-  if (metres === null || !Number.isFinite(metres)) return "not known";
+  if (metres === null || !Number.isFinite(metres)) return i18n.t("not known");
   // Twelve digits take off what binary fractions add, which rounding up would carry into the last digit shown.
   const shown = (value: number) => bound.format(Number(value.toPrecision(12)));
   if (metres < 0.01) return `${shown(metres * 1000)} mm`;
@@ -36,7 +31,10 @@ export function lengthWords(metres: number | null): string {
  * @param given whether the reader gave it, in place of what the file says
  */
 export function crsWords({ name, code }: Pick<Crs, "name" | "code">, { given }: { given: boolean }): Words {
-  return { text: name, note: `${code ?? "no code"}${given ? "; given by you, not by the file" : ""}` };
+  return {
+    text: name,
+    note: `${code ?? i18n.t("no code")}${given ? `; ${i18n.t("given by you, not by the file")}` : ""}`,
+  };
 }
 
 /**
@@ -48,26 +46,31 @@ export function heightWords(
   { height, verticalUnit }: Pick<Crs, "height" | "verticalUnit">,
   { geoids, remark }: { geoids: readonly string[]; remark?: string | undefined },
 ): Words {
-  const unit = verticalUnit.declared ? [] : [`unit not declared, taken as ${verticalUnit.name}`];
+  const unit = verticalUnit.declared
+    ? []
+    : [i18n.t("unit not declared, taken as {unit}", { unit: verticalUnit.name })];
   if (height.kind === "ellipsoidal") {
-    const own = height.ellipsoid === "own" ? ["that of the system's own datum"] : [];
-    return noted("above the ellipsoid", [...own, ...(height.doubt ? [height.doubt] : []), ...unit]);
+    const own = height.ellipsoid === "own" ? [i18n.t("that of the system's own datum")] : [];
+    return noted(i18n.t("above the ellipsoid"), [...own, ...(height.doubt ? [height.doubt] : []), ...unit]);
   }
   if (height.kind === "unknown") {
     const said = remark?.replace(/^(reference )?unknown[:,] /, "");
-    return noted("unknown", [said ?? "drawn as ellipsoidal", ...unit]);
+    return noted(i18n.t("unknown"), [said ?? i18n.t("drawn as ellipsoidal"), ...unit]);
   }
   const code = height.epsg === undefined ? "" : ` (EPSG:${height.epsg})`;
+  const model = `${height.model.replace(/ height$/i, "")}${code}`;
   const substitute = geoids.includes(EGM96) && !height.model.startsWith(EGM96);
   const worth = substitute
-    ? ` instead of the national one, which may differ by up to ${EGM96_ACCURACY} m`
+    ? ` ${i18n.t("instead of the national one, which may differ by up to {metres} m", { metres: EGM96_ACCURACY })}`
     : "";
   const geoid =
     geoids.length > 0
-      ? `geoid applied: ${geoids.join(", ")}${worth}`
-      : "geoid not applied: drawn as if above the ellipsoid";
+      ? i18n.t("geoid applied: {geoids}", { geoids: geoids.join(", ") }) + worth
+      : i18n.t("geoid not applied: drawn as if above the ellipsoid");
   return noted(
-    `${verticalUnit.size < 0 ? "counted downwards from" : "above"} ${height.model.replace(/ height$/i, "")}${code}`,
+    verticalUnit.size < 0
+      ? i18n.t("counted downwards from {model}", { model })
+      : i18n.t("above {model}", { model }),
     [geoid, ...(height.doubt ? [height.doubt] : []), ...unit],
   );
 }
@@ -75,10 +78,14 @@ export function heightWords(
 /** What places come from. */
 export function engineWords({ engine, operation }: Pick<PointCloud, "engine" | "operation">): Words {
   const { name, version } = engine;
-  const text = name === "similarity" ? "an anchor or control points" : `${name} ${version}`;
-  if (!operation) return noted(text, name === "proj4js" ? ["in this page, without grids"] : []);
-  const grids = operation.grids.length > 0 ? [`grids: ${operation.grids.join(", ")}`] : [];
-  const accuracy = operation.accuracy === null ? [] : [`stated accuracy ${lengthWords(operation.accuracy)}`];
+  const text = name === "similarity" ? i18n.t("an anchor or control points") : `${name} ${version}`;
+  if (!operation) return noted(text, name === "proj4js" ? [i18n.t("in this page, without grids")] : []);
+  const grids =
+    operation.grids.length > 0 ? [i18n.t("grids: {grids}", { grids: operation.grids.join(", ") })] : [];
+  const accuracy =
+    operation.accuracy === null
+      ? []
+      : [i18n.t("stated accuracy {length}", { length: lengthWords(operation.accuracy) })];
   return noted(text, [...accuracy, ...grids]);
 }
 
@@ -91,7 +98,7 @@ export function warningsOf(
   { remark }: { remark?: string | undefined } = {},
 ): string[] {
   if (!operation) return [];
-  const ballpark = "No datum shift is applied: positions may be off by hundreds of metres.";
+  const ballpark = i18n.t("No datum shift is applied: positions may be off by hundreds of metres.");
   const notes = operation.notes.filter((note) => !(remark && note.includes(remark)));
   return [...(operation.ballpark ? [ballpark] : []), ...notes];
 }
@@ -100,8 +107,8 @@ export function warningsOf(
 export function lackingWords(operation: OperationReport | undefined): Words[] {
   return (operation?.lacking ?? []).map(({ name, accuracy, grids }) =>
     noted(name, [
-      ...(accuracy === null ? [] : [`stated accuracy ${lengthWords(accuracy)}`]),
-      `lacks ${grids.join(", ") || "a grid"}`,
+      ...(accuracy === null ? [] : [i18n.t("stated accuracy {length}", { length: lengthWords(accuracy) })]),
+      i18n.t("lacks {grids}", { grids: grids.join(", ") || i18n.t("a grid") }),
     ]),
   );
 }
@@ -109,8 +116,10 @@ export function lackingWords(operation: OperationReport | undefined): Words[] {
 /** How far from their places points are drawn; nothing where they are in them. */
 export function liftWords(heightOffset: number): string {
   if (heightOffset === 0) return "";
-  const metres = `${Math.abs(heightOffset).toLocaleString("en", { maximumFractionDigits: 3 })} m`;
-  return `Drawn ${metres} ${heightOffset > 0 ? "above" : "below"} its position, display only.`;
+  const metres = `${Math.abs(heightOffset).toLocaleString(i18n.locale, { maximumFractionDigits: 3 })} m`;
+  return heightOffset > 0
+    ? i18n.t("Drawn {metres} above its position, display only.", { metres })
+    : i18n.t("Drawn {metres} below its position, display only.", { metres });
 }
 
 function noted(text: string, notes: readonly string[]): Words {
@@ -119,8 +128,29 @@ function noted(text: string, notes: readonly string[]): Words {
 
 /** The sum of an accuracy's parts, or what of it is known. */
 export function accuracyWords({ total, parts }: StatedAccuracy): Words {
-  if (total !== null) return { text: lengthWords(total), note: "sum of the parts" };
+  if (total !== null) return { text: lengthWords(total), note: i18n.t("sum of the parts") };
   const known = parts.reduce((sum, { metres }) => sum + (metres ?? 0), 0);
   const missing = parts.filter(({ metres }) => metres === null).map(({ name }) => name);
-  return { text: "not known", note: `${lengthWords(known)} without ${missing.join(" and ")}` };
+  return {
+    text: i18n.t("not known"),
+    note: i18n.t("{length} without {parts}", {
+      length: lengthWords(known),
+      parts: new Intl.ListFormat(i18n.locale, { type: "conjunction" }).format(missing.map(partWords)),
+    }),
+  };
+}
+
+/** What parts of an accuracy are called; one that is not among them keeps its name. */
+const PARTS: ReadonlyMap<string, string> = new Map([
+  ["quantisation", i18n.t("quantisation")],
+  ["fit", i18n.t("fit")],
+  ["datum operation", i18n.t("datum operation")],
+  ["height", i18n.t("height")],
+  ["anchor", i18n.t("anchor")],
+  ["control points", i18n.t("control points")],
+]);
+
+/** A part of an accuracy by its name. */
+export function partWords(name: string): string {
+  return PARTS.get(name) ?? name;
 }

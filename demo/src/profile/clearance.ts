@@ -1,4 +1,6 @@
 import { leastClearance, type Profile, type ProfilePoints } from "@groma/layer/tools";
+import { i18n } from "../language/i18n.js";
+import { fixed } from "../language/numbers.js";
 import { byId, setText } from "../panel/elements.js";
 import { groundOf } from "./profile-ground.js";
 
@@ -26,7 +28,7 @@ export class ClearanceWords {
     const above = this.#above.valueAsNumber;
     if (!Number.isInteger(above) || below === undefined) {
       const missing = Number.isInteger(above)
-        ? "Give the class of the ground too: it is counted from there."
+        ? i18n.t("Give the class of the ground too: it is counted from there.")
         : "";
       setText(this.#words, missing);
       return;
@@ -36,10 +38,17 @@ export class ClearanceWords {
       await groundOf(profile, parts, { statistic: "min", classification: above }, signal),
     ];
     const found = leastClearance(ground, upper);
-    const which = `class ${above} over class ${below}`;
     const words = found
-      ? `Least clearance of ${which}: ${found.clearance.toFixed(3)} m at chainage ${found.chainage.toFixed(1)} m`
-      : `No station has points of ${which}`;
+      ? i18n.t(
+          "Least clearance of class {above} over class {below}: {clearance} m at chainage {chainage} m",
+          {
+            above,
+            below,
+            clearance: fixed(found.clearance, 3),
+            chainage: fixed(found.chainage, 1),
+          },
+        )
+      : i18n.t("No station has points of class {above} over class {below}", { above, below });
     setText(this.#words, words);
   }
 }

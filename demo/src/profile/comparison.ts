@@ -7,6 +7,7 @@ import {
   type ProfilePoints,
   type TerrainStation,
 } from "@groma/layer/tools";
+import { i18n } from "../language/i18n.js";
 import { byId, setText } from "../panel/elements.js";
 
 /** A second cloud along the same line, another survey of the place say: its points, and the areas between both grounds. */
@@ -66,7 +67,7 @@ export class Comparison {
   ): Promise<void> {
     this.#parts = [];
     if (!this.#cloud) return;
-    setText(this.#words, `reading ${this.#cloud.name}…`);
+    setText(this.#words, i18n.t("reading {name}…", { name: this.#cloud.name }));
     for await (const points of new Profile(this.#cloud, options).points({ signal })) {
       this.#parts.push(points);
       add(points, this.#cloud);

@@ -1,3 +1,4 @@
+import { i18n } from "../language/i18n.js";
 import { byId, optionElement } from "../panel/elements.js";
 import type { ProfileLines } from "./profile-lines.js";
 
@@ -16,7 +17,7 @@ export class LineTools {
   constructor(lines: ProfileLines, restart: () => void, failed: (thrown: unknown) => void) {
     this.#lines = lines;
     this.#list.addEventListener("change", () => lines.choose(this.#list.value || undefined));
-    this.#name.addEventListener("change", () => lines.rename(this.#name.value.trim() || "profile"));
+    this.#name.addEventListener("change", () => lines.rename(this.#name.value.trim() || i18n.t("profile")));
     this.#reverse.addEventListener("click", () => lines.reverse());
     this.#remove.addEventListener("click", () => lines.remove());
     this.#undo.addEventListener("click", () => lines.tool.undo());
@@ -40,7 +41,7 @@ export class LineTools {
   show(): void {
     const { all, chosen, tool } = this.#lines;
     this.#list.replaceChildren(
-      optionElement({ value: "", label: "profiles…" }),
+      optionElement({ value: "", label: i18n.t("profiles…") }),
       ...all.map(({ id, name }) => optionElement({ value: id, label: name })),
     );
     this.#list.hidden = all.length === 0;

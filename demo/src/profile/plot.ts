@@ -9,6 +9,7 @@ import {
   type ProfilePoints,
   type TerrainStation,
 } from "@groma/layer/tools";
+import { i18n } from "../language/i18n.js";
 import { drawAxes } from "./plot-axes.js";
 import { watchPlot } from "./plot-input.js";
 
@@ -42,7 +43,7 @@ export class ProfilePlot {
   readonly #parts: ProfilePoints[] = [];
   #first: PlotSeries | undefined;
   #second: PlotSeries | undefined;
-  #words: AxisWords = { along: "chainage (m)", up: "height (m)" };
+  #words: AxisWords = { along: i18n.t("chainage (m)"), up: i18n.t("height (m)") };
   #from = 0;
   #length = 1;
   #least = Number.POSITIVE_INFINITY;
@@ -216,7 +217,7 @@ export class ProfilePlot {
     this.#measure();
     if (!this.#picture.draw(this.view)) this.#ask();
     drawAxes(this.#axes, this.view, {
-      along: `${this.#words.along}, heights × ${this.view.exaggeration.toPrecision(3)}`,
+      along: `${this.#words.along}, ${i18n.t("heights")} × ${this.view.exaggeration.toPrecision(3)}`,
       ...{ up: this.#words.up, ground: this.#ground, secondGround: this.#secondGround },
       crosshair: this.#crosshair,
       ...{ measured: this.#measured, measuredWords: this.#measuredWords },

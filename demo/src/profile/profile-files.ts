@@ -15,6 +15,7 @@ import {
 } from "@groma/layer/export";
 import { OFFSET, type PlotDrawing } from "@groma/layer/plot";
 import { CrossSections, type Profile, stations } from "@groma/layer/tools";
+import { i18n } from "../language/i18n.js";
 
 /** What files of a profile are made with. */
 export interface FileChoices extends ExportOptions {
@@ -45,11 +46,11 @@ export const FORMATS: ReadonlyMap<string, FileFormat> = new Map<string, FileForm
   ["laz", { label: "LAZ", ending: "laz", write: points({ format: "laz" }) }],
   ["csv", { label: "CSV", ending: "csv", write: points({ format: "csv" }) }],
   ["geojson", { label: "GeoJSON", ending: "geojson", write: points({ format: "geojson" }) }],
-  ["dxf", { label: "DXF, in space", ending: "dxf", write: points({ format: "dxf" }) }],
+  ["dxf", { label: i18n.t("DXF, in space"), ending: "dxf", write: points({ format: "dxf" }) }],
   [
     "dxf-straightened",
     {
-      ...{ label: "DXF, straightened", ending: "dxf" },
+      ...{ label: i18n.t("DXF, straightened"), ending: "dxf" },
       write: points({ format: "dxf", layout: "straightened" }),
     },
   ],
@@ -57,10 +58,10 @@ export const FORMATS: ReadonlyMap<string, FileFormat> = new Map<string, FileForm
     "xml",
     { label: "LandXML", ending: "xml", write: (profile, ...rest) => exportLandXml([profile], ...rest) },
   ],
-  ["pdf", { label: "PDF, to scale", ending: "pdf", write: picture("pdf") }],
-  ["svg", { label: "SVG, to scale", ending: "svg", write: picture("svg") }],
+  ["pdf", { label: i18n.t("PDF, to scale"), ending: "pdf", write: picture("pdf") }],
+  ["svg", { label: i18n.t("SVG, to scale"), ending: "svg", write: picture("svg") }],
   ["png", { label: "PNG", ending: "png", write: writePng }],
-  ["sections", { label: "Cross-sections (ZIP)", ending: "zip", write: writeSections }],
+  ["sections", { label: i18n.t("Cross-sections (ZIP)"), ending: "zip", write: writeSections }],
 ]);
 
 /** Writes a file of a profile. @throws what exports throw */

@@ -10,6 +10,8 @@ import {
   type ViewAdapter,
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
+import { i18n } from "../language/i18n.js";
+import { fixed } from "../language/numbers.js";
 import { byId, optionElement, setText } from "../panel/elements.js";
 import { ExportJob } from "../panel/export-job.js";
 import { ClearanceWords } from "./clearance.js";
@@ -28,8 +30,9 @@ import { PlaceMark, StripOutline } from "./strip-outline.js";
 /** Points of the picture at most; all of them are exported. */
 const MOST_SHOWN = 3_000_000;
 
-const HINT =
-  "Click points of the cloud along the line, or move the crosshair with the arrow keys and press Enter. Twice in one place ends it.";
+const HINT = i18n.t(
+  "Click points of the cloud along the line, or move the crosshair with the arrow keys and press Enter. Twice in one place ends it.",
+);
 
 /** What the rest of the page hears of a profile. */
 export interface ProfileEvents {
@@ -201,7 +204,7 @@ export class ProfilePanel {
   }
 
   #tellState(): void {
-    setText(this.#start, this.drawing ? "End the line" : "Draw a profile");
+    setText(this.#start, this.drawing ? i18n.t("End the line") : i18n.t("Draw a profile"));
     this.#export.disabled = this.#profile === undefined;
   }
 
@@ -221,12 +224,15 @@ export class ProfilePanel {
     const layer = this.#layer();
     const crs = layer?.cloud.crs;
     const height = crs?.height.kind === "geoid" ? `, ${crs.height.model}` : "";
-    const ellipsoid = crs?.height.kind === "ellipsoidal" ? ", above the ellipsoid" : "";
+    const ellipsoid = crs?.height.kind === "ellipsoidal" ? `, ${i18n.t("above the ellipsoid")}` : "";
     const plot = this.#picture();
     plot.clear(
       from,
       length,
-      { along: "chainage (m)", up: `height (m${height}${ellipsoid})` },
+      {
+        along: i18n.t("chainage (m)"),
+        up: i18n.t("height (m{reference})", { reference: height + ellipsoid }),
+      },
       layer?.cloud,
       layer && this.#style.of(layer),
     );
@@ -257,11 +263,11 @@ export class ProfilePanel {
       let complete = true;
       for await (const points of profile.points({ signal })) {
         plot.add(points);
-        setText(this.#status, `${told(profile, plot.count)}, reading…`);
+        setText(this.#status, `${told(profile, plot.count)}, ${i18n.t("reading…")}`);
         complete = plot.count < MOST_SHOWN;
         if (!complete) break;
       }
-      const whole = complete ? "complete" : "the coarser levels; the export has all points";
+      const whole = complete ? i18n.t("complete") : i18n.t("the coarser levels; the export has all points");
       setText(this.#status, `${told(profile, plot.count)}, ${whole}`);
       await this.#comparison.read(
         cut,
@@ -307,8 +313,11 @@ export class ProfilePanel {
   #showTable(statistic: TerrainStatistic): void {
     this.#table.hidden = !this.#tableShown.checked;
     if (this.#table.hidden) return;
-    const which = typeof statistic === "number" ? `percentile ${statistic}` : statistic;
-    this.#table.replaceChildren(groundTable(this.#ground, `Ground, ${which} of each station, metres`));
+    const which =
+      typeof statistic === "number" ? i18n.t("percentile {number}", { number: statistic }) : statistic;
+    this.#table.replaceChildren(
+      groundTable(this.#ground, i18n.t("Ground, {which} of each station, metres", { which })),
+    );
   }
 
   /** Shows the point that is pointed at, here and on globe and map. */
@@ -326,7 +335,11 @@ export class ProfilePanel {
     const at = 3 * points.batch.inside[index]!;
     const [x, y, z] = [0, 1, 2].map((axis) => xyz[at + axis]! * origin.scale[axis]! + origin.offset[axis]!);
     const place = origin.place(x!, y!, z!, new Float64Array(3));
-    const words = `chainage ${points.chainage[index]!.toFixed(2)} m, height ${points.height[index]!.toFixed(3)} m, offset ${points.offset[index]!.toFixed(2)} m`;
+    const words = i18n.t("chainage {chainage} m, height {height} m, offset {offset} m", {
+      chainage: fixed(points.chainage[index]!, 2),
+      height: fixed(points.height[index]!, 3),
+      offset: fixed(points.offset[index]!, 2),
+    });
     return { place, words };
   }
 
@@ -338,7 +351,7 @@ export class ProfilePanel {
     if (measuring)
       setText(
         this.#readout,
-        "Click two places of the picture, or choose them with the arrow keys and Enter.",
+        i18n.t("Click two places of the picture, or choose them with the arrow keys and Enter."),
       );
   }
 
@@ -353,7 +366,12 @@ export class ProfilePanel {
     } else if (point) {
       const { batch } = point.points;
       this.#events.picked(profile.origin as PointCloud, batch.node, batch.inside[point.index]!);
-      setText(this.#readout, `${placeOf(point)[0].toFixed(2)} m: its record is shown beside the globe`);
+      setText(
+        this.#readout,
+        i18n.t("{chainage} m: its record is shown beside the globe", {
+          chainage: fixed(placeOf(point)[0], 2),
+        }),
+      );
     }
   }
 
@@ -384,5 +402,8 @@ export class ProfilePanel {
 }
 
 function told({ length }: Profile, count: number): string {
-  return `${length.toFixed(1)} m, ${count.toLocaleString("en")} points`;
+  return i18n.t("{length} m, {count, plural, one {# point} other {# points}}", {
+    length: fixed(length, 1),
+    count,
+  });
 }

@@ -9,6 +9,7 @@ import {
   PolylineCollection,
   type Viewer,
 } from "cesium";
+import { i18n } from "../language/i18n.js";
 import { textElement } from "../panel/elements.js";
 
 const COLOUR = Color.fromCssColorString("#f2b84b").withAlpha(0.9);
@@ -38,7 +39,7 @@ export class StripOutline {
     this.#handle = textElement("button", "↔", "width-handle");
     this.#handle.type = "button";
     this.#handle.hidden = true;
-    this.#handle.setAttribute("aria-label", "Width of the profile: drag, or arrow keys");
+    this.#handle.setAttribute("aria-label", i18n.t("Width of the profile: drag, or arrow keys"));
     viewer.container.append(this.#handle);
     viewer.scene.postRender.addEventListener(() => this.#put());
     this.#handle.addEventListener("pointerdown", (event) => this.#handle.setPointerCapture(event.pointerId));

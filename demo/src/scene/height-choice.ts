@@ -1,3 +1,5 @@
+import { i18n } from "../language/i18n.js";
+
 /** What the reader says heights are: as the file has it, above the ellipsoid, or in the height system of a code. */
 export type HeightWish = "declared" | "ellipsoidal" | "code";
 
@@ -16,5 +18,5 @@ export function chooseHeight(wish: HeightWish, code: string): HeightChoice {
   if (wish === "ellipsoidal") return { kind: "open", vertical: "ellipsoidal" };
   const [, number] = /^\s*(?:EPSG:)?(\d{4,6})\s*$/i.exec(code) ?? [];
   if (number !== undefined) return { kind: "open", vertical: `EPSG:${number}` };
-  return { kind: "refused", words: "Give the EPSG code of a height system, such as 5728." };
+  return { kind: "refused", words: i18n.t("Give the EPSG code of a height system, such as 5728.") };
 }
