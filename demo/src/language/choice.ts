@@ -9,6 +9,7 @@ const KEY = "groma-language";
 /** Catalogues that are fetched when they are wanted; English is there. */
 const CATALOGUES: ReadonlyMap<string, () => Promise<{ readonly messages: Messages }>> = new Map([
   ["de", () => import("./catalogues/de.po")],
+  ["fr", () => import("./catalogues/fr.po")],
 ]);
 
 /**

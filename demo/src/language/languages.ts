@@ -11,6 +11,7 @@ export interface Language {
 export const LANGUAGES: readonly [Language, ...Language[]] = [
   { code: "en", name: "English", direction: "ltr" },
   { code: "de", name: "Deutsch", direction: "ltr" },
+  { code: "fr", name: "Français", direction: "ltr" },
 ];
 
 /**
