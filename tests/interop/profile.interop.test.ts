@@ -360,7 +360,9 @@ describe.skipIf(REFUSED)("groma clip of a real scan", () => {
   it("refuses what it cannot do, by name", () => {
     const run = (...options: string[]) =>
       groma(["clip", converted(road.path), ...options, "--out", join(folder, "none.las")]).stderr;
-    expect(run()).toMatch(/^OPTION_INVALID: .*--polygon, --box, --heights or --classes/);
+    expect(run()).toMatch(
+      /^OPTION_INVALID: .*--polygon, --box, --heights, --clips, --classes, --returns or --range/,
+    );
     expect(run("--box", "1,2,3")).toMatch(/^OPTION_INVALID/);
     expect(run("--box", "3,3,1,1")).toMatch(/^OPTION_BOX/);
     expect(run("--classes", "300")).toMatch(/^OPTION_INVALID/);
