@@ -15,7 +15,7 @@ export function testsByKeyboard(stage: () => MeasuringStage): void {
       });
       await page.selectOption("#views", which);
       await page.evaluate(() => document.querySelector<HTMLElement>("#views")!.blur());
-      await ready();
+      await ready(which === "map");
       // Places that the crosshair comes to from the middle, in steps of 10 pixels.
       const ways = await page.evaluate(async (on) => {
         const { beside, layer, viewer } = window.groma;
