@@ -153,6 +153,30 @@ describe.skipIf(missing)(`features that map and globe share${unless}`, () => {
     expect(left).toEqual({ vertices: [], ways: [] });
   });
 
+  it("of a click make it no flight, even where the pointer is down again before the map tells of it", {
+    timeout: 120_000,
+  }, async () => {
+    const { map } = await share();
+    const { mouse } = linked;
+    await linked.page.evaluate(() => {
+      const { linked } = window;
+      linked.draw = new linked.ol.Draw({ source: linked.features, type: "Point" });
+      linked.stage.maps[0]!.map.addInteraction(linked.draw);
+    });
+    const start = await camera();
+    await mouse.click(map[0] + 280, map[1] + 190);
+    await linked.page.evaluate(() => {
+      const { draw, stage } = window.linked;
+      stage.maps[0]!.map.removeInteraction(draw!);
+    });
+    await mouse.move(map[0] + 300, map[1] + 200);
+    await mouse.down();
+    await linked.page.waitForTimeout(600);
+    expect(await linked.page.evaluate(() => window.linked.features.getFeatures().length)).toBe(1);
+    expect(await camera()).toEqual(start);
+    await mouse.up();
+  });
+
   it("are drawn and moved on the globe, at the records there", { timeout: 120_000 }, async () => {
     const { globe } = await share();
     const { mouse } = linked;

@@ -61,8 +61,13 @@ export class Clicks {
       drawing = busy() || map.drawing;
     };
     viewport.addEventListener("pointerdown", down, { capture: true });
-    const key = map.map.on("singleclick", ({ pixel, coordinate }: MapBrowserEvent) => {
-      if (drawing || !globe.lives) return;
+    // A single click is told of a quarter of a second later, when the pointer may be down for something else.
+    const ofFigures = new WeakSet<object>();
+    const click = map.map.on("click", ({ originalEvent }: MapBrowserEvent) => {
+      if (drawing) ofFigures.add(originalEvent);
+    });
+    const single = map.map.on("singleclick", ({ pixel, coordinate, originalEvent }: MapBrowserEvent) => {
+      if (ofFigures.has(originalEvent) || !globe.lives) return;
       const [longitude, latitude] = map.plane.inverse(coordinate[0], coordinate[1]);
       const height = globe.heightAt(longitude, latitude);
       void this.#go(
@@ -73,7 +78,7 @@ export class Clicks {
     return () => {
       handler.destroy();
       viewport.removeEventListener("pointerdown", down, { capture: true });
-      unByKey(key);
+      unByKey([click, single]);
     };
   }
 
