@@ -17,7 +17,7 @@ export interface GeodesicPolygon {
 
 /**
  * Metres from the first vertex. Up to here a polygon is measured on the curved ground around that vertex, which is right
- * to 1e-11 of its area; the area between geodesics is a sum of areas down to the equator, whose rounding leaves 5e-5 m²
+ * to 1e-10 of its area; the area between geodesics is a sum of areas down to the equator, whose rounding leaves 5e-5 m²
  * however small the polygon, and up to 0.1 m² around a pole.
  */
 const NEAR = 20_000;
@@ -26,8 +26,8 @@ const NEAR = 20_000;
  * Perimeter and area of a polygon on the ellipsoid, also around a pole, across the antimeridian, or both.
  *
  * Karney, "Algorithms for geodesics", J. Geodesy 87 (2013) 43–55, section 6, as GeographicLib has it; polygons within
- * twenty kilometres by their chords and what the ground bulges over them ({@link overChords}), which is twenty times faster
- * and the more exact. Errors of the area: below 1e-11 of itself up to there (and 1e-9 m times the perimeter, the
+ * twenty kilometres of their first vertex by their chords and what the ground bulges over them ({@link overChords}), which is
+ * nine times faster and the more exact. Errors of the area: below 1e-10 of itself up to there (and 1e-9 m times the perimeter, the
  * rounding), then below 0.1 m², whatever the size; of the perimeter: 1e-9 of itself.
  *
  * @param ring longitude, latitude of each vertex in turn, radians; the first is not repeated at the end

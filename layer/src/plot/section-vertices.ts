@@ -4,7 +4,7 @@ import type { DrawnVertices } from "../drawing/drawn-vertices.js";
 import { OFFSET } from "../effects/index.js";
 import { type GeodeticPlace, recordNumbers } from "../query/index.js";
 import type { ProfilePoints } from "../tools/cut/profile.js";
-import { type Column, constantColumn, recordedColumn } from "../workers/index.js";
+import { type Column, constantColumn, halfUlp32, recordedColumn } from "../workers/index.js";
 
 /** The column that has the level of each point's node. */
 export const LEVEL = "levelOfDetail";
@@ -99,28 +99,36 @@ export class SectionVertices implements DrawnVertices {
 
   /**
    * Heights above WGS 84, metres: those of some points exactly, and between them what the ellipsoid lies below the recorded
-   * heights, in proportion to the chainage. Along a node it changes so little that no step of a gradient differs.
+   * heights, in proportion to the chainage. The bound is twice the greatest error at as many points between those.
    */
   #ellipsoidalHeight(): Column {
     const { chainage, height, batch } = this.#points;
     const heights = recordNumbers("ellipsoidalHeight", batch.records, this.#cloud, geodeticOf(this.#cloud))!;
+    const above = (point: number) => heights.value(batch.inside[point]) - height[point];
     const step = Math.max(1, Math.ceil(this.count / KNOTS));
     const knots: { chainage: number; above: number }[] = [];
     for (let point = 0; point < this.count; point += step) {
-      knots.push({ chainage: chainage[point], above: heights.value(batch.inside[point]) - height[point] });
+      knots.push({ chainage: chainage[point], above: above(point) });
     }
     knots.sort((a, b) => a.chainage - b.chainage);
+    let error = 0;
+    for (let point = step >> 1; point < this.count; point += step) {
+      error = Math.max(error, Math.abs(above(point) - between(knots, chainage[point])));
+    }
     const data = new Float32Array(this.count);
     const origin = height[0] ?? 0;
     for (let point = 0; point < this.count; point++) {
       data[point] = height[point] + between(knots, chainage[point]) - origin;
     }
-    return floats("ellipsoidalHeight", data, origin);
+    return floats("ellipsoidalHeight", data, origin, 2 * error);
   }
 }
 
-function floats(name: string, data: Float32Array, offset = 0): Column {
-  return { name, components: 1, data, scale: 1, offset, bound: 0 };
+/** @param error of the numbers before they were rounded to float32 */
+function floats(name: string, data: Float32Array, offset = 0, error = 0): Column {
+  let reach = 0;
+  for (const value of data) reach = Math.max(reach, Math.abs(value));
+  return { name, components: 1, data, scale: 1, offset, bound: error + halfUlp32(reach) };
 }
 
 /** The value at a chainage, in proportion between the knots around it. */

@@ -1,4 +1,4 @@
-export { constantColumn } from "./column-plan.js";
+export { constantColumn, halfUlp32 } from "./column-plan.js";
 export { type Decoders, decodersWith } from "./decoders.js";
 export { LazDecoder, type LazPerf } from "./laz-decoder.js";
 export { LocalExecutor } from "./local-executor.js";
