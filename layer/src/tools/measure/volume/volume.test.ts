@@ -140,7 +140,9 @@ describe("volumes of solids", () => {
     const flat = surface(5, 0.3, () => 400.123, 0.4);
     const twice = Float64Array.from([...flat, ...flat.map((value, i) => (i % 3 === 2 ? value + 1 : value))]);
     const part = cutAndFill(twice, square(4), { kind: "surface", points: flat });
-    expect([part.cut === 0 || part.cut > 0, part.fill]).toEqual([true, 0]);
+    expect(part.fill).toBe(0);
+    // Of two points above each other one makes the surface, the upper as often as the lower.
+    expect(Math.abs(part.cut - 32)).toBeLessThan(4);
   });
 
   it("say that what lies in a gap of the points is not covered", () => {
@@ -185,7 +187,7 @@ describe("volumes of solids", () => {
     const { surface: own, base, ring: around } = truth.sensitivities();
     expect([base.up > 0, around.up > 0]).toEqual([kind === "surface", !["surface", "height"].includes(kind)]);
     const deviation = 0.05 * Math.hypot(own.up, own.plan, base.up, base.plan, around.up, around.plan);
-    const runs = 600;
+    const runs = 1500;
     let held = 0;
     for (let run = 0; run < runs; run++) {
       const noisy = (xyz: Float64Array) => xyz.map((value) => value + 0.05 * normal());
@@ -193,7 +195,7 @@ describe("volumes of solids", () => {
       if (Math.abs(seen.net - truth.net) <= 1.96 * deviation) held++;
     }
     expect(held / runs).toBeGreaterThanOrEqual(0.93);
-    expect(held / runs).toBeLessThanOrEqual(0.975);
+    expect(held / runs).toBeLessThanOrEqual(0.97);
   });
 
   it("have rings and surfaces that are none refused", () => {
