@@ -41,26 +41,36 @@ export class GlobeSide {
   #known: readonly number[] = [];
   readonly #middle: (() => ScreenPlace) | undefined;
   readonly #gone: () => void;
-  readonly #unwatch: () => void;
+  readonly #unwatch: readonly (() => void)[];
+  /** Whether points or terrain were still on their way when the last frame was drawn. */
+  #loading = false;
 
   /**
    * @param middle place of the picture that counts as its middle, asked for anew each time; default: half of its size
    * @param moved called within a frame whose camera is another than the one known
+   * @param grew called after a frame that may show more terrain or points than the one before
    * @param gone called when the globe is found to be destroyed
    */
   constructor(
     scene: Scene,
     middle: (() => ScreenPlace) | undefined,
-    { moved, gone }: { readonly moved: () => void; readonly gone: () => void },
+    { moved, grew, gone }: Readonly<Record<"moved" | "grew" | "gone", () => void>>,
   ) {
     this.scene = scene;
     this.#middle = middle;
     this.#gone = gone;
     this.#height = this.guess() ?? 0;
     this.#known = this.#numbers();
-    this.#unwatch = scene.preRender.addEventListener(() => {
-      if (this.hasMoved && this.shown) moved();
-    });
+    this.#unwatch = [
+      scene.preRender.addEventListener(() => {
+        if (this.hasMoved && this.shown) moved();
+      }),
+      scene.postRender.addEventListener(() => {
+        const loading = this.#loads;
+        if (loading || this.#loading) grew();
+        this.#loading = loading;
+      }),
+    ];
   }
 
   /** Whether there is a globe to work with; one that was destroyed, which Cesium tells nobody, is told of here. */
@@ -126,7 +136,7 @@ export class GlobeSide {
   }
 
   /** Whether points or terrain of the view are still on their way. */
-  get loads(): boolean {
+  get #loads(): boolean {
     return this.#terrain?.tilesLoaded === false || this.layers.some(({ settled }) => !settled);
   }
 
@@ -219,7 +229,7 @@ export class GlobeSide {
   }
 
   dispose(): void {
-    this.#unwatch();
+    for (const unwatch of this.#unwatch) unwatch();
   }
 
   /** The globe where it has terrain: elsewhere it is the ellipsoid, better than its triangles are. */

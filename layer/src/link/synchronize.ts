@@ -134,6 +134,7 @@ export class Link {
     const { view: mode, northUp, onError } = given;
     const globe = new GlobeSide(given.viewer.scene, given.middle, {
       moved: () => this.#views.globeMoved(),
+      grew: () => this.#views.globeGrew(),
       gone: () => this.dispose(),
     });
     const map = new MapSide(given.map, () => this.#views.mapMoved());

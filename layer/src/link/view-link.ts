@@ -17,6 +17,9 @@ export interface Move {
   readonly target: "globe" | "map";
 }
 
+/** What is done when nothing moves. @param grew whether more of the globe is there than the time before */
+type RestWork = (grew: boolean) => Promise<void>;
+
 /** Milliseconds without a move after which the height of what is looked at is read from the points. */
 const REST = 150;
 /** What is found no longer counts. */
@@ -42,6 +45,10 @@ export class ViewLink {
   #frame: number | undefined;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #looking: AbortController | undefined;
+  /** What is done at rest, and again once more of the globe is there. */
+  #work: RestWork = (grew) => this.#readAhead(grew);
+  /** Whether more of the globe is there than when that was done last. */
+  #grown = false;
 
   /**
    * @param told called after each move that was carried over, and with undefined for one of the globe that was not
@@ -67,7 +74,13 @@ export class ViewLink {
     this.#globe.know();
     this.#cancelFrame();
     this.#showOnMap("globe");
-    this.#atRest(() => this.#readAhead());
+    this.#atRest((grew) => this.#readAhead(grew));
+  }
+
+  /** There is more of the globe's terrain or points to see than before. */
+  globeGrew(): void {
+    this.#grown = true;
+    if (this.#timer === undefined && !this.#looking) this.#atRest(this.#work);
   }
 
   /** The map's view may be another; it is looked at in the next frame, however often this is called before. */
@@ -81,6 +94,7 @@ export class ViewLink {
       if (this.#showOnGlobe("map")) return;
       // A map that goes its own way is not to be taken back when the globe's height is read.
       this.#cancelRest();
+      this.#work = async () => this.#told(undefined);
       // What is drawn on the map may have to follow to another projection.
       this.#told(undefined);
     });
@@ -101,12 +115,13 @@ export class ViewLink {
   carry(): void {
     if (this.mode === "to-globe") this.#showOnGlobe("map");
     else this.#showOnMap("globe");
-    this.#atRest(() => (this.mode === "to-globe" ? this.#readBelow() : this.#readAhead()));
+    this.#atRest((grew) => (this.mode === "to-globe" ? this.#readBelow(grew) : this.#readAhead(grew)));
   }
 
   dispose(): void {
     this.#cancelFrame();
     this.#cancelRest();
+    this.#grown = false;
   }
 
   #showOnMap(origin: MoveOrigin): void {
@@ -128,21 +143,18 @@ export class ViewLink {
     if (!ground) return false;
     globe.show(ground, !this.northUp);
     this.#told({ origin, target: "globe" });
-    if (height === undefined) this.#atRest(() => this.#readBelow());
+    if (height === undefined) this.#atRest((grew) => this.#readBelow(grew));
     return true;
   }
 
   /** The point in the middle of the globe's picture says how high lies what the camera looks at. */
-  async #readAhead(): Promise<void> {
+  async #readAhead(grew: boolean): Promise<void> {
     const globe = this.#globe;
-    const { loads } = globe;
     const found = await this.#look((signal) => globe.pick(globe.middle, signal));
     if (found === MOVED) return;
     const height = found ? heightOf(found) : globe.guess();
     if ((height !== undefined && this.#differs(height)) || this.#isOff()) this.#showOnMap("globe");
-    else if (loads) this.#told(undefined);
-    // What is there now may not be what is there soon.
-    if (loads) this.#atRest(() => this.#readAhead());
+    else if (grew) this.#told(undefined);
   }
 
   /** Whether the map shows another view than the globe does, now that more of its terrain is there. */
@@ -156,16 +168,15 @@ export class ViewLink {
   }
 
   /** The point in the middle of the map says how high lies what it shows there. */
-  async #readBelow(): Promise<void> {
+  async #readBelow(grew: boolean): Promise<void> {
     const [globe, map] = [this.#globe, this.#map];
-    const { loads } = globe;
     const [width, height] = map.map.getSize() ?? [0, 0];
     const found = await this.#look((signal) => map.pick([width / 2, height / 2], signal));
     if (found === MOVED) return;
     const [longitude, latitude] = map.plane.inverse(...(map.view?.center ?? [0, 0]));
     const ground = found ? heightOf(found) : globe.heightAt(longitude, latitude);
     if (this.#differs(ground)) this.#showOnGlobe("map", globe.height);
-    if (loads) this.#atRest(() => this.#readBelow());
+    else if (grew) this.#told(undefined);
   }
 
   /** Takes over a height of what is looked at. @returns whether the views would show it */
@@ -190,18 +201,27 @@ export class ViewLink {
     } catch (thrown) {
       if (!looking.signal.aborted) this.#failed(thrown);
       return MOVED;
+    } finally {
+      if (this.#looking === looking) this.#looking = undefined;
     }
   }
 
-  #atRest(work: () => Promise<void>): void {
+  #atRest(work: RestWork): void {
     this.#cancelRest();
-    this.#timer = setTimeout(() => {
-      if (this.#globe.lives) void work();
+    this.#work = work;
+    this.#timer = setTimeout(async () => {
+      this.#timer = undefined;
+      if (!this.#globe.lives) return;
+      const grew = this.#grown;
+      this.#grown = false;
+      await work(grew);
+      if (this.#grown) this.globeGrew();
     }, REST);
   }
 
   #cancelRest(): void {
     clearTimeout(this.#timer);
+    this.#timer = undefined;
     this.#looking?.abort();
   }
 
