@@ -55,6 +55,15 @@ describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})`
     stage.page.evaluate(() =>
       window.map.measure.measurements.map(({ vertices }) => vertices.map(({ record }) => record?.integers)),
     );
+  /** Waits until so many vertices are drawn, or the figure is there. */
+  const drawn = (count: number, measured: number) =>
+    stage.page.waitForFunction(
+      ([vertices, figures]) => {
+        const { measure } = window.map;
+        return measure.drawnVertices.length === vertices || measure.measurements.length === figures;
+      },
+      [count, measured] as const,
+    );
   const until = (count: number) =>
     stage.page.waitForFunction((wanted) => window.map.measure.measurements.length === wanted, count);
 
@@ -64,9 +73,9 @@ describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})`
     const { page } = stage;
     const [a, b] = await hits();
     await page.evaluate(() => void window.map.measure.distance());
-    for (const { x, y } of [a!, b!]) {
+    for (const [i, { x, y }] of [a!, b!].entries()) {
       await page.mouse.click(x, y);
-      await page.waitForTimeout(300);
+      await drawn(i + 1, 1);
     }
     await until(1);
     expect(await records()).toEqual([[a!.integers, b!.integers]]);
@@ -94,10 +103,10 @@ describe.skipIf(missing)(`measuring on a map${missing ? ` (skipped: ${missing})`
     const session = await page.context().newCDPSession(page);
     await session.send("Emulation.setTouchEmulationEnabled", { enabled: true });
     await page.evaluate(() => void window.map.measure.area());
-    for (const { x, y } of [a!, b!, c!, a!]) {
+    for (const [i, { x, y }] of [a!, b!, c!, a!].entries()) {
       await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });
       await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
-      await page.waitForTimeout(400);
+      await drawn(i + 1, 2);
     }
     await until(2);
     expect((await records())[1]).toEqual([a!.integers, b!.integers, c!.integers]);

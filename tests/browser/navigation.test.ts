@@ -245,7 +245,10 @@ describe.skipIf(missing)(`navigation${missing ? ` (skipped: ${missing})` : ""}`,
     await stage.page.keyboard.press("f");
     expect(await stage.page.evaluate(() => window.page.navigation.mode)).toBe("walk");
     await stage.page.keyboard.down("w");
-    await stage.page.waitForTimeout(1000);
+    await stage.page.waitForFunction((from) => {
+      const { x, y, z } = window.page.stage.scene.camera.positionWC;
+      return Math.hypot(x - from[0]!, y - from[1]!, z - from[2]!) > 30;
+    }, before.position);
     await stage.page.keyboard.up("w");
     await rest();
     const walked = await stand();
