@@ -56,6 +56,7 @@ export type { MeasurementChange } from "./draw/history.js";
 export { MeasureControl, type MeasureControlOptions } from "./draw/measure-control.js";
 export { MeasureTool } from "./draw/measure-tool.js";
 export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
+export type { MeasureWords } from "./draw/words.js";
 export { type LineOnEllipsoid, lineOnEllipsoid } from "./ellipsoid/line-on-ellipsoid.js";
 export {
   CorridorOnEllipsoid,

@@ -22,6 +22,7 @@ import { Placing } from "./placing.js";
 import { aroundPole } from "./pole-ring.js";
 import { snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
+import { measureWords } from "./words.js";
 
 const cloud = cloudOf(UTM);
 const [a, b, c, d] = [0, 10, 20, 30].map((x) => cloud.vertex(500000 + x, 5300000 + (x % 20), 1)) as [
@@ -275,7 +276,7 @@ describe("figures", () => {
   const showing = {
     ...{ edited: undefined, drag: undefined, ahead: undefined, missed: false },
     ...{
-      units: new MeasureUnits({ locale: "en" }),
+      ...{ units: new MeasureUnits({ locale: "en" }), words: measureWords() },
       worth: { precision: 0.01 },
       valuesOf: (of: Measurement) => valuesOf(of, { precision: 0.01 }),
       readingOf: () => undefined,

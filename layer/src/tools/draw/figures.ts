@@ -1,4 +1,3 @@
-import { GromaError } from "@groma/georef";
 import { MeasureError } from "../../errors/index.js";
 import {
   MEASUREMENT_KINDS,
@@ -15,6 +14,7 @@ import {
 import { type Drag, dragged } from "./grip.js";
 import type { Drawn } from "./history.js";
 import type { ShownFigure } from "./overlay.js";
+import type { MeasureWords } from "./words.js";
 
 /** How figures are shown. */
 export interface Showing {
@@ -27,6 +27,7 @@ export interface Showing {
   /** Whether a vertex was to be placed where there is no point. */
   readonly missed: boolean;
   readonly units: MeasureUnits;
+  readonly words: MeasureWords;
   readonly worth: WorthOptions;
   /** Of a measurement as it is. @throws MeasureError */
   valuesOf(measurement: Measurement): readonly NamedValue[];
@@ -36,7 +37,7 @@ export interface Showing {
 
 /** All that is drawn, as it is shown: with the vertex that is on its way, and labels. */
 export function figuresOf({ measurements, draft }: Drawn, showing: Showing): ShownFigure[] {
-  const { edited, drag, ahead, missed } = showing;
+  const { edited, drag, ahead, missed, words } = showing;
   const figures = measurements.map((measurement): ShownFigure => {
     const { id, kind, name, vertices: placed } = measurement;
     const vertices = drag?.grip.id === id ? dragged(placed, drag) : placed;
@@ -53,32 +54,36 @@ export function figuresOf({ measurements, draft }: Drawn, showing: Showing): Sho
   });
   if (!draft) return figures;
   const { kind, vertices } = draft;
-  const { title, shape, most } = MEASUREMENT_KINDS[kind];
+  const { shape, most } = MEASUREMENT_KINDS[kind];
   const next = ahead && !vertices.includes(ahead) && vertices.length < most ? [ahead] : [];
   return [
     ...figures,
     {
-      ...{ id: undefined, name: title, vertices, shape, open: false, grows: false, ahead: next[0] },
-      ...(missed ? NO_POINT : labelOf(kind, [...vertices, ...next], showing)),
+      ...{
+        id: undefined,
+        name: words.kind(kind),
+        vertices,
+        shape,
+        open: false,
+        grows: false,
+        ahead: next[0],
+      },
+      ...(missed ? { label: words.noPoint, wrong: true } : labelOf(kind, [...vertices, ...next], showing)),
     },
   ];
 }
 
-const NO_POINT = { label: "no point here", wrong: true };
-
 type Label = Pick<ShownFigure, "label" | "wrong">;
 
 /** What is read for a figure; undefined where that was given up. */
-function readingLabel(reading: Reading, { units }: Showing): Label | undefined {
+function readingLabel(reading: Reading, { units, words }: Showing): Label | undefined {
   switch (reading.state) {
     case "reading":
-      return { label: `reading points, ${Math.floor(100 * reading.share)} %`, wrong: false };
+      return { label: words.reading(Math.floor(100 * reading.share)), wrong: false };
     case "done":
       return { label: textOf(reading.values[0], units), wrong: false };
-    case "failed": {
-      const { thrown } = reading;
-      return { label: thrown instanceof GromaError ? thrown.cause : "it could not be read", wrong: true };
-    }
+    case "failed":
+      return { label: words.failure(reading.thrown), wrong: true };
     case "stopped":
       return undefined;
   }
@@ -93,7 +98,7 @@ function textOf(of: NamedValue, units: MeasureUnits): string {
 function labelOf(
   kind: MeasurementKind,
   vertices: readonly Vertex[],
-  { units, worth }: Showing,
+  { units, words, worth }: Showing,
   values: () => readonly NamedValue[] = () => valuesOf({ kind, vertices }, worth),
 ): Label {
   if (vertices.length < MEASUREMENT_KINDS[kind].least) return { label: "", wrong: false };
@@ -102,6 +107,6 @@ function labelOf(
     return { label: first ? textOf(first, units) : "", wrong: false };
   } catch (thrown) {
     if (!(thrown instanceof MeasureError)) throw thrown;
-    return { label: thrown.cause, wrong: true };
+    return { label: words.failure(thrown), wrong: true };
   }
 }

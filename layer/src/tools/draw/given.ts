@@ -10,10 +10,13 @@ import {
 } from "../measure/index.js";
 import { volumeSettingsOf } from "../measure/measurement/volume-settings.js";
 import type { MeasurementChange } from "./history.js";
+import type { MeasureWords } from "./words.js";
 
 export interface MeasureToolOptions extends WorthOptions, Pick<ReadingOptions, "terrain" | "createWorker"> {
   /** How labels are written. Default: metres and degrees, in the reader's language. */
   readonly units?: MeasureUnits | undefined;
+  /** What is said to people. Default: English. */
+  readonly words?: Partial<MeasureWords> | undefined;
   /** Elements of the page that lie over the views, panels say: labels stand beside them. */
   readonly covering?: (() => readonly Element[]) | undefined;
   /** Hears what kept a record from being read. Default: `reportError`. */

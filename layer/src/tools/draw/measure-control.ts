@@ -1,9 +1,12 @@
 import { MEASUREMENT_KINDS, type MeasurementKind } from "../measure/index.js";
 import type { MeasureTool } from "./measure-tool.js";
+import type { MeasureWords } from "./words.js";
 
 export interface MeasureControlOptions {
   /** Which buttons there are, in their order. Default: one for each kind. */
   readonly kinds?: readonly MeasurementKind[] | undefined;
+  /** What it says, where that is not what the tool's `words` have. */
+  readonly words?: Partial<Pick<MeasureWords, "measure" | "undo" | "redo" | "kind">> | undefined;
 }
 
 /**
@@ -15,17 +18,19 @@ export class MeasureControl {
   readonly element = document.createElement("div");
   readonly #tool: MeasureTool;
   readonly #kinds = new Map<MeasurementKind, HTMLButtonElement>();
-  readonly #undo = button("Undo");
-  readonly #redo = button("Redo");
+  readonly #undo: HTMLButtonElement;
+  readonly #redo: HTMLButtonElement;
   readonly #unwatch: () => void;
 
-  constructor(tool: MeasureTool, { kinds }: MeasureControlOptions = {}) {
+  constructor(tool: MeasureTool, { kinds, words: own }: MeasureControlOptions = {}) {
+    const words = { ...tool.words, ...own };
     this.#tool = tool;
+    [this.#undo, this.#redo] = [button(words.undo), button(words.redo)];
     this.element.className = "groma-control";
     this.element.setAttribute("role", "toolbar");
-    this.element.setAttribute("aria-label", "Measure");
+    this.element.setAttribute("aria-label", words.measure);
     for (const kind of kinds ?? (Object.keys(MEASUREMENT_KINDS) as MeasurementKind[])) {
-      const made = button(MEASUREMENT_KINDS[kind].title);
+      const made = button(words.kind(kind));
       made.addEventListener("click", () => {
         if (tool.drawing === kind) tool.cancel();
         else void tool.draw(kind);

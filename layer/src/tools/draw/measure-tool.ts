@@ -22,6 +22,7 @@ import { KnownValues } from "./known-values.js";
 import { commandOf } from "./pointer.js";
 import { Surface } from "./surface.js";
 import type { ViewAdapter } from "./view-adapter.js";
+import { type MeasureWords, measureWords } from "./words.js";
 
 /**
  * Draws measurements on one or several views, by pointer, touch or keyboard, and keeps them.
@@ -32,6 +33,8 @@ import type { ViewAdapter } from "./view-adapter.js";
  * and redo. Of the measurement being edited each vertex takes the keyboard: arrows, Delete, Insert.
  */
 export class MeasureTool {
+  /** What is said to people. */
+  readonly words: MeasureWords;
   readonly #options: MeasureToolOptions;
   readonly #history = new History();
   readonly #surfaces: Surface[] = [];
@@ -52,9 +55,10 @@ export class MeasureTool {
 
   constructor(view: ViewAdapter, options: MeasureToolOptions = {}) {
     this.#options = options;
-    this.#units = options.units ?? new MeasureUnits();
-    this.#values = new KnownValues({ precision: options.precision });
-    const { terrain, createWorker } = options;
+    const { terrain, createWorker, units, precision, words } = options;
+    this.words = measureWords(words);
+    this.#units = units ?? new MeasureUnits();
+    this.#values = new KnownValues({ precision });
     this.#readings = new Readings(
       () => ({ ...this.worth, terrain, createWorker, clouds: this.#clouds }),
       // What is read moves no figure: no view need draw for it.
@@ -70,7 +74,7 @@ export class MeasureTool {
    */
   addView(view: ViewAdapter): () => void {
     const surface = new Surface(view, {
-      turns: this.#turns,
+      ...{ turns: this.#turns, words: this.words },
       measurements: () => this.measurements,
       draft: () => this.#history.present.draft,
       placed: (vertex) => this.#add(vertex),
@@ -235,7 +239,7 @@ export class MeasureTool {
     if (!draft || draft.vertices.length < MEASUREMENT_KINDS[draft.kind].least) return false;
     const { kind, vertices } = draft;
     const waiting = this.#waiting;
-    const name = freshName(measurements, MEASUREMENT_KINDS[kind].title);
+    const name = freshName(measurements, this.words.kind(kind));
     const measurement = { id: waiting?.id ?? crypto.randomUUID(), kind, name, vertices };
     this.#history.go({ measurements: [...measurements, measurement], draft: undefined });
     this.#rest();
@@ -325,8 +329,7 @@ export class MeasureTool {
 
   #rest(): void {
     this.#waiting = undefined;
-    this.#hover = undefined;
-    this.#missed = false;
+    [this.#hover, this.#missed] = [undefined, false];
     for (const surface of this.#surfaces) surface.rest();
     this.#changed();
   }
@@ -348,8 +351,8 @@ export class MeasureTool {
     const drag = this.#surfaces.map(({ grips }) => grips.drag).find((one) => one !== undefined);
     const figures = figuresOf(this.#history.present, {
       ...{ edited: this.#edited, drag, ahead: this.#hover, missed: this.#missed },
-      ...{ units: this.#units, worth: this.worth, valuesOf: (one) => this.#values.of(one) },
-      readingOf: (one) => this.#readings.of(one),
+      ...{ units: this.#units, words: this.words, worth: this.worth },
+      ...{ valuesOf: (one) => this.#values.of(one), readingOf: (one) => this.#readings.of(one) },
     });
     for (const surface of this.#surfaces) surface.show(figures);
   }

@@ -4,6 +4,7 @@ import type { Grip } from "./grip.js";
 import { placeLabels, type ScreenBox, seenAnchor } from "./labels.js";
 import { aroundPole } from "./pole-ring.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
+import type { MeasureWords } from "./words.js";
 
 /** A figure as it is shown. */
 export interface ShownFigure {
@@ -29,6 +30,9 @@ export interface OverlayEvents {
   readonly key: (grip: Grip, event: KeyboardEvent) => void;
   readonly chosen: (id: string) => void;
 }
+
+/** What grips are called. */
+type GripWords = Pick<MeasureWords, "measurements" | "vertex" | "vertexAfter">;
 
 interface Elements {
   readonly group: SVGGElement;
@@ -77,6 +81,7 @@ export class Overlay {
 
   readonly #view: ViewAdapter;
   readonly #events: OverlayEvents;
+  readonly #words: GripWords;
   readonly #covering: () => readonly Element[];
   readonly #svg = svgElement("svg");
   readonly #cross = svgElement("path");
@@ -87,16 +92,22 @@ export class Overlay {
   #last = "";
 
   /** @param covering elements that lie over the view, asked for anew each time */
-  constructor(view: ViewAdapter, events: OverlayEvents, covering: () => readonly Element[]) {
+  constructor(
+    view: ViewAdapter,
+    events: OverlayEvents,
+    words: GripWords,
+    covering: () => readonly Element[],
+  ) {
     this.#view = view;
     this.#events = events;
+    this.#words = words;
     this.#covering = covering;
     this.root.className = "groma-measure";
     this.root.style.cssText = "position:absolute;inset:0;overflow:hidden;pointer-events:none";
     this.#svg.style.cssText = "position:absolute;inset:0;width:100%;height:100%";
     // As a picture it would hide the vertices in it from screen readers.
     this.#svg.setAttribute("role", "group");
-    this.#svg.setAttribute("aria-label", "Measurements");
+    this.#svg.setAttribute("aria-label", words.measurements);
     this.#cross.classList.add("groma-crosshair");
     this.#svg.append(this.#cross);
     const look = document.createElement("style");
@@ -190,12 +201,8 @@ export class Overlay {
     element.classList.add(grip.between ? "groma-between" : "groma-grip");
     element.setAttribute("r", grip.between ? "5" : "8");
     element.setAttribute("role", "button");
-    element.setAttribute(
-      "aria-label",
-      grip.between
-        ? `Add a vertex after ${grip.vertex + 1} of ${name}`
-        : `Vertex ${grip.vertex + 1} of ${name}`,
-    );
+    const called = grip.between ? this.#words.vertexAfter : this.#words.vertex;
+    element.setAttribute("aria-label", called(grip.vertex + 1, name));
     element.style.cssText = "pointer-events:all;touch-action:none;cursor:move";
     if (!grip.between) element.tabIndex = 0;
     element.addEventListener("pointerdown", (event) => this.#events.grabbed(grip, event));

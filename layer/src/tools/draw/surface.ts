@@ -7,10 +7,12 @@ import { Placing, type Turns } from "./placing.js";
 import { stepOf, watchPointer } from "./pointer.js";
 import { type Snaps, snapsOf } from "./snapping.js";
 import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
+import type { MeasureWords } from "./words.js";
 
 /** What is drawn, as a view needs it. */
 export interface SurfaceHost {
   readonly turns: Turns;
+  readonly words: MeasureWords;
   measurements(): readonly Measurement[];
   draft(): Draft | undefined;
   /** Adds a vertex to the figure being drawn; undefined where there is no point. */
@@ -52,7 +54,8 @@ export class Surface {
       key: (grip: Grip, event: KeyboardEvent) => this.grips.key(grip, event),
       chosen: (id: string) => host.chosen(id),
     };
-    this.#overlay = new Overlay(view, events, () => [...host.covering(), ...(view.covering?.() ?? [])]);
+    const covering = () => [...host.covering(), ...(view.covering?.() ?? [])];
+    this.#overlay = new Overlay(view, events, host.words, covering);
     this.grips = new Grips({
       ...{ view, placing: this.#placing, overlay: this.#overlay },
       measurements: () => host.measurements(),

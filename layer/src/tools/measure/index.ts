@@ -36,7 +36,12 @@ export type { Geometry, Position } from "./save/geometry.js";
 export { type ReadMeasurements, readMeasurements } from "./save/read.js";
 export { type ReadableCloud, verifyRecords } from "./save/verify.js";
 export { measurementsToGeoJson, type SaveOptions } from "./save/write.js";
-export { MeasureUnits, type MeasureUnitsOptions, type Words } from "./units/measure-units.js";
+export {
+  MeasureUnits,
+  type MeasureUnitsOptions,
+  type Words,
+  type WorthWords,
+} from "./units/measure-units.js";
 export type { AngleUnit, AreaUnit, LengthUnit, SlopeUnit, VolumeUnit } from "./units/tables.js";
 export type { DatasetName } from "./vertex/dataset.js";
 export {

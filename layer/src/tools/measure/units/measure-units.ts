@@ -31,7 +31,19 @@ export interface MeasureUnitsOptions {
   readonly coordinates?: "degrees" | "dms" | undefined;
   /** BCP 47. Default: the reader's. */
   readonly locale?: string | undefined;
+  /** What is said of uncertainties, in the language of the application. Default: English. */
+  readonly words?: WorthWords | undefined;
 }
+
+/** Words for uncertainties. */
+export interface WorthWords {
+  /** Where all of it is unknown: `± unknown`. */
+  readonly unknown: string;
+  /** Where a part is unknown. @param worth what the known parts come to, as `± 0.032 m` */
+  readonly atLeast: (worth: string) => string;
+}
+
+const ENGLISH: WorthWords = { unknown: "± unknown", atLeast: (worth) => `at least ${worth}` };
 
 const names = <Name extends string>(table: Readonly<Record<Name, unknown>>) => Object.keys(table) as Name[];
 
@@ -42,6 +54,7 @@ const KINDS: Kinds<MeasureUnitsOptions> = {
   angle: oneOf(...names(ANGLES), "dms"),
   slope: oneOf(...names(ANGLES), "dms", "percent", "grade", "ratio"),
   coordinates: oneOf("degrees", "dms"),
+  words: kindOf("{ unknown, atLeast }, a text and a function", isWords),
   locale: kindOf("a BCP 47 language tag, as en-GB", (given): given is string => isLocale(given)),
 };
 
@@ -68,6 +81,7 @@ export class MeasureUnits {
   readonly slope: SlopeUnit;
   readonly coordinates: "degrees" | "dms";
   readonly locale: string | undefined;
+  readonly #words: WorthWords;
 
   /** @throws MeasureError MEASURE_OPTION for a unit or a language that there is not */
   constructor(given: MeasureUnitsOptions = {}) {
@@ -85,6 +99,7 @@ export class MeasureUnits {
     this.slope = options.slope ?? "degrees";
     this.coordinates = options.coordinates ?? "degrees";
     this.locale = options.locale;
+    this.#words = options.words ?? ENGLISH;
   }
 
   /** A length, area, volume or ratio; an angle in the units of angles. */
@@ -184,9 +199,9 @@ export class MeasureUnits {
 
   #worth({ uncertainty, atLeast }: Scaled, unit: string): string {
     const decimals = decimalsOf(atLeast);
-    if (decimals === undefined) return uncertainty === null ? "± unknown" : "";
+    if (decimals === undefined) return uncertainty === null ? this.#words.unknown : "";
     const size = `± ${numberText(atLeast, decimals, this.locale)}${spaced(unit)}`;
-    return uncertainty === null ? `at least ${size}` : size;
+    return uncertainty === null ? this.#words.atLeast(size) : size;
   }
 }
 
@@ -225,6 +240,12 @@ function defaultDecimals(unit: SiUnit, size: number): number {
 /** A unit behind its number: no space before degrees, minutes, seconds. */
 function spaced(symbol: string): string {
   return symbol === "" || /^[°′″]/.test(symbol) ? symbol : `\u00a0${symbol}`;
+}
+
+function isWords(given: unknown): given is WorthWords {
+  if (typeof given !== "object" || given === null) return false;
+  const { unknown, atLeast } = given as Partial<Record<keyof WorthWords, unknown>>;
+  return typeof unknown === "string" && typeof atLeast === "function";
 }
 
 function isLocale(given: unknown): boolean {

@@ -35,6 +35,15 @@ describe("values in words", () => {
     ["DMS", { angle: "dms" }, known(46.952405555 * DEGREE, "rad", 1e-6), "46°57′08.66″ ± 0.21″"],
     ["a ratio", {}, known(0.99962, "1", null, 0), "0.999620 ± unknown"],
     ["German", { locale: "de-DE" }, known(-1523.8472, "m", 0.0321), "−1.523,847 m ± 0,032 m"],
+    [
+      "German words",
+      {
+        ...{ locale: "de-DE" },
+        words: { unknown: "± unbekannt", atLeast: (worth) => `mindestens ${worth}` },
+      },
+      known(1.5, "m", null, 0.1),
+      "1,50 m mindestens ± 0,10 m",
+    ],
     ["Hindi digits", { locale: "hi-IN-u-nu-deva" }, known(-1.5, "m", 0.1), "−१.५० m ± ०.१० m"],
   ])("%s", (_, options, quantity, text) => {
     expect(plain(english(options).words(quantity).text)).toBe(text);
