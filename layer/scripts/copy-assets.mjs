@@ -3,28 +3,18 @@
  * any server can load them, the decoder's WebAssembly beside them, the schema of measurements, the tables of EPSG, and the
  * entries for pages without a bundler.
  */
-import { copyFileSync, existsSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
+import { copyFileSync } from "node:fs";
 import { join } from "node:path";
 import { rolldown } from "rolldown";
 
 const workers = join(import.meta.dirname, "..", "dist", "workers");
-const wasm = createRequire(import.meta.url).resolve("laz-perf/lib/worker/laz-perf.wasm");
+const wasm = "../../converter/wasm/target/wasm32-unknown-unknown/release/groma_laz.wasm";
 
-copyFileSync(wasm, join(workers, "laz-perf.wasm"));
+copyFileSync(join(import.meta.dirname, wasm), join(workers, "groma-laz.wasm"));
 const schema = "measurements.schema.json";
 copyFileSync(join(import.meta.dirname, "../../docs", schema), join(workers, "..", schema));
 
 const laz = join(workers, "..", "export", "compressor");
-const compressor = join(
-  import.meta.dirname,
-  "../../converter/wasm/target/wasm32-unknown-unknown/release/groma_laz.wasm",
-);
-const copy = join(laz, "groma-laz.wasm");
-// Where there is no Rust for WebAssembly, pages write no LAZ, and say so.
-if (existsSync(compressor)) copyFileSync(compressor, copy);
-else rmSync(copy, { force: true });
-
 const volume = join(workers, "..", "tools", "measure", "volume");
 for (const [folder, name] of [
   [workers, "node.worker.js"],

@@ -104,7 +104,6 @@ export {
   type Encoded,
   type Expected,
   LazDecoder,
-  type LazPerf,
   LocalExecutor,
   type NodeExecutor,
   type NodeJob,

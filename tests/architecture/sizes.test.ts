@@ -38,7 +38,7 @@ async function size(entry: string, external: RegExp): Promise<number> {
 describe("what an entry weighs", () => {
   it("is told of every entry that has code", () => {
     const { exports } = JSON.parse(readFileSync(join(projectRoot, "layer/package.json"), "utf8"));
-    const entries = Object.keys(exports).filter((name) => !/\.js(on)?$/.test(name));
+    const entries = Object.keys(exports).filter((name) => !/\.(js(on)?|wasm)$/.test(name));
     expect(table.map(([name]) => name).sort()).toEqual(
       entries.map((name) => `@groma/layer${name.slice(1)}`).sort(),
     );

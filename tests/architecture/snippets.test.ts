@@ -32,7 +32,7 @@ function examples(page: string): { line: number; code: string }[] {
 function complaints(codes: ReadonlyMap<string, string>): string[] {
   const config = ts.getParsedCommandLineOfConfigFile(
     join(projectRoot, "tests/tsconfig.json"),
-    { types: [], noUnusedLocals: false, noUnusedParameters: false },
+    { types: ["node"], noUnusedLocals: false, noUnusedParameters: false },
     { ...ts.sys, onUnRecoverableConfigFileDiagnostic: () => {} },
   )!;
   const host = ts.createCompilerHost(config.options);

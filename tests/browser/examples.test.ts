@@ -47,7 +47,10 @@ const policy = /^Content-Security-Policy: (.*)$/m.exec(
   readFileSync(join(examples, "README.md"), "utf8"),
 )![1]!;
 
-/** Serves what is built; a page has the policy, and for an import map in it its hash. `?eval` lets Cesium's own file run. */
+/**
+ * Serves what is built under the policy, workers too; a page has for an import map in it its hash. `?eval` lets Cesium's own
+ * file run.
+ */
 function serve(): Promise<Server> {
   const folders = [
     ["/cesium/", cesium],
@@ -61,6 +64,7 @@ function serve(): Promise<Server> {
     const { pathname, searchParams } = new URL(request.url ?? "/", "http://localhost");
     const [prefix, root] = folders.find(([start]) => pathname.startsWith(start))!;
     const path = pathname.slice(prefix.length - 1);
+    response.setHeader("content-security-policy", policy);
     if (path.endsWith(".html")) {
       const page = readFileSync(join(root, path), "utf8");
       const map = /<script type="importmap">([\s\S]*?)<\/script>/.exec(page)?.[1];

@@ -1,18 +1,15 @@
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
 import { groma } from "../interop/groma.js";
-import { data, projectRoot } from "../project.js";
+import { data } from "../project.js";
 import { settle } from "./globe.js";
 import { openPage, screenshot, sharedBrowser, type View, view } from "./harness.js";
 
 const scan = data("vol_total.laz");
-
-/** Whether the page has what writes LAZ: where there is no Rust for WebAssembly, LAS is held against the command line alone. */
-const compressed = existsSync(join(projectRoot, "layer/dist/export/compressor/groma-laz.wasm"));
 
 /** Pixels of three points of the cloud that lie apart, clear of the panels. */
 async function pixelsOfPoints(page: Page): Promise<{ x: number; y: number }[]> {
@@ -146,16 +143,16 @@ async function clippedPointsAreExported(page: Page, folder: string): Promise<voi
   });
   await page.click("#export summary");
   const downloading = page.waitForEvent("download");
-  await page.selectOption("#export-format", compressed ? "laz" : "las");
+  await page.selectOption("#export-format", "laz");
   await page.click("#export-points");
   const download = await downloading;
-  expect(download.suggestedFilename()).toBe(`vol_total-points.${compressed ? "laz" : "las"}`);
+  expect(download.suggestedFilename()).toBe("vol_total-points.laz");
   const exported = join(folder, "points.laz");
   await download.saveAs(exported);
 
   const file = join(folder, "polygon.geojson");
   writeFileSync(file, JSON.stringify({ type: "Polygon", coordinates: [[...ring, ring[0]]] }));
-  const out = join(folder, `clipped.${compressed ? "laz" : "las"}`);
+  const out = join(folder, "clipped.laz");
   const polygon = ["--polygon", file, "--polygon-crs", "source", "--heights", heights.join(",")];
   expect(groma(["clip", converted(scan.path), ...polygon, "--out", out]).code).toBe(0);
   const [here, there] = [readFileSync(exported), readFileSync(out)];

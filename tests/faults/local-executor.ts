@@ -1,8 +1,9 @@
-import { LazDecoder, type LazPerf, LocalExecutor } from "@groma/layer";
-import { create } from "laz-perf/lib/node/index.js";
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { LazDecoder, LocalExecutor } from "@groma/layer";
+import { projectRoot } from "../project.js";
 
-/** One decoder for all: each module of laz-perf puts two listeners on the process and leaves them there. */
-const decoder = new LazDecoder(() => create() as unknown as Promise<LazPerf>);
+const decoder = new LazDecoder(() => readFile(join(projectRoot, "layer/dist/workers/groma-laz.wasm")));
 
 /** Decodes on this thread: Node has no workers of the kind that a page has. */
 export function localExecutor(): LocalExecutor {

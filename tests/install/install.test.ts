@@ -100,7 +100,7 @@ describe.skipIf(skipped)(`packages, packed${why}`, () => {
     for (const name of ["@groma/georef", "@groma/layer"]) {
       const attw = join(projectRoot, "node_modules/@arethetypeswrong/cli/dist/index.js");
       const untyped = Object.keys(packed.get(name)!.description.exports!).filter((entry) =>
-        /\.js(on)?$/.test(entry),
+        /\.(js(on)?|wasm)$/.test(entry),
       );
       const args = ["--profile", "esm-only", "--format", "json", "--exclude-entrypoints", ...untyped, "--"];
       const told = spawnSync(process.execPath, [attw, ...args, packed.get(name)!.path], { encoding: "utf8" });
@@ -118,7 +118,7 @@ describe.skipIf(skipped)(`an installation far from the project${why}`, () => {
   it("imports every entry where there is no DOM", () => {
     const entries = ["@groma/georef", "@groma/layer"].flatMap((name) =>
       Object.keys(packed.get(name)!.description.exports!)
-        .filter((entry) => !/json$|worker/.test(entry))
+        .filter((entry) => !/json$|worker|wasm$/.test(entry))
         .map((entry) => `${name}${entry.slice(1)}`),
     );
     expect(entries).toContain("@groma/layer/cesium");

@@ -2,7 +2,7 @@ import { GromaError } from "@groma/georef";
 import { RecordedPoints } from "@groma/layer/query";
 import { type OpenedSource, openSource } from "@groma/layer/sources";
 import { FileSource } from "./file-source.js";
-import { lazPerf } from "./laz-perf.js";
+import { lazBytes } from "./laz.js";
 
 /** A file cannot be opened. Codes: INPUT_NOT_FOUND, INPUT_READ, as the core has them. */
 class InputFileError extends GromaError {
@@ -24,7 +24,7 @@ export const isAddress = (input: string): boolean => /^https?:\/\//i.test(input)
  */
 export async function openPoints(input: string, signal: AbortSignal): Promise<OpenedPoints> {
   return withBytes(input, async (from, close) => {
-    const points = await RecordedPoints.open(from, { createLazPerf: lazPerf, signal });
+    const points = await RecordedPoints.open(from, { loadLaz: lazBytes, signal });
     return { points, close };
   });
 }

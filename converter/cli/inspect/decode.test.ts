@@ -1,62 +1,40 @@
-import { afterAll, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
-import type { decodeChunk as DecodeChunk } from "./decode.js";
+import { LazModule } from "@groma/layer/query";
+import { describe, expect, it, vi } from "vitest";
+import { lazBytes } from "../files/laz.js";
+import { decodeChunk } from "./decode.js";
 
-/** What stands for laz-perf: records of zeros, and a failure where the chunk begins with 255. */
-const lazPerf = vi.hoisted(() => ({ modules: 0, allocated: 0, decoders: 0 }));
+const format = { pointFormat: 6, recordLength: 30 };
 
-vi.mock("laz-perf/lib/node/index.js", () => ({
-  create: async () => {
-    lazPerf.modules++;
-    const memory = new Uint8Array(1024);
-    return {
-      HEAPU8: memory,
-      _malloc: () => 64 * lazPerf.allocated++,
-      _free: () => lazPerf.allocated--,
-      ChunkDecoder: class {
-        constructor() {
-          lazPerf.decoders++;
-        }
-        open(_format: number, _length: number, chunk: number) {
-          if (memory[chunk] === 255) throw new Error("damaged");
-        }
-        getPoint() {}
-        delete() {
-          lazPerf.decoders--;
-        }
-      },
-    };
-  },
-}));
+/** A chunk of ten records, each with its number for an intensity. */
+async function someChunk(): Promise<{ chunk: Uint8Array; records: Uint8Array }> {
+  const records = new Uint8Array(300);
+  for (let index = 0; index < 10; index++) records.set([index + 1], 30 * index + 12);
+  const module = await LazModule.load(await lazBytes());
+  return { chunk: module.run("compress", { format: 6, extra: 0 }, records), records };
+}
 
 describe("decodeChunk", () => {
-  let decodeChunk: typeof DecodeChunk;
-
-  // Files share their modules: neither may another's decoder serve here, nor this one there.
-  beforeAll(async () => {
-    vi.resetModules();
-    ({ decodeChunk } = await import("./decode.js"));
-  });
-  afterAll(() => vi.resetModules());
-
-  beforeEach(() => Object.assign(lazPerf, { modules: 0, allocated: 0, decoders: 0 }));
-
-  it("decodes many chunks in one module and keeps nothing of them", async () => {
-    const format = { pointFormat: 3, recordLength: 34 };
-    for (let chunk = 0; chunk < 20; chunk++) {
-      expect(await decodeChunk(new Uint8Array(8), format, 2)).toHaveLength(68);
-    }
-    expect(lazPerf).toEqual({ modules: 1, allocated: 0, decoders: 0 });
-    // A module that failed may be damaged as well.
-    await expect(decodeChunk(Uint8Array.of(255), format, 1)).rejects.toThrow("damaged");
-    lazPerf.allocated = 0;
-    await decodeChunk(new Uint8Array(8), format, 1);
-    expect(lazPerf.modules).toBe(2);
+  it("gives the first records of a chunk", async () => {
+    const { chunk, records } = await someChunk();
+    expect(await decodeChunk(chunk, format, 10)).toEqual(records);
+    expect(await decodeChunk(chunk, format, 3)).toEqual(records.slice(0, 90));
   });
 
-  it("refuses point formats that it does not know", async () => {
-    await expect(decodeChunk(new Uint8Array(8), { pointFormat: 9, recordLength: 59 }, 1)).rejects.toThrow(
-      "point format 9 cannot be decoded",
+  it("takes a fresh decoder after one that failed, which may be damaged as well, and no other", async () => {
+    const { chunk, records } = await someChunk();
+    await decodeChunk(chunk, format, 1);
+    const load = vi.spyOn(LazModule, "load");
+    await expect(decodeChunk(chunk.subarray(0, 40), format, 10)).rejects.toThrow("end too early");
+    expect(load).not.toHaveBeenCalled();
+    for (const _ of Array(3)) expect(await decodeChunk(chunk, format, 10)).toEqual(records);
+    expect(load).toHaveBeenCalledOnce();
+    load.mockRestore();
+  });
+
+  it("refuses records that are none", async () => {
+    const none = { pointFormat: 6, recordLength: 29 };
+    await expect(decodeChunk(new Uint8Array(8), none, 1)).rejects.toThrow(
+      "there are no records of point format 6 with 29 bytes",
     );
-    expect(lazPerf.modules).toBe(0);
   });
 });

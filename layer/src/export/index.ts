@@ -1,9 +1,9 @@
+export type { LazTask, RecordLayout } from "../laz/index.js";
 export type { PaintOptions } from "./along.js";
 export { type ArchiveEntry, writeArchive } from "./archive.js";
 export { BlobStore, type BlockStore } from "./block-store.js";
 export { type ByteSink, MemorySink } from "./byte-sink.js";
 export { collectParts, type PartedSelection, type PartedVolume } from "./collect.js";
-export type { LazTask, RecordLayout } from "./compressor/laz-module.js";
 export type { PointCompressor } from "./compressor/laz-worker.js";
 export { exportCsv } from "./csv.js";
 export { type CutFacts, cutFacts, type LengthUnit } from "./cut-facts.js";

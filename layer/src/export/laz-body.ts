@@ -1,5 +1,5 @@
+import type { RecordLayout } from "../laz/index.js";
 import type { ByteSink } from "./byte-sink.js";
-import type { RecordLayout } from "./compressor/laz-module.js";
 import type { PointCompressor } from "./compressor/laz-worker.js";
 import type { LasBody } from "./las-body.js";
 import { HEADER } from "./las-file.js";

@@ -1,4 +1,4 @@
-export type { LazPerf } from "../workers/index.js";
+export { type ChunkFormat, LazModule } from "../laz/index.js";
 export { NodeAccess, type NodeAccessParts, noNode } from "./node-access.js";
 export { nodeCube, pointBox } from "./node-cube.js";
 export { openPage } from "./open-page.js";

@@ -6,7 +6,6 @@ import {
   decodeNode,
   decodersWith,
   LazDecoder,
-  type LazPerf,
   type RecordedNode,
   type StorageSpec,
 } from "../workers/index.js";
@@ -16,8 +15,8 @@ import { PointQuery, type QueryOptions, type QueryParts } from "./point-query.js
 
 /** How recorded points are opened. */
 export interface RecordedPointsOptions extends OpenOptions {
-  /** Makes a module of laz-perf; it comes in one form for workers and one for Node. */
-  readonly createLazPerf: () => Promise<LazPerf>;
+  /** Gives the bytes of `groma-laz.wasm`, which decodes: a page fetches them, Node reads `@groma/layer/laz.wasm`. */
+  readonly loadLaz: () => Promise<BufferSource>;
 }
 
 /** The points of a part of a data set. */
@@ -57,14 +56,14 @@ export class RecordedPoints implements PointOrigin {
   readonly #spec: StorageSpec;
   readonly #decoders: ReturnType<typeof decodersWith>;
 
-  private constructor(source: OpenedSource, createLazPerf: RecordedPointsOptions["createLazPerf"]) {
+  private constructor(source: OpenedSource, loadLaz: RecordedPointsOptions["loadLaz"]) {
     const { name, encoding, bytesPerPoint, scale, offset } = source;
     const store = new NodeStore(name, source.pointCount, source.rootPage);
     store.limit = MOST_NODES;
     this.source = source;
     this.#access = new NodeAccess({ source, store, released: () => store.trim(() => false) });
     this.#spec = { file: name, encoding, bytesPerPoint, scale, offset };
-    this.#decoders = decodersWith(new LazDecoder(createLazPerf));
+    this.#decoders = decodersWith(new LazDecoder(loadLaz));
   }
 
   /**
@@ -72,7 +71,7 @@ export class RecordedPoints implements PointOrigin {
    * @throws SourceError, FormatError; the signal's reason when aborted
    */
   static async open(from: SourceLike, options: RecordedPointsOptions): Promise<RecordedPoints> {
-    const points = new RecordedPoints(await openSource(from, options), options.createLazPerf);
+    const points = new RecordedPoints(await openSource(from, options), options.loadLaz);
     await points.#access.openRoot(options.signal);
     return points;
   }

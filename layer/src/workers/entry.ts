@@ -1,5 +1,5 @@
-import { create } from "laz-perf/lib/worker/index.js";
 import { DecodeError, toWire } from "../errors/index.js";
+import { fetchModule } from "../laz/index.js";
 import { decodersWith } from "./decoders.js";
 import { LazDecoder } from "./laz-decoder.js";
 import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
@@ -12,43 +12,25 @@ declare const self: DedicatedWorkerGlobalScope;
 type JobRequest = Extract<WorkerRequest, { readonly job: ChunkJob }>;
 
 const dataSets = new Map<number, PreparedDataSet | unknown>();
-let wasm: Promise<Uint8Array> | undefined;
+let wasm: Promise<BufferSource> | undefined;
 
-const laz = new LazDecoder(async () => {
-  wasm ??= fetchWasm();
-  try {
-    return await create({ wasmBinary: await wasm });
-  } catch (thrown) {
+const laz = new LazDecoder(() => {
+  wasm ??= fetchDecoder().catch((thrown: unknown) => {
     // What could not be fetched is asked for again with the next job.
     wasm = undefined;
     throw thrown;
-  }
+  });
+  return wasm;
 });
 const decoders = decodersWith(laz);
 
-/** Magic number of a WebAssembly module: `\0asm`. */
-const WASM_MAGIC = [0x00, 0x61, 0x73, 0x6d];
-
 /** Fetches the LAZ decoder that lies beside this file. @throws DecodeError DECODE_WASM */
-async function fetchWasm(): Promise<Uint8Array> {
-  const url = new URL("./laz-perf.wasm", import.meta.url).href;
-  const fail = (cause: string) =>
-    new DecodeError({
-      code: "DECODE_WASM",
-      file: url,
-      cause,
-      fix: "Serve laz-perf.wasm beside node.worker.js",
-    });
-  let bytes: Uint8Array;
-  try {
-    const response = await fetch(url);
-    if (!response.ok) throw fail(`the server answered HTTP ${response.status}`);
-    bytes = new Uint8Array(await response.arrayBuffer());
-  } catch (thrown) {
-    throw thrown instanceof DecodeError ? thrown : fail("the decoder cannot be fetched");
-  }
-  if (WASM_MAGIC.some((byte, index) => bytes[index] !== byte)) throw fail("this is not WebAssembly");
-  return bytes;
+async function fetchDecoder(): Promise<BufferSource> {
+  const file = new URL("./groma-laz.wasm", import.meta.url).href;
+  return fetchModule(file).catch((thrown: Error) => {
+    const fix = "Serve groma-laz.wasm beside node.worker.js";
+    throw new DecodeError({ code: "DECODE_WASM", file, cause: thrown.message, fix });
+  });
 }
 
 /** Does what a request asks for and says which buffers go along with the answer. */

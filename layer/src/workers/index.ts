@@ -1,6 +1,6 @@
 export { constantColumn, halfUlp32 } from "./column-plan.js";
 export { type Decoders, decodersWith } from "./decoders.js";
-export { LazDecoder, type LazPerf } from "./laz-decoder.js";
+export { LazDecoder } from "./laz-decoder.js";
 export { LocalExecutor } from "./local-executor.js";
 export { cubeSlack, decodeNode } from "./node-job.js";
 export { checkNodeSize } from "./node-size.js";

@@ -180,7 +180,7 @@ describe("WorkerPool", () => {
     const { job } = setUp(1);
     for (let times = 0; times < 2; times++) {
       await expect(pool.records(job())).rejects.toThrow(
-        /^DECODE_WORKER: .* new LocalExecutor\(new LazDecoder\(create\)\), with create of laz-perf\/lib\/node\/index\.js/,
+        /^DECODE_WORKER: .* new LocalExecutor\(new LazDecoder\(load\)\), where load reads the file @groma\/layer\/laz\.wasm/,
       );
       expect(pool.pending).toBe(0);
     }

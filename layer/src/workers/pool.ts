@@ -58,7 +58,7 @@ function createDefaultWorker(): WorkerLike {
       code: "DECODE_WORKER",
       file: "points",
       cause: "there are no web workers here to decode them, as in Node",
-      fix: "Give the option executor: new LocalExecutor(new LazDecoder(create)), with create of laz-perf/lib/node/index.js",
+      fix: "Give the option executor: new LocalExecutor(new LazDecoder(load)), where load reads the file @groma/layer/laz.wasm",
     });
   }
   return new Worker(new URL("./node.worker.js", import.meta.url), { type: "module", name: "groma-node" });

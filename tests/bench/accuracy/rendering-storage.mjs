@@ -1,7 +1,9 @@
-import { open } from "node:fs/promises";
+import { open, readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
 import { LazDecoder, LocalExecutor, PointCloud } from "@groma/layer";
 import { openSource } from "@groma/layer/sources";
-import { create } from "laz-perf/lib/node/index.js";
+
+const laz = createRequire(import.meta.url).resolve("@groma/layer/laz.wasm");
 
 /** Nodes of a level, and points of a node, that are looked at: evenly out of all. */
 const NODES_PER_LEVEL = 6;
@@ -34,7 +36,7 @@ function steps(bits) {
 export async function measureStorage(file) {
   const source = await fileSource(file);
   const cloud = await PointCloud.fromUrl(source, {
-    executor: new LocalExecutor(new LazDecoder(() => create())),
+    executor: new LocalExecutor(new LazDecoder(() => readFile(laz))),
   });
   try {
     const rows = [];

@@ -20,7 +20,7 @@ const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, mil
 
 /**
  * Random flights over Autzen with all that a page does but drawing: Range requests to a server, the layer's own workers
- * with laz-perf, placing and packing, records read again; with the memory of all after each fifty flights.
+ * with their decoder, placing and packing, records read again; with the memory of all after each fifty flights.
  */
 export async function decodingFlights(root, next) {
   const scan = join(root, "../shared/data/autzen.laz");

@@ -1,5 +1,5 @@
 import { FormatError, toWire } from "../../errors/index.js";
-import { LazModule } from "./laz-module.js";
+import { fetchModule, LazModule } from "../../laz/index.js";
 import type { LazReply, LazRequest } from "./laz-worker.js";
 
 /** The worker's side of compression. Bundled into one file, `laz.worker.js`, by `scripts/copy-assets.mjs`. */
@@ -8,18 +8,16 @@ declare const self: DedicatedWorkerGlobalScope;
 let module: Promise<LazModule> | undefined;
 
 async function load(): Promise<LazModule> {
-  const file = new URL("./groma-laz.wasm", import.meta.url).href;
-  const fail = (cause: string) =>
-    new FormatError({
-      ...{ code: "EXPORT_NO_LAZ", file, cause },
-      fix: "Serve groma-laz.wasm beside laz.worker.js, or write LAS; groma profile and groma clip write LAZ too",
+  // The worker that decodes nodes has it already.
+  const file = new URL("../../workers/groma-laz.wasm", import.meta.url).href;
+  try {
+    return await LazModule.load(await fetchModule(file));
+  } catch (thrown) {
+    throw new FormatError({
+      ...{ code: "EXPORT_NO_LAZ", file, cause: (thrown as Error).message },
+      fix: "Serve groma-laz.wasm, or write LAS; groma profile and groma clip write LAZ too",
     });
-  const response = await fetch(file).catch(() => undefined);
-  if (!response?.ok) throw fail("the compressor cannot be fetched");
-  const bytes = await response.arrayBuffer();
-  return LazModule.load(bytes).catch((thrown: unknown) => {
-    throw fail(`the compressor is no WebAssembly that runs here (${thrown})`);
-  });
+  }
 }
 
 async function answer({ id, task, layout, input }: LazRequest): Promise<void> {

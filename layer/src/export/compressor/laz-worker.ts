@@ -1,6 +1,6 @@
 import type { FaultWire } from "@groma/georef";
 import { FormatError, fromWire } from "../../errors/index.js";
-import type { LazTask, RecordLayout } from "./laz-module.js";
+import type { LazTask, RecordLayout } from "../../laz/index.js";
 
 /** From the page to the worker. */
 export interface LazRequest {
