@@ -1,3 +1,4 @@
+import { i18n } from "./language/i18n.js";
 import { PageError } from "./panel/page-error.js";
 
 /** What the page's own address asks for. */
@@ -66,19 +67,19 @@ export function readPageOptions(page: string): PageOptions {
  */
 export function cloudAddress(text: string, page: string): string {
   const trimmed = text.trim();
-  if (trimmed === "") throw badAddress("the address", "it is empty");
+  if (trimmed === "") throw badAddress(i18n.t("the address"), i18n.t("it is empty"));
   let address: URL;
   try {
     address = new URL(trimmed, page);
   } catch {
-    throw badAddress(trimmed, "this is not a valid address");
+    throw badAddress(trimmed, i18n.t("this is not a valid address"));
   }
   const { protocol, username, password } = address;
   if (protocol !== "http:" && protocol !== "https:") {
-    throw badAddress(trimmed, `addresses that begin with ${protocol} are not supported`);
+    throw badAddress(trimmed, i18n.t("addresses that begin with {protocol} are not supported", { protocol }));
   }
   if (username || password)
-    throw badAddress(`${address.host}…`, "the address contains a user name or password");
+    throw badAddress(`${address.host}…`, i18n.t("the address contains a user name or password"));
   return address.href;
 }
 
@@ -87,7 +88,9 @@ function badAddress(file: string, cause: string): PageError {
     code: "PAGE_ADDRESS",
     file: file.length > 120 ? `${file.slice(0, 119)}…` : file,
     cause,
-    fix: "Give a path on this server or an http(s) address; open files of this computer with Choose a file",
+    fix: i18n.t(
+      "Give a path on this server or an http(s) address; open files of this computer with Choose a file",
+    ),
   });
 }
 
@@ -100,7 +103,13 @@ function number(
   if (text === null) return undefined;
   const value = (whole ? /^\d+$/ : /^\d+(\.\d+)?$/).test(text) ? Number(text) : Number.NaN;
   if (value >= least && value <= most) return value;
-  throw badOption(name, text, `a ${whole ? "whole " : ""}number from ${least} to ${most}`);
+  throw badOption(
+    name,
+    text,
+    whole
+      ? i18n.t("Give a whole number from {least} to {most}", { least, most })
+      : i18n.t("Give a number from {least} to {most}", { least, most }),
+  );
 }
 
 function word<Word extends string>(
@@ -112,14 +121,17 @@ function word<Word extends string>(
   if (text === null) return undefined;
   const found = words.find((each) => each === text);
   if (found) return found;
-  throw badOption(name, text, `one of ${words.join(", ")}`);
+  throw badOption(name, text, i18n.t("Give one of {words}", { words: words.join(", ") }));
 }
 
-function badOption(name: string, text: string, wanted: string): PageError {
+function badOption(name: string, text: string, fix: string): PageError {
   return new PageError({
     code: "PAGE_OPTION",
-    file: `the option ${name} of the page's address`,
-    cause: text === "" ? "it is empty" : `"${text.slice(0, 60)}" is not a valid value`,
-    fix: `Give ${wanted}`,
+    file: i18n.t("the option {name} of the page's address", { name }),
+    cause:
+      text === ""
+        ? i18n.t("it is empty")
+        : i18n.t("“{text}” is not a valid value", { text: text.slice(0, 60) }),
+    fix,
   });
 }

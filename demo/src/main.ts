@@ -127,7 +127,7 @@ function start(viewer: Viewer): void {
     },
   });
   connectFold();
-  connectLanguage();
+  connectLanguage(() => opened?.from instanceof File || measuring.tool.measurements.length > 0);
   watchDrawing(viewer);
   addBaseMap(viewer).catch((thrown: unknown) => message.show(thrown));
   try {
@@ -317,15 +317,15 @@ function watchDrawing({ scene, canvas }: Viewer): void {
     message.show(
       new PageError({
         code: "PAGE_DRAWING",
-        file: "the globe",
-        cause: `drawing stopped: ${cause}`,
-        fix: "Reload the page; if it happens again, draw fewer points with ?budget=300000",
+        file: i18n.t("the globe"),
+        cause: i18n.t("drawing stopped: {cause}", { cause }),
+        fix: i18n.t("Reload the page; if it happens again, draw fewer points with ?budget=300000"),
       }),
     );
   scene.renderError.addEventListener((_scene: unknown, thrown: unknown) =>
     stopped(thrown instanceof Error ? thrown.message : String(thrown)),
   );
-  canvas.addEventListener("webglcontextlost", () => stopped("the browser lost the graphics context"));
+  canvas.addEventListener("webglcontextlost", () => stopped(i18n.t("the browser lost the graphics context")));
 }
 
 try {

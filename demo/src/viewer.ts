@@ -40,9 +40,11 @@ export function createViewer(container: HTMLElement): Viewer {
   } catch (thrown) {
     throw new PageError({
       code: "PAGE_WEBGL",
-      file: "the globe",
-      cause: `this browser cannot draw it (${thrown instanceof Error ? thrown.message : String(thrown)})`,
-      fix: "Use a browser with WebGL 2 and hardware acceleration switched on",
+      file: i18n.t("the globe"),
+      cause: i18n.t("this browser cannot draw it ({reason})", {
+        reason: thrown instanceof Error ? thrown.message : String(thrown),
+      }),
+      fix: i18n.t("Use a browser with WebGL 2 and hardware acceleration switched on"),
     });
   }
   const { scene, canvas } = viewer;
@@ -69,8 +71,8 @@ export async function addBaseMap(viewer: Viewer): Promise<void> {
     throw new PageError({
       code: "PAGE_BASE_MAP",
       file: url,
-      cause: "the base map cannot be loaded; the globe stays plain",
-      fix: "Serve the folder cesium beside the page",
+      cause: i18n.t("the base map cannot be loaded; the globe stays plain"),
+      fix: i18n.t("Serve the folder cesium beside the page"),
     });
   }
 }
@@ -87,8 +89,10 @@ export async function addTerrain(viewer: Viewer, address: string): Promise<void>
     throw new PageError({
       code: "PAGE_TERRAIN",
       file: address,
-      cause: "there is no terrain that can be read; the globe stays smooth",
-      fix: "Give the folder with the terrain's layer.json (quantized-mesh or heightmap), from a server that lets this page read it",
+      cause: i18n.t("there is no terrain that can be read; the globe stays smooth"),
+      fix: i18n.t(
+        "Give the folder with the terrain's layer.json (quantized-mesh or heightmap), from a server that lets this page read it",
+      ),
     });
   }
 }

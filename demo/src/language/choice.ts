@@ -9,7 +9,9 @@ const KEY = "groma-language";
 /** Catalogues that are fetched when they are wanted; English is there. */
 const CATALOGUES: ReadonlyMap<string, () => Promise<{ readonly messages: Messages }>> = new Map([
   ["de", () => import("./catalogues/de.po")],
+  ["es", () => import("./catalogues/es.po")],
   ["fr", () => import("./catalogues/fr.po")],
+  ["ja", () => import("./catalogues/ja.po")],
 ]);
 
 /**

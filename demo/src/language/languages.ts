@@ -11,7 +11,9 @@ export interface Language {
 export const LANGUAGES: readonly [Language, ...Language[]] = [
   { code: "en", name: "English", direction: "ltr" },
   { code: "de", name: "Deutsch", direction: "ltr" },
+  { code: "es", name: "Español", direction: "ltr" },
   { code: "fr", name: "Français", direction: "ltr" },
+  { code: "ja", name: "日本語", direction: "ltr" },
 ];
 
 /**

@@ -8,3 +8,13 @@ export function fixed(value: number, decimals: number): string {
     useGrouping: false,
   });
 }
+
+/** A number with so many significant digits at most, in the page's language. */
+export function significant(value: number, digits: number): string {
+  return i18n.number(value, { maximumSignificantDigits: digits, useGrouping: false });
+}
+
+/** Numbers of one thing, as its coordinates: parted so that no comma of a number is taken for one between them. */
+export function several(numbers: readonly string[]): string {
+  return numbers.join(numbers.some((text) => text.includes(",")) ? "; " : ", ");
+}

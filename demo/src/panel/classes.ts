@@ -1,6 +1,6 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import { i18n } from "../language/i18n.js";
-import { classWords } from "./class-words.js";
+import { libraryWords } from "../language/library-words.js";
 import { byId, textElement } from "./elements.js";
 import { countWords } from "./words.js";
 
@@ -22,7 +22,7 @@ export class Classes {
 
 function rowOf(layer: PointCloudLayer, number: number, count: number): HTMLElement {
   const { name: given, color, show } = layer.style.classes[number]!;
-  const name = classWords(given);
+  const name = libraryWords(given);
   const shown = document.createElement("input");
   shown.type = "checkbox";
   shown.checked = show;

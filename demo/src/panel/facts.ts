@@ -2,6 +2,8 @@ import type { AccuracyPart, OperationReport } from "@groma/georef";
 import { printable } from "@groma/georef/printable";
 import type { PointCloudLayer, SourceWarning } from "@groma/layer/cesium";
 import { i18n } from "../language/i18n.js";
+import { libraryWords } from "../language/library-words.js";
+import { noteWords } from "../language/note-words.js";
 import { byId, setText, textElement } from "./elements.js";
 import {
   accuracyWords,
@@ -11,7 +13,6 @@ import {
   heightWords,
   lackingWords,
   lengthWords,
-  partWords,
   type Words,
   warningsOf,
 } from "./words.js";
@@ -92,7 +93,7 @@ function lackingOf(operation: OperationReport | undefined): HTMLElement[] {
 /** The parts of an accuracy, folded away. */
 function partsOf(parts: readonly AccuracyPart[]): HTMLElement {
   const items = parts.map(({ name, metres, note }) =>
-    row([textElement("span", partWords(name)), textElement("span", lengthWords(metres))], note),
+    row([textElement("span", libraryWords(name)), textElement("span", lengthWords(metres))], note),
   );
   return folded(i18n.t("{count, plural, one {# part} other {# parts}}", { count: parts.length }), items);
 }
@@ -100,8 +101,16 @@ function partsOf(parts: readonly AccuracyPart[]): HTMLElement {
 function row(cells: readonly HTMLElement[], note: string | undefined): HTMLElement {
   const item = document.createElement("li");
   item.append(...cells);
-  if (note) item.append(textElement("small", note));
+  if (note) item.append(noteElement(note));
   return item;
+}
+
+/** A remark of the libraries. */
+function noteElement(note: string, className?: string): HTMLElement {
+  const { text, translated } = noteWords(note);
+  const element = textElement("small", text, className);
+  if (!translated) element.lang = "en";
+  return element;
 }
 
 /** A list under a line that opens it. */

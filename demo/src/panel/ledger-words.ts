@@ -1,5 +1,6 @@
 import type { LayerStatistics, LedgerRow, MeasuredCost } from "@groma/layer/cesium";
 import { i18n } from "../language/i18n.js";
+import { libraryWords } from "../language/library-words.js";
 
 /** What effects are called; one that is not among them is called by its key. */
 const EFFECTS: ReadonlyMap<string, string> = new Map([
@@ -10,6 +11,7 @@ const EFFECTS: ReadonlyMap<string, string> = new Map([
   ["classification", i18n.t("classification")],
   ["clip", i18n.t("clip")],
   ["curvature", i18n.t("curvature")],
+  ["curvatureAndRefraction", i18n.t("curvature and refraction")],
   ["disc", i18n.t("disc")],
   ["dithering", i18n.t("dithering")],
   ["eyeDomeLighting", i18n.t("eye dome lighting")],
@@ -22,15 +24,19 @@ const EFFECTS: ReadonlyMap<string, string> = new Map([
   ["logarithmicDepth", i18n.t("logarithmic depth")],
   ["opacity", i18n.t("opacity")],
   ["paraboloid", i18n.t("paraboloid")],
+  ["placing", i18n.t("placing")],
   ["placingOnScreen", i18n.t("placing on screen")],
   ["rgb", i18n.t("rgb")],
   ["splats", i18n.t("splats")],
+  ["storage", i18n.t("storage")],
   ["tone", i18n.t("tone")],
 ]);
 
 /** An effect's name as a reader would write it: `eyeDomeLighting` is "eye dome lighting". */
 export function effectWords({ effect }: LedgerRow): string {
-  return EFFECTS.get(effect) ?? effect.replace(/[A-Z]/g, (letter) => ` ${letter.toLowerCase()}`);
+  return (
+    EFFECTS.get(effect) ?? libraryWords(effect.replace(/[A-Z]/g, (letter) => ` ${letter.toLowerCase()}`))
+  );
 }
 
 /** How much an effect would change, against what. */

@@ -1,4 +1,5 @@
 import type { LedgerRow, PointCloudLayer } from "@groma/layer/cesium";
+import { i18n } from "../language/i18n.js";
 import { byId, setText, textElement } from "./elements.js";
 import { costWords, effectWords, frameWords, magnitudeWords, stateWords } from "./ledger-words.js";
 
@@ -37,14 +38,13 @@ export class Ledger {
 function rowOf(row: LedgerRow): HTMLTableRowElement {
   const element = document.createElement("tr");
   element.className = row.active ? "active" : "";
+  // The library's own words, English as they are.
   element.title = `${row.why}. ${row.source}`;
+  element.lang = "en";
   const name = textElement("th", effectWords(row));
   name.scope = "row";
-  element.append(
-    name,
-    textElement("td", magnitudeWords(row)),
-    textElement("td", stateWords(row)),
-    textElement("td", costWords(row.cost)),
-  );
+  const cells = [magnitudeWords(row), stateWords(row), costWords(row.cost)];
+  element.append(name, ...cells.map((words) => textElement("td", words)));
+  for (const cell of Array.from(element.cells)) cell.lang = i18n.locale;
   return element;
 }

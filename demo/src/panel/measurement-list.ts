@@ -8,7 +8,11 @@ import {
   wordsOf,
 } from "@groma/layer/tools";
 import { i18n } from "../language/i18n.js";
+import { libraryWords } from "../language/library-words.js";
+import { fixed, several } from "../language/numbers.js";
 import { byId, optionElement, setText, textElement } from "./elements.js";
+import { shortlyOf } from "./fault-words.js";
+import { titleOf } from "./measure-words.js";
 
 /** What a volume can be measured against, by what the reader chooses. */
 const BASES = new Map<string, string>([
@@ -145,13 +149,18 @@ export class MeasurementList {
       if (note) told.title = note;
       facts.append(textElement("dt", title), told);
     };
-    if (reading?.state === "reading") fact(i18n.t("reading points"), `${Math.floor(100 * reading.share)} %`);
-    if (reading?.state === "failed") fact(i18n.t("no value"), messageOf(reading.thrown));
+    if (reading?.state === "reading")
+      fact(
+        i18n.t("reading points"),
+        i18n.number(Math.floor(100 * reading.share) / 100, { style: "percent" }),
+      );
+    if (reading?.state === "failed") fact(i18n.t("no value"), shortlyOf(reading.thrown));
     try {
-      for (const one of this.#tool.valuesOf(measurement)) fact(one.title, this.#words(one), unknownOf(one));
+      for (const one of this.#tool.valuesOf(measurement))
+        fact(titleOf(one), this.#words(one), unknownOf(one));
       if (kind === "point") for (const [title, text] of placesOf(vertices[0])) fact(title, text);
     } catch (thrown) {
-      fact(i18n.t("no value"), messageOf(thrown));
+      fact(i18n.t("no value"), shortlyOf(thrown));
     }
   }
 
@@ -194,7 +203,8 @@ export class MeasurementList {
         if (offered.has(value)) continue;
         const namesakes = [...offered.values()].some(({ name }) => name === scan.name);
         offered.set(value, scan);
-        const label = `the scan ${scan.name}${namesakes ? ` (${scan.identity})` : ""}`;
+        const called = namesakes ? `${scan.name} (${scan.identity})` : scan.name;
+        const label = i18n.t("the scan {name}", { name: called });
         base.append(optionElement({ value, label }));
       }
     };
@@ -237,19 +247,20 @@ function placesOf(vertex: Vertex | undefined): [title: string, text: string][] {
   const decimals = (step: number) => Math.min(9, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)));
   return [
     ...(source && cloud
-      ? [[cloud.crs.name, source.map((one, i) => one.toFixed(decimals(cloud.scale[i] ?? 1))).join(", ")]]
+      ? [[cloud.crs.name, several(source.map((one, i) => fixed(one, decimals(cloud.scale[i] ?? 1))))]]
       : []),
-    ["ECEF", ecef.map((one) => one.toFixed(4)).join(", ")],
-    ["record", record ? `${record.index} of node ${record.node}` : "none: a place"],
+    ["ECEF", several(ecef.map((one) => fixed(one, 4)))],
+    [
+      i18n.t("record"),
+      record
+        ? i18n.t("{index} of node {node}", { index: record.index, node: record.node })
+        : i18n.t("none: a place"),
+    ],
   ] as [string, string][];
 }
 
 /** What of a value nobody knows. */
 function unknownOf({ quantity: { parts } }: NamedValue): string {
-  const unknown = parts.flatMap(({ name, standard }) => (standard === null ? name : []));
-  return unknown.length > 0 ? `unknown: ${unknown.join(", ")}` : "";
-}
-
-function messageOf(thrown: unknown): string {
-  return thrown instanceof Error ? thrown.message : "";
+  const unknown = parts.flatMap(({ name, standard }) => (standard === null ? libraryWords(name) : []));
+  return unknown.length > 0 ? i18n.t("unknown: {parts}", { parts: unknown.join(", ") }) : "";
 }

@@ -4,7 +4,6 @@ import {
   MeasureControl,
   type Measurement,
   MeasureTool,
-  MeasureUnits,
   type MeasureUnitsOptions,
   measurementsToGeoJson,
   readMeasurements,
@@ -15,31 +14,35 @@ import type { Viewer } from "cesium";
 import { i18n } from "../language/i18n.js";
 import { Compared } from "./compared.js";
 import { byId, optionElement, setText } from "./elements.js";
+import { MEASURE_WORDS, unitsOf } from "./measure-words.js";
 import { MeasurementList } from "./measurement-list.js";
 
 /** Units that go together, by what the reader chooses. */
 const SYSTEMS = new Map<string, MeasureUnitsOptions>([
-  ["metres", {}],
-  ["kilometres, hectares", { length: "kilometres", area: "hectares" }],
-  ["feet", { length: "feet", area: "squareFeet", volume: "cubicFeet" }],
-  ["feet, acres, cubic yards", { length: "feet", area: "acres", volume: "cubicYards" }],
-  ["US survey feet", { length: "usSurveyFeet", area: "squareUsSurveyFeet", volume: "cubicUsSurveyFeet" }],
-  ["yards", { length: "yards", area: "squareYards", volume: "cubicYards" }],
-  ["miles", { length: "miles", area: "squareMiles", volume: "acreFeet" }],
-  ["nautical miles", { length: "nauticalMiles" }],
+  [i18n.t("metres"), {}],
+  [i18n.t("kilometres, hectares"), { length: "kilometres", area: "hectares" }],
+  [i18n.t("feet"), { length: "feet", area: "squareFeet", volume: "cubicFeet" }],
+  [i18n.t("feet, acres, cubic yards"), { length: "feet", area: "acres", volume: "cubicYards" }],
+  [
+    i18n.t("US survey feet"),
+    { length: "usSurveyFeet", area: "squareUsSurveyFeet", volume: "cubicUsSurveyFeet" },
+  ],
+  [i18n.t("yards"), { length: "yards", area: "squareYards", volume: "cubicYards" }],
+  [i18n.t("miles"), { length: "miles", area: "squareMiles", volume: "acreFeet" }],
+  [i18n.t("nautical miles"), { length: "nauticalMiles" }],
 ]);
 
 const SLOPES = new Map<string, MeasureUnitsOptions>([
-  ["degrees", {}],
-  ["percent", { slope: "percent" }],
-  ["ratio, as 1 : 20", { slope: "ratio" }],
-  ["grade, rise over run", { slope: "grade" }],
+  [i18n.t("degrees"), {}],
+  [i18n.t("percent"), { slope: "percent" }],
+  [i18n.t("ratio, as 1 : 20"), { slope: "ratio" }],
+  [i18n.t("grade, rise over run"), { slope: "grade" }],
 ]);
 
 const ANGLES = new Map<string, MeasureUnitsOptions>([
-  ["degrees", {}],
-  ["degrees, minutes, seconds", { angle: "dms", coordinates: "dms" }],
-  ["gon", { angle: "gon" }],
+  [i18n.t("degrees"), {}],
+  [i18n.t("degrees, minutes, seconds"), { angle: "dms", coordinates: "dms" }],
+  [i18n.t("gon"), { angle: "gon" }],
 ]);
 
 /** Elements of the page that lie over globe and map. */
@@ -78,6 +81,8 @@ export class Measuring {
     this.#told = told;
     const layers = () => [layer()].flatMap((one) => one ?? []);
     this.tool = new MeasureTool(measureView(viewer.scene, layers), {
+      units: unitsOf([]),
+      words: MEASURE_WORDS,
       terrain: terrainOf(() => viewer.terrainProvider),
       onError: told,
       covering: () => COVERING.map((id) => byId(id, HTMLElement)),
@@ -111,7 +116,7 @@ export class Measuring {
     for (const [field] of fields) {
       field.addEventListener("change", () => {
         const chosen = fields.map(([one, values]) => values.get(one.value));
-        this.tool.units = new MeasureUnits(Object.assign({}, ...chosen));
+        this.tool.units = unitsOf(chosen);
       });
     }
     const precision = byId("measure-precision", HTMLInputElement);
@@ -147,7 +152,16 @@ export class Measuring {
     const clouds = [...(shown ? [shown] : []), ...this.#compared.clouds];
     const { measurements, notes } = readMeasurements(await file.text(), clouds, file.name);
     this.tool.add(measurements);
-    setText(this.#notes, [`${file.name}: ${measurements.length} read`, ...notes].join("; "));
+    setText(
+      this.#notes,
+      [
+        i18n.t("{name}: {count, plural, one {# measurement} other {# measurements}} read", {
+          name: file.name,
+          count: measurements.length,
+        }),
+        ...notes,
+      ].join("; "),
+    );
   }
 
   #show(): void {

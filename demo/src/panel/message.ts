@@ -1,6 +1,7 @@
 import { type Fault, GromaError } from "@groma/georef";
 import { i18n } from "../language/i18n.js";
 import { byId, textElement } from "./elements.js";
+import { sentenceFor } from "./fault-words.js";
 
 /** Something the reader can do about a fault besides what its text names. */
 export interface Action {
@@ -19,10 +20,17 @@ export class Message {
     buttons.className = "row";
     if (action) buttons.append(this.#button(action));
     buttons.append(this.#button({ label: i18n.t("Dismiss"), run: () => undefined }));
-    this.#place.replaceChildren(
-      textElement("p", code, "code"),
+    const detail = [
       isolated(file, ": ", sentence(cause)),
       textElement("p", sentence(fix.charAt(0).toUpperCase() + fix.slice(1)), "fix"),
+    ];
+    const told = sentenceFor(thrown);
+    // What stays English is read out as English.
+    if (told !== undefined) for (const element of detail) element.lang = "en";
+    this.#place.replaceChildren(
+      textElement("p", code, "code"),
+      ...(told === undefined ? [] : [textElement("p", told, "told")]),
+      ...detail,
       buttons,
     );
   }
@@ -53,9 +61,9 @@ function faultOf(thrown: unknown): Fault {
   if (thrown instanceof GromaError) return thrown;
   return {
     code: "PAGE_FAILED",
-    file: "the page",
+    file: i18n.t("the page"),
     cause: thrown instanceof Error ? thrown.message : String(thrown),
-    fix: "Reload the page",
+    fix: i18n.t("Reload the page"),
   };
 }
 

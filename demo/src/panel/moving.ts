@@ -1,13 +1,15 @@
 import { NAVIGATION_KEYS, type PointNavigation } from "@groma/layer/navigation";
+import { i18n } from "../language/i18n.js";
+import { libraryWords } from "../language/library-words.js";
 import { byId, textElement } from "./elements.js";
 
 /** What the mouse and fingers do, as the sheet tells it. */
 const POINTERS: readonly (readonly [string, string])[] = [
-  ["Drag, one finger", "move what is under the pointer; look around on foot"],
-  ["Right or Ctrl + drag, three fingers", "turn and tilt about it"],
-  ["Shift + drag", "look around"],
-  ["Wheel, two fingers", "nearer, farther"],
-  ["Double click, double tap", "fly there"],
+  [i18n.t("Drag, one finger"), i18n.t("move what is under the pointer; look around on foot")],
+  [i18n.t("Right or Ctrl + drag, three fingers"), i18n.t("turn and tilt about it")],
+  [i18n.t("Shift + drag"), i18n.t("look around")],
+  [i18n.t("Wheel, two fingers"), i18n.t("nearer, farther")],
+  [i18n.t("Double click, double tap"), i18n.t("fly there")],
 ];
 
 /** The buttons for moving about, and the sheet of keys, which `?` opens too. */
@@ -43,11 +45,13 @@ export class Moving {
   #open(): void {
     if (this.#sheet.open) return;
     const rows = byId("keys-rows", HTMLTableSectionElement);
-    const keys = NAVIGATION_KEYS.map(({ keys, mode, deed }) => {
-      return [keys.join(", "), mode === "walk" ? `${deed}, on foot` : deed] as const;
+    const keys = NAVIGATION_KEYS.map(({ keys, mode, deed: english }) => {
+      const deed = libraryWords(english);
+      const words = mode === "walk" ? i18n.t("{deed}, on foot", { deed }) : deed;
+      return [keys.map(libraryWords).join(", "), words] as const;
     });
     rows.replaceChildren(
-      ...[...POINTERS, ...keys, ["?", "this sheet"] as const].map(([what, deed]) => {
+      ...[...POINTERS, ...keys, ["?", i18n.t("this sheet")] as const].map(([what, deed]) => {
         const row = document.createElement("tr");
         const head = textElement("th", what);
         head.scope = "row";

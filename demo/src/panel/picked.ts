@@ -1,5 +1,6 @@
 import { ecefToGeodetic } from "@groma/georef";
 import { i18n } from "../language/i18n.js";
+import { fixed, several } from "../language/numbers.js";
 import type { Hit } from "../scene/picking.js";
 import { attributeLabel } from "./attribute-words.js";
 import { byId, textElement } from "./elements.js";
@@ -19,8 +20,8 @@ export class Picked {
     ecefToGeodetic(position.x, position.y, position.z, geodetic);
     this.#facts.replaceChildren(
       ...row("x, y, z", coordinateWords(source, cloud.scale)),
-      ...row(i18n.t("longitude, latitude"), `${degreeWords(geodetic[0]!)}, ${degreeWords(geodetic[1]!)}`),
-      ...row(i18n.t("above the ellipsoid"), `${geodetic[2]!.toFixed(3)} m`),
+      ...row(i18n.t("longitude, latitude"), several([degreeWords(geodetic[0]!), degreeWords(geodetic[1]!)])),
+      ...row(i18n.t("above the ellipsoid"), `${fixed(geodetic[2]!, 3)} m`),
       ...Object.entries(attributes).flatMap(([name, value]) =>
         row(attributeLabel(info.get(name) ?? { name }), valueWords(value)),
       ),

@@ -1,8 +1,9 @@
 import type { RecordValue } from "@groma/layer/cesium";
+import { fixed, several } from "../language/numbers.js";
 
 /** Source coordinates with as many digits as their integers hold, whatever the float64 would print. */
 export function coordinateWords(source: readonly number[], scale: readonly number[]): string {
-  return source.map((value, axis) => value.toFixed(digitsOf(scale[axis]!))).join(", ");
+  return several(source.map((value, axis) => fixed(value, digitsOf(scale[axis]!))));
 }
 
 /** Decimal digits that a step of the integer grid needs. */
@@ -16,7 +17,7 @@ function digitsOf(step: number): number {
 
 /** An angle in degrees to about a millimetre on the ground. @param radians the angle */
 export function degreeWords(radians: number): string {
-  return `${((radians * 180) / Math.PI).toFixed(8)}°`;
+  return `${fixed((radians * 180) / Math.PI, 8)}°`;
 }
 
 /** A recorded value as it is. */

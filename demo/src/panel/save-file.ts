@@ -1,4 +1,5 @@
 import { type ByteSink, MemorySink } from "@groma/layer/export";
+import { i18n } from "../language/i18n.js";
 import { PageError } from "./page-error.js";
 
 /** The part of the File System API that TypeScript's own types lack. */
@@ -64,17 +65,22 @@ export async function saveFile(name: string, fill: (sink: ByteSink) => Promise<u
 function unsaved(name: string, thrown: unknown): unknown {
   if (!(thrown instanceof DOMException)) return thrown;
   if (thrown.name === "QuotaExceededError") {
-    const cause = "there is no room left for it";
+    const cause = i18n.t("there is no room left for it");
     return new PageError({
       code: "PAGE_STORAGE",
       file: name,
       cause,
-      fix: "Free space, or take fewer points",
+      fix: i18n.t("Free space, or take fewer points"),
     });
   }
   if (["NotAllowedError", "NoModificationAllowedError", "InvalidStateError"].includes(thrown.name)) {
-    const cause = `the browser may not write it (${thrown.message})`;
-    return new PageError({ code: "PAGE_SAVE", file: name, cause, fix: "Choose another name or folder" });
+    const cause = i18n.t("the browser may not write it ({reason})", { reason: thrown.message });
+    return new PageError({
+      code: "PAGE_SAVE",
+      file: name,
+      cause,
+      fix: i18n.t("Choose another name or folder"),
+    });
   }
   return thrown;
 }

@@ -12,6 +12,7 @@ import { i18n } from "../language/i18n.js";
 import type { ClipBox } from "../scene/clip-box.js";
 import type { Picking } from "../scene/picking.js";
 import { byId, setText } from "./elements.js";
+import { shortlyOf } from "./fault-words.js";
 
 /** Of the fragment of the page's address. */
 const NAME = "#view=";
@@ -84,7 +85,7 @@ export class Share {
     try {
       page.hash = `view=${writePermalink({ camera, ...layerView(layer), selected: picking.selected })}`;
     } catch (thrown) {
-      setText(note, thrown instanceof Error ? thrown.message : String(thrown));
+      setText(note, shortlyOf(thrown));
       return;
     }
     history.replaceState(null, "", page);

@@ -1,6 +1,8 @@
 import { type Crs, EGM96, EGM96_ACCURACY, type OperationReport, type StatedAccuracy } from "@groma/georef";
 import type { PointCloud } from "@groma/layer/cesium";
 import { i18n } from "../language/i18n.js";
+import { libraryWords } from "../language/library-words.js";
+import { noteWords } from "../language/note-words.js";
 
 /** A fact and, where there is one, a remark to it. */
 export interface Words {
@@ -48,14 +50,17 @@ export function heightWords(
 ): Words {
   const unit = verticalUnit.declared
     ? []
-    : [i18n.t("unit not declared, taken as {unit}", { unit: verticalUnit.name })];
+    : [i18n.t("unit not declared, taken as {unit}", { unit: libraryWords(verticalUnit.name) })];
   if (height.kind === "ellipsoidal") {
     const own = height.ellipsoid === "own" ? [i18n.t("that of the system's own datum")] : [];
     return noted(i18n.t("above the ellipsoid"), [...own, ...(height.doubt ? [height.doubt] : []), ...unit]);
   }
   if (height.kind === "unknown") {
     const said = remark?.replace(/^(reference )?unknown[:,] /, "");
-    return noted(i18n.t("unknown"), [said ?? i18n.t("drawn as ellipsoidal"), ...unit]);
+    return noted(i18n.t("unknown"), [
+      said === undefined ? i18n.t("drawn as ellipsoidal") : noteWords(said).text,
+      ...unit,
+    ]);
   }
   const code = height.epsg === undefined ? "" : ` (EPSG:${height.epsg})`;
   const model = `${height.model.replace(/ height$/i, "")}${code}`;
@@ -135,22 +140,7 @@ export function accuracyWords({ total, parts }: StatedAccuracy): Words {
     text: i18n.t("not known"),
     note: i18n.t("{length} without {parts}", {
       length: lengthWords(known),
-      parts: new Intl.ListFormat(i18n.locale, { type: "conjunction" }).format(missing.map(partWords)),
+      parts: new Intl.ListFormat(i18n.locale, { type: "conjunction" }).format(missing.map(libraryWords)),
     }),
   };
-}
-
-/** What parts of an accuracy are called; one that is not among them keeps its name. */
-const PARTS: ReadonlyMap<string, string> = new Map([
-  ["quantisation", i18n.t("quantisation")],
-  ["fit", i18n.t("fit")],
-  ["datum operation", i18n.t("datum operation")],
-  ["height", i18n.t("height")],
-  ["anchor", i18n.t("anchor")],
-  ["control points", i18n.t("control points")],
-]);
-
-/** A part of an accuracy by its name. */
-export function partWords(name: string): string {
-  return PARTS.get(name) ?? name;
 }

@@ -1,4 +1,4 @@
-import { samePlane } from "@groma/georef";
+import { type Crs, samePlane } from "@groma/georef";
 import { PointCloud } from "@groma/layer/cesium";
 import {
   areaBetween,
@@ -8,6 +8,8 @@ import {
   type TerrainStation,
 } from "@groma/layer/tools";
 import { i18n } from "../language/i18n.js";
+import { libraryWords } from "../language/library-words.js";
+import { fixed } from "../language/numbers.js";
 import { byId, setText } from "../panel/elements.js";
 
 /** A second cloud along the same line, another survey of the place say: its points, and the areas between both grounds. */
@@ -79,11 +81,15 @@ export class Comparison {
     if (!this.#cloud || second.length === 0) return;
     const { above, below, length } = areaBetween(first, second);
     const { name, crs: other } = this.#cloud;
-    const mean = length > 0 ? `, ${((above - below) / length).toFixed(3)} m in the mean` : "";
-    const areas = `${above.toFixed(2)} m² above the first ground, ${below.toFixed(2)} m² below it, over ${length.toFixed(1)} m${mean}`;
-    const [a, b] = [crs, other].map(({ height }) => (height.kind === "geoid" ? height.model : height.kind));
-    const heights = a === b && a !== "unknown" ? "" : `; heights: ${a} against ${b}`;
-    setText(this.#words, `${name}: ${areas}${heights}`);
+    const areas = i18n.t("{name}: {above} m² above the first ground, {below} m² below it, over {length} m", {
+      name,
+      above: fixed(above, 2),
+      below: fixed(below, 2),
+      length: fixed(length, 1),
+    });
+    const mean =
+      length > 0 ? [i18n.t("{metres} m in the mean", { metres: fixed((above - below) / length, 3) })] : [];
+    setText(this.#words, [[areas, ...mean].join(", "), ...referencesOf(crs, other)].join("; "));
   }
 
   async #open(file: File): Promise<void> {
@@ -93,4 +99,16 @@ export class Comparison {
     this.#end.hidden = false;
     this.#changed();
   }
+}
+
+/** What the heights of two clouds are measured from, where that is not the same. */
+function referencesOf(...systems: Pick<Crs, "height">[]): string[] {
+  const [first, second] = systems.map(({ height }) => (height.kind === "geoid" ? height.model : height.kind));
+  if (first === undefined || second === undefined || (first === second && first !== "unknown")) return [];
+  return [
+    i18n.t("heights: {first} against {second}", {
+      first: libraryWords(first),
+      second: libraryWords(second),
+    }),
+  ];
 }

@@ -7,6 +7,8 @@ import {
   sightRise,
   type TerrainStation,
 } from "@groma/layer/tools";
+import { i18n } from "../language/i18n.js";
+import { fixed } from "../language/numbers.js";
 
 /** Metres from which it is told that sights are bent; a millimetre is what places of points are certified to. */
 export const TOLERANCE = 0.001;
@@ -27,27 +29,48 @@ export function sightIn(places: readonly PlotPlace[]): readonly PlotPlace[] {
 
 /**
  * Length, rise and slope between two places; then what a level sight between them rises, where it matters, how the sight clears the ground,
- * and the areas between the ground and the height of the first.
+ * and the areas between the ground and the height of the first. One sentence each; none without two places.
  */
-export function measuredWords([a, b]: readonly PlotPlace[], ground: readonly TerrainStation[]): string {
-  if (!a || !b) return "";
+export function measuredWords([a, b]: readonly PlotPlace[], ground: readonly TerrainStation[]): string[] {
+  if (!a || !b) return [];
+  return [distanceWords(a, b), ...sightWords(a, b, ground), ...areaWords(a, b, ground)];
+}
+
+function distanceWords(a: PlotPlace, b: PlotPlace): string {
   const { along, up, slant, grade, angle } = distanceInPlot(a, b);
-  const slope = Number.isFinite(grade) ? `${(100 * grade).toFixed(2)} %, ` : "";
-  const parts = [
-    `along ${along.toFixed(3)} m, up ${up.toFixed(3)} m, slant ${slant.toFixed(3)} m, ${slope}${((180 * angle) / Math.PI).toFixed(2)}°`,
-  ];
-  const rise = sightRise(along);
-  if (rise >= TOLERANCE) parts.push(`a level sight rises ${rise.toFixed(3)} m (curvature and refraction)`);
+  const lengths = i18n.t("along {along} m, up {up} m, slant {slant} m", {
+    along: fixed(along, 3),
+    up: fixed(up, 3),
+    slant: fixed(slant, 3),
+  });
+  const percent = Number.isFinite(grade) ? [`${fixed(100 * grade, 2)} %`] : [];
+  return [lengths, ...percent, `${fixed((180 * angle) / Math.PI, 2)}°`].join(", ");
+}
+
+function sightWords(a: PlotPlace, b: PlotPlace, ground: readonly TerrainStation[]): string[] {
+  const rise = sightRise(b[0] - a[0]);
+  const rises =
+    rise >= TOLERANCE
+      ? [i18n.t("a level sight rises {rise} m (curvature and refraction)", { rise: fixed(rise, 3) })]
+      : [];
   const least = sightClearance(ground, a, b);
-  if (least) {
-    const clears = least.clearance < 0 ? "stands in the sight by" : "lies below the sight by at least";
-    parts.push(
-      `the ground ${clears} ${Math.abs(least.clearance).toFixed(2)} m at chainage ${least.chainage.toFixed(1)} m`,
-    );
-  }
+  if (!least) return rises;
+  const values = { metres: fixed(Math.abs(least.clearance), 2), chainage: fixed(least.chainage, 1) };
+  return [
+    ...rises,
+    least.clearance < 0
+      ? i18n.t("the ground stands in the sight by {metres} m at chainage {chainage} m", values)
+      : i18n.t("the ground lies below the sight by at least {metres} m at chainage {chainage} m", values),
+  ];
+}
+
+function areaWords(a: PlotPlace, b: PlotPlace, ground: readonly TerrainStation[]): string[] {
   const { above, below, length } = areaToDatum(ground, a[1], a[0], b[0]);
-  if (length > 0) {
-    parts.push(`ground above the first place ${above.toFixed(2)} m², below ${below.toFixed(2)} m²`);
-  }
-  return parts.join("; ");
+  if (!(length > 0)) return [];
+  return [
+    i18n.t("ground above the first place {above} m², below {below} m²", {
+      above: fixed(above, 2),
+      below: fixed(below, 2),
+    }),
+  ];
 }

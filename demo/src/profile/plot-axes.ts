@@ -54,7 +54,7 @@ export function drawAxes(root: SVGSVGElement, view: PlotView, overlay: PlotOverl
   words(overlay.along, width, height + 32, "end");
   words(overlay.up, -height / 2, -52, "middle").attr("transform", "rotate(-90)");
   const inner = plot.append("svg").attr("width", width).attr("height", height);
-  drawGround(inner.node()!, view, overlay.secondGround, "ground second");
+  drawGround(inner.node()!, view, overlay.secondGround, "second-ground");
   drawGround(inner.node()!, view, overlay.ground, "ground");
   const pixels = overlay.measured.map(([along, up]) => view.pixelOf(along, up));
   const sight = sightIn(overlay.measured).map(([along, up]) => view.pixelOf(along, up));

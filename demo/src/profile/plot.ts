@@ -10,6 +10,7 @@ import {
   type TerrainStation,
 } from "@groma/layer/tools";
 import { i18n } from "../language/i18n.js";
+import { significant } from "../language/numbers.js";
 import { drawAxes } from "./plot-axes.js";
 import { watchPlot } from "./plot-input.js";
 
@@ -217,7 +218,7 @@ export class ProfilePlot {
     this.#measure();
     if (!this.#picture.draw(this.view)) this.#ask();
     drawAxes(this.#axes, this.view, {
-      along: `${this.#words.along}, ${i18n.t("heights")} × ${this.view.exaggeration.toPrecision(3)}`,
+      along: `${this.#words.along}, ${i18n.t("heights")} × ${significant(this.view.exaggeration, 3)}`,
       ...{ up: this.#words.up, ground: this.#ground, secondGround: this.#secondGround },
       crosshair: this.#crosshair,
       ...{ measured: this.#measured, measuredWords: this.#measuredWords },

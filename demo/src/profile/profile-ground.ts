@@ -6,6 +6,7 @@ import {
   type TerrainStation,
   type TerrainStatistic,
 } from "@groma/layer/tools";
+import { i18n } from "../language/i18n.js";
 
 /** How the ground of a profile is found. */
 export interface GroundChoice {
@@ -59,4 +60,16 @@ export async function groundOf(
     await pace.rest();
   }
   return stations;
+}
+
+const STATISTICS: ReadonlyMap<TerrainStatistic, string> = new Map<TerrainStatistic, string>([
+  ["min", i18n.t("least")],
+  ["mean", i18n.t("mean")],
+  ["max", i18n.t("greatest")],
+  [50, i18n.t("median")],
+]);
+
+/** What of the points of a station is its ground. */
+export function statisticWords(statistic: TerrainStatistic): string {
+  return STATISTICS.get(statistic) ?? i18n.t("percentile {number}", { number: String(statistic) });
 }

@@ -9,6 +9,8 @@ import {
   type ViewAdapter,
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
+import { i18n } from "../language/i18n.js";
+import { MEASURE_WORDS, unitsOf } from "../panel/measure-words.js";
 import { PageError } from "../panel/page-error.js";
 import { readLines } from "./line-file.js";
 
@@ -49,7 +51,11 @@ export class ProfileLines {
     this.#changed = changed;
     this.#failed = failed;
     const layers = () => [layer()].flatMap((one) => one ?? []);
-    this.tool = new MeasureTool(measureView(scene, layers), { onError: failed });
+    this.tool = new MeasureTool(measureView(scene, layers), {
+      onError: failed,
+      units: unitsOf([]),
+      words: MEASURE_WORDS,
+    });
     this.tool.onChange(() => this.#follow());
   }
 
@@ -192,8 +198,8 @@ export class ProfileLines {
 
 function unkept({ message }: DOMException): PageError {
   return new PageError({
-    ...{ code: "PAGE_STORAGE", file: "profiles" },
-    cause: `the browser does not keep them for the next visit (${message})`,
-    fix: "Export those that are needed, and allow this site to store data or free some",
+    ...{ code: "PAGE_STORAGE", file: i18n.t("Profiles") },
+    cause: i18n.t("the browser does not keep them for the next visit ({reason})", { reason: message }),
+    fix: i18n.t("Export those that are needed, and allow this site to store data or free some"),
   });
 }

@@ -23,7 +23,7 @@ import { measuredWords, TOLERANCE } from "./measured-words.js";
 import { ProfilePlot, placeOf } from "./plot.js";
 import { PlotStyle } from "./plot-style.js";
 import { FORMATS, writeProfile } from "./profile-files.js";
-import { type GroundChoice, groundOf, intervalFor } from "./profile-ground.js";
+import { type GroundChoice, groundOf, intervalFor, statisticWords } from "./profile-ground.js";
 import { type DrawnLine, ProfileLines } from "./profile-lines.js";
 import { PlaceMark, StripOutline } from "./strip-outline.js";
 
@@ -259,16 +259,16 @@ export class ProfilePanel {
       this.#cut.show(profile);
       this.#tellState();
       const plot = this.#clearPicture(profile.from, profile.length);
-      setText(this.#status, `${told(profile, 0)}, reading…`);
+      const tell = (state: string) => setText(this.#status, `${told(profile, plot.count)}, ${state}`);
+      tell(i18n.t("reading…"));
       let complete = true;
       for await (const points of profile.points({ signal })) {
         plot.add(points);
-        setText(this.#status, `${told(profile, plot.count)}, ${i18n.t("reading…")}`);
+        tell(i18n.t("reading…"));
         complete = plot.count < MOST_SHOWN;
         if (!complete) break;
       }
-      const whole = complete ? i18n.t("complete") : i18n.t("the coarser levels; the export has all points");
-      setText(this.#status, `${told(profile, plot.count)}, ${whole}`);
+      tell(complete ? i18n.t("complete") : i18n.t("the coarser levels; the export has all points"));
       await this.#comparison.read(
         cut,
         (points, cloud) => plot.addSecond(points, cloud, this.#style.ofSecond(layer)),
@@ -313,8 +313,7 @@ export class ProfilePanel {
   #showTable(statistic: TerrainStatistic): void {
     this.#table.hidden = !this.#tableShown.checked;
     if (this.#table.hidden) return;
-    const which =
-      typeof statistic === "number" ? i18n.t("percentile {number}", { number: statistic }) : statistic;
+    const which = statisticWords(statistic);
     this.#table.replaceChildren(
       groundTable(this.#ground, i18n.t("Ground, {which} of each station, metres", { which })),
     );
@@ -361,8 +360,8 @@ export class ProfilePanel {
     if (this.#measure.getAttribute("aria-pressed") === "true") {
       this.#measured = this.#measured.length === 1 ? [...this.#measured, place] : [place];
       const words = measuredWords(this.#measured, this.#ground);
-      this.#plot?.measured(this.#measured, words.split("; ")[0]!);
-      if (words !== "") setText(this.#readout, words);
+      this.#plot?.measured(this.#measured, words[0] ?? "");
+      if (words.length > 0) setText(this.#readout, words.join("; "));
     } else if (point) {
       const { batch } = point.points;
       this.#events.picked(profile.origin as PointCloud, batch.node, batch.inside[point.index]!);

@@ -1,0 +1,27 @@
+import { afterEach, describe, expect, it } from "vitest";
+import { messages as german } from "./catalogues/de.po";
+import { i18n } from "./i18n.js";
+import { noteWords } from "./note-words.js";
+
+afterEach(() => i18n.activate("en"));
+
+describe("remarks of the libraries", () => {
+  it.each([
+    ["half a step of the stored integers", "halber Schritt der gespeicherten ganzen Zahlen"],
+    ["EGM96 height: drawn without its geoid", "EGM96 height: ohne sein Geoid gezeichnet"],
+    ["greatest of 12 residuals, their RMS is 0.034 m", "größter von 12 Restfehlern, ihr RMS ist 0,034 m"],
+    [
+      "shown as ellipsoidal; if the heights are above sea level, such as LN02 height (EPSG:5728), the points should be 47.3 m higher",
+      "als ellipsoidisch gezeigt; falls die Höhen über dem Meer gelten, gehören die Punkte 47,3 m höher (etwa LN02 height (EPSG:5728))",
+    ],
+  ])("%s", (english, other) => {
+    expect(noteWords(english)).toEqual({ text: english, translated: true });
+    i18n.loadAndActivate({ locale: "de", messages: german });
+    expect(noteWords(english)).toEqual({ text: other, translated: true });
+  });
+
+  it("stay English where the page does not know them, and say so", () => {
+    i18n.loadAndActivate({ locale: "de", messages: german });
+    expect(noteWords("Some operation (3)")).toEqual({ text: "Some operation (3)", translated: false });
+  });
+});
