@@ -30,12 +30,14 @@ export function freeArea(): ScreenRectangle {
   const panel = byId("panel", HTMLElement).getBoundingClientRect();
   // A map may take a part of the window.
   const { clientWidth: width, clientHeight: height } = byId("globe", HTMLElement);
-  const beside = panel.right < 0.6 * width;
+  // It stands where lines begin, on the right where they run from right to left.
+  const atLeft = panel.left + panel.right < innerWidth;
+  const beside = atLeft ? panel.right < 0.6 * width : panel.left > 0.4 * width;
   const below = !beside && panel.bottom < height / 2;
   return {
-    left: MARGIN + (beside ? panel.right : 0),
+    left: MARGIN + (beside && atLeft ? panel.right : 0),
     top: MARGIN + (below ? panel.bottom : 0),
-    right: width - MARGIN,
+    right: (beside && !atLeft ? Math.min(panel.left, width) : width) - MARGIN,
     bottom: height - 2 * MARGIN,
   };
 }
