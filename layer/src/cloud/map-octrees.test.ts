@@ -92,6 +92,19 @@ describe("a data set on maps", () => {
     expect(specs.map(({ tolerance }) => tolerance)).toEqual([0.001, 0.001, 2e-4]);
   });
 
+  it("has one octree for all maps that ask for no more than its own tolerance, and finer ones for others", async () => {
+    const { cloud } = await open();
+    const coarse = await cloud.maps.acquire(MERCATOR);
+    expect(await cloud.maps.acquire({ ...MERCATOR, tolerance: 0.03 })).toBe(coarse);
+    const fine = await cloud.maps.acquire({ ...MERCATOR, tolerance: 2e-4 });
+    expect(fine).not.toBe(coarse);
+    cloud.maps.release(coarse);
+    cloud.maps.release(coarse);
+    expect(await cloud.maps.acquire({ ...MERCATOR, tolerance: 2e-4 })).toBe(fine);
+    expect(await cloud.maps.acquire(MERCATOR)).not.toBe(coarse);
+    cloud.destroy();
+  });
+
   it("refuses a projection that is none, and goes on with others", async () => {
     const { cloud } = await open();
     await expect(cloud.maps.acquire(POLE)).rejects.toThrow(/CRS_UNSUPPORTED: pole/);

@@ -61,12 +61,15 @@ export class MapOctrees {
   }
 
   /**
-   * The octree in the plane of a projection, whose first page has been read; to be given back with {@link release}.
+   * The octree in the plane of a projection, placed to its tolerance or the data set's own, whichever is less; its first page
+   * has been read. To be given back with {@link release}.
    * @throws CrsError CRS_UNSUPPORTED where proj4js does not know the projection
    * @throws PlacementError PLACE_MAP where the points have no place in it
    * @throws SourceError, FormatError
    */
-  async acquire(projection: MapProjection): Promise<PlacedOctree> {
+  async acquire(asked: MapProjection): Promise<PlacedOctree> {
+    const tolerance = Math.min(this.#map.spec.tolerance, asked.tolerance);
+    const projection = { ...asked, tolerance };
     const key = keyOf(projection);
     let entry = this.#entries.get(key);
     if (!entry) {
@@ -127,7 +130,7 @@ export class MapOctrees {
     const { cube, spacing } = source;
     const geometry = new NodeGeometry({ cube, spacing, boundingBox }, onMap, crs);
     if (!geometry.bounds(ROOT_KEY)) throw noPlace(source.name, plane.code);
-    const tolerance = Math.min(spec.tolerance, projection.tolerance);
+    const { tolerance } = projection;
     const octree = new PlacedOctree(this.#parts, {
       ...{ geometry, made, appearance, onGlobe, spec: { ...spec, plane, tolerance } },
     });

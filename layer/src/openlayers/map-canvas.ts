@@ -1,4 +1,5 @@
 import { contextOf } from "../webgl2/context.js";
+import { clear } from "../webgl2/point-passes.js";
 
 /** The element that a layer puts into a map: a canvas with a WebGL 2 context of its own. */
 export class MapCanvas {
@@ -35,6 +36,17 @@ export class MapCanvas {
     style.width = `${size[0]}px`;
     style.height = `${size[1]}px`;
     style.opacity = opacity === 1 ? "" : String(opacity);
+  }
+
+  /** Leaves nothing on it. */
+  wipe(): void {
+    const { gl } = this;
+    if (gl)
+      clear(
+        gl,
+        { framebuffer: undefined, viewport: [0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight] },
+        true,
+      );
   }
 
   destroy(): void {

@@ -14,26 +14,34 @@ import type { FrameState } from "ol/Map.js";
 import type Projection from "ol/proj/Projection.js";
 import OlLayerRenderer from "ol/renderer/Layer.js";
 import { apply } from "ol/transform.js";
-import type { PointCloud, PointRecord } from "../cloud/index.js";
+import type { PointRecord } from "../cloud/index.js";
 import type { DrawnNode } from "../drawing/drawn-node.js";
+import type { FrameReport } from "../drawing/frame.js";
 import { FrameFailures } from "../drawing/frame-failures.js";
 import type { GlView } from "../webgl2/node-drawable.js";
 import type { Corners } from "./extent-mask.js";
 import type { LayerDrawing } from "./layer-drawing.js";
 import { MapCanvas } from "./map-canvas.js";
-import { PlacedFrames } from "./placed-frames.js";
+import { MapPlacing } from "./map-placing.js";
+import type { PlacedFrames } from "./placed-frames.js";
 import type { PointCloudSource } from "./point-cloud-source.js";
-import { projectionOfMap } from "./projections.js";
 
 /** Milliseconds after which a frame is drawn again while nodes are on their way. */
 const PATIENCE = 50;
 
 /** A point that was found on the map. */
 interface Found {
+  readonly placed: PlacedFrames;
   readonly drawn: DrawnNode<GlView>;
   readonly index: number;
   /** Where it is drawn, in the world in which it was found, units of the projection. */
   readonly coordinate: readonly [number, number];
+}
+
+/** A frame that did not show all. */
+interface Unfinished {
+  readonly report: FrameReport | "unfinished";
+  readonly placed: PlacedFrames;
 }
 
 /** A layer of points, as OpenLayers knows it. */
@@ -45,14 +53,11 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
   readonly #raise: (error: Error) => void;
   readonly #canvas: MapCanvas;
   readonly #failures = new FrameFailures();
-  #placed: PlacedFrames | undefined;
-  /** The projection that the points are placed in, or are being placed in. */
-  #projection: Projection | undefined;
-  /** Grows whenever what is placed or wanted is another: answers that come late are told by it. */
-  #turn = 0;
-  #cloud: PointCloud | undefined;
+  readonly #placing: MapPlacing;
   /** What the canvas shows; undefined: it has to be drawn. */
   #shown: string | undefined;
+  /** Whether there may be something on the canvas. */
+  #lit = false;
   #frameState: FrameState | undefined;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #destroyed = false;
@@ -66,20 +71,21 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
       lost: () => this.#release(),
       restored: () => this.#changed(),
     });
+    this.#placing = new MapPlacing(layer, {
+      changed: () => this.#changed(),
+      failed: (error) => this.#tell(error),
+    });
   }
 
   /** The frames that are drawn now, for statistics. */
   get placed(): PlacedFrames | undefined {
-    return this.#placed;
+    return this.#placing.shown;
   }
 
   override prepareFrame(): boolean {
     const cloud = this.getLayer().getSource()?.cloud;
     // What is left of another data set is not to be seen in its place.
-    if (this.#cloud && cloud !== this.#cloud) {
-      this.#release();
-      this.#cloud = undefined;
-    }
+    if (this.#placing.cloud && cloud !== this.#placing.cloud) this.#release();
     return cloud !== undefined;
   }
 
@@ -98,7 +104,7 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
 
   /** Nothing of the layer is in the map's frames for now. */
   rest(): void {
-    this.#placed?.rest(false);
+    this.#placing.rest();
     this.#shown = undefined;
     this.ready = true;
     clearTimeout(this.#timer);
@@ -124,7 +130,7 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
 
   override async getFeatures(pixel: number[]): Promise<Feature[]> {
     const found = this.#find(pixel, 1);
-    if (!found || !this.#placed) return [];
+    if (!found) return [];
     const feature = featureOf(found);
     const record = await this.#read(found);
     feature.setProperties({ ...record.attributes, record }, true);
@@ -133,15 +139,15 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
 
   /** The colour of the map's picture at a place: RGBA, 0 to 255; null where the layer shows nothing. */
   override getData(pixel: number[]): Uint8ClampedArray | null {
-    const colour = this.#placed?.renderer.colourAt({ x: pixel[0], y: pixel[1] });
+    const colour = this.placed?.renderer.colourAt({ x: pixel[0], y: pixel[1] });
     return colour && colour[3] > 0 ? new Uint8ClampedArray(colour) : null;
   }
 
   /** The point that the map shows nearest to a place, as it is recorded. @param window CSS pixels */
   async pick(pixel: number[], window: number, signal?: AbortSignal) {
     const found = this.#find(pixel, window);
-    const cloud = this.#cloud;
-    if (!found || !cloud) return undefined;
+    if (!found) return undefined;
+    const { cloud } = found.placed;
     const record = await this.#read(found, signal);
     return { ...record, cloud, coordinate: found.coordinate };
   }
@@ -160,30 +166,38 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     if (!cloud || !gl) return;
     this.#drawing.follow(cloud);
     const { settings } = this.#drawing;
-    if (viewState.projection !== this.#projection || cloud !== this.#cloud)
-      this.#place(cloud, frameState, gl);
-    const placed = this.#placed;
+    const placing = this.#placing;
+    const { projection } = viewState;
+    const finest = this.getLayer().getMapInternal()?.getView().getMinResolution() ?? viewState.resolution;
+    placing.want({ cloud, projection, finest }, gl);
+    if (!settings) return;
+    const view = { view: viewState, size, pixelRatio, worldWidth: worldWidthOf(projection) };
+    const coming = placing.advance(settings, view);
+    this.ready = !placing.pending;
+    if (coming) this.#goOn(frameState, coming);
+    const placed = placing.shown;
+    if (!placed && !placing.pending) this.#wipe();
     // What was drawn for another projection stays until the points are placed in this one.
-    if (!placed || !settings || placed.octree.plane?.code !== viewState.projection.getCode()) return;
+    if (placed?.projection !== projection) return;
     const key = this.#keyOf(frameState);
     if (this.#shown === key) return;
-    const worldWidth = worldWidthOf(viewState.projection);
-    const view = { view: viewState, size, pixelRatio, worldWidth };
     const report = placed.draw(settings, view, this.#cornersIn(frameState));
+    this.#lit = true;
     this.#tell(placed.frames.takeFailure());
     if (report === "blocked") {
       placed.rest(true);
-      this.ready = true;
       return;
     }
-    this.ready = report !== "unfinished" && report.done;
-    this.#shown = this.ready ? key : undefined;
+    const done = report !== "unfinished" && report.done;
+    this.#shown = done ? key : undefined;
+    this.ready &&= done;
     if (this.ready) this.#failures.clear();
-    else if (
-      report === "unfinished" ||
-      report.progress.pending === 0 ||
-      placed.renderer.content.undrawn > 0
-    ) {
+    if (!done) this.#goOn(frameState, { report, placed });
+  }
+
+  /** Has another frame drawn: the next one where there is something to do, else soon, while nodes are on their way. */
+  #goOn(frameState: FrameState, { report, placed }: Unfinished): void {
+    if (report === "unfinished" || report.progress.pending === 0 || placed.renderer.content.undrawn > 0) {
       frameState.animate = true;
     } else this.#wait();
   }
@@ -204,45 +218,6 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     return `${center} ${resolution} ${rotation} ${size} ${pixelRatio} ${revision} ${clips.revision} ${extentIn(frameState)}`;
   }
 
-  /** Has the points placed in the projection of the map. */
-  #place(cloud: PointCloud, { viewState }: FrameState, gl: WebGL2RenderingContext): void {
-    this.#projection = viewState.projection;
-    this.#cloud = cloud;
-    this.#turn++;
-    this.ready = false;
-    const map = this.getLayer().getMapInternal();
-    const finest = map?.getView().getMinResolution() ?? viewState.resolution;
-    const projection = projectionOfMap(viewState.projection, finest, cloud.name);
-    void this.#replace(cloud, projection, gl, this.#turn);
-  }
-
-  async #replace(
-    cloud: PointCloud,
-    projection: ReturnType<typeof projectionOfMap>,
-    gl: WebGL2RenderingContext,
-    turn: number,
-  ): Promise<void> {
-    try {
-      const octree = await cloud.maps.acquire(projection);
-      if (turn !== this.#turn || this.#destroyed) {
-        cloud.maps.release(octree);
-        return;
-      }
-      this.#placed?.destroy();
-      this.#placed = new PlacedFrames(cloud, octree, gl, this.getLayer(), {
-        changed: () => this.#changed(),
-        failed: (error) => this.#tell(error),
-      });
-    } catch (thrown) {
-      if (turn !== this.#turn) return;
-      this.#tell(thrown);
-      this.#placed?.destroy();
-      this.#placed = undefined;
-      this.ready = true;
-    }
-    this.#changed();
-  }
-
   #changed(): void {
     this.#shown = undefined;
     clearTimeout(this.#timer);
@@ -255,42 +230,52 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
   }
 
   #tell(thrown: unknown): void {
-    const error = this.#failures.note(thrown, this.#cloud?.name ?? "map");
+    const error = this.#failures.note(thrown, this.#placing.cloud?.name ?? "map");
     if (error) this.#raise(error);
   }
 
   #release(): void {
-    this.#turn++;
-    this.#projection = undefined;
-    this.#placed?.destroy();
-    this.#placed = undefined;
+    this.#placing.clear();
+    this.#wipe();
     this.#shown = undefined;
     clearTimeout(this.#timer);
   }
 
+  #wipe(): void {
+    if (this.#lit) this.#canvas.wipe();
+    this.#lit = false;
+  }
+
   #find([x, y]: number[], window: number): Found | undefined {
-    const [width, height] = this.#frameState?.size ?? [0, 0];
-    if (x < 0 || y < 0 || x >= width || y >= height) return undefined;
-    const point = this.#placed?.renderer.pick({ x, y }, window);
+    const { placed } = this;
     const frameState = this.#frameState;
-    if (!point || !frameState) return undefined;
-    const coordinate = this.#coordinateOf(point, apply(frameState.pixelToCoordinateTransform, [x, y]));
+    if (!placed || placed.projection !== frameState?.viewState.projection) return undefined;
+    const [width, height] = frameState.size;
+    if (x < 0 || y < 0 || x >= width || y >= height) return undefined;
+    const point = placed.renderer.pick({ x, y }, window);
+    if (!point) return undefined;
+    const near = apply(frameState.pixelToCoordinateTransform, [x, y]);
+    const found = { ...point, placed, coordinate: coordinateOf(point, placed, near) };
     const extent = extentIn(frameState);
-    return extent && !containsCoordinate(extent, coordinate) ? undefined : { ...point, coordinate };
+    return extent && !containsCoordinate(extent, found.coordinate) ? undefined : found;
   }
 
-  #read({ drawn, index }: Found, signal?: AbortSignal): Promise<PointRecord> {
-    return this.#placed!.cloud.readPoint(drawn.node, index, { signal });
+  #read({ placed, drawn, index }: Found, signal?: AbortSignal): Promise<PointRecord> {
+    return placed.cloud.readPoint(drawn.node, index, { signal });
   }
+}
 
-  /** Where a point is drawn, units of the projection. @param near a place in the world in which it was found */
-  #coordinateOf({ drawn, index }: Omit<Found, "coordinate">, near: readonly number[]): [number, number] {
-    const { positions, frame } = drawn.uploaded.vertices;
-    const { metresPerUnit = 1 } = this.#placed?.octree.plane ?? {};
-    const [x, y] = [0, 1].map((axis) => (frame.origin[axis] + positions[3 * index + axis]) / metresPerUnit);
-    const width = this.#projection && worldWidthOf(this.#projection);
-    return [width ? x + width * Math.round((near[0] - x) / width) : x, y];
-  }
+/** Where a point is drawn, units of the projection. @param near a place in the world in which it was found */
+function coordinateOf(
+  { drawn, index }: Pick<Found, "drawn" | "index">,
+  { octree, projection }: PlacedFrames,
+  near: readonly number[],
+): [number, number] {
+  const { positions, frame } = drawn.uploaded.vertices;
+  const { metresPerUnit = 1 } = octree.plane ?? {};
+  const [x, y] = [0, 1].map((axis) => (frame.origin[axis] + positions[3 * index + axis]) / metresPerUnit);
+  const width = worldWidthOf(projection);
+  return [width ? x + width * Math.round((near[0] - x) / width) : x, y];
 }
 
 function featureOf({ drawn: { node, uploaded }, index, coordinate }: Found): Feature {

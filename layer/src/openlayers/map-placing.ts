@@ -1,0 +1,160 @@
+import type Projection from "ol/proj/Projection.js";
+import type { PlacedOctree, PointCloud } from "../cloud/index.js";
+import type { LayerSettings } from "../drawing/frame.js";
+import type { MapFrame } from "./map-camera.js";
+import { PlacedFrames } from "./placed-frames.js";
+import { projectionOfMap } from "./projections.js";
+
+/** What a map wants points to be placed for. */
+export interface PlacingWish {
+  readonly cloud: PointCloud;
+  readonly projection: Projection;
+  /** Least resolution that the view allows, units of the projection per pixel. */
+  readonly finest: number;
+}
+
+/** Who wants to hear of it. */
+interface PlacingEvents {
+  /** Something has come, or is gone: a frame is to be drawn. */
+  changed(): void;
+  failed(error: unknown): void;
+}
+
+/**
+ * Where a layer's points are placed for its map: what is drawn, and what is to take its place, which is brought and uploaded
+ * behind it. So the picture stays when the map has another projection or comes closer than the points were placed for.
+ */
+export class MapPlacing {
+  readonly #owner: object;
+  readonly #events: PlacingEvents;
+  #asked: PlacingWish | undefined;
+  /** Whether the points asked for are still on their way to the picture. */
+  #pending = false;
+  /** Grows whenever what is asked for is another: answers that come late are told by it. */
+  #turn = 0;
+  #shown: PlacedFrames | undefined;
+  #next: PlacedFrames | undefined;
+
+  /** @param owner the layer, by which stream and budgets know it */
+  constructor(owner: object, events: PlacingEvents) {
+    this.#owner = owner;
+    this.#events = events;
+  }
+
+  /** The data set that was asked for last. */
+  get cloud(): PointCloud | undefined {
+    return this.#asked?.cloud;
+  }
+
+  /** What is drawn now. */
+  get shown(): PlacedFrames | undefined {
+    return this.#shown;
+  }
+
+  get pending(): boolean {
+    return this.#pending;
+  }
+
+  /**
+   * Has the points placed as a map wants them, unless they are, or are being placed.
+   * @throws CrsError CRS_PROJECTION, once, where the projection is not registered with proj4
+   */
+  want(wish: PlacingWish, gl: WebGL2RenderingContext): void {
+    const asked = this.#asked;
+    const { cloud, projection, finest } = wish;
+    if (asked?.cloud === cloud && asked.projection === projection && finest >= asked.finest) return;
+    this.#asked = wish;
+    this.#turn++;
+    this.#dropNext();
+    try {
+      const placing = cloud.maps.acquire(projectionOfMap(projection, finest, cloud.name));
+      this.#pending = true;
+      void this.#await(placing, wish, gl, this.#turn);
+    } catch (thrown) {
+      this.#failed(wish);
+      throw thrown;
+    }
+  }
+
+  /**
+   * Makes what comes next ready for a frame, and shows it from now on where it is: at once where nothing else may be drawn,
+   * with its first points where the picture is of another projection, else when all that the view wants is there.
+   * @returns what still keeps it; undefined where nothing is on its way
+   */
+  advance(settings: LayerSettings, frame: Omit<MapFrame, "metresPerUnit" | "bounds">) {
+    const next = this.#next;
+    if (!next) return undefined;
+    const report = next.prepare(settings, frame);
+    const whole = report === "blocked" || (report !== "unfinished" && report.done);
+    const begun = next.renderer.content.nodes.length > 0;
+    if (!whole && !(begun && next.projection !== this.#shown?.projection)) return { report, placed: next };
+    this.#shown?.destroy();
+    this.#show(next);
+    return undefined;
+  }
+
+  /** Nothing of it is drawn, or brought, for now. */
+  rest(): void {
+    this.#shown?.rest(false);
+    this.#next?.rest(false);
+  }
+
+  /** Gives up all of it. */
+  clear(): void {
+    this.#turn++;
+    this.#asked = undefined;
+    this.#pending = false;
+    this.#dropNext();
+    this.#shown?.destroy();
+    this.#shown = undefined;
+  }
+
+  async #await(
+    placing: Promise<PlacedOctree>,
+    wish: PlacingWish,
+    gl: WebGL2RenderingContext,
+    turn: number,
+  ): Promise<void> {
+    const { cloud, projection } = wish;
+    try {
+      const octree = await placing;
+      if (turn !== this.#turn) {
+        cloud.maps.release(octree);
+        return;
+      }
+      if (octree === this.#shown?.octree && projection === this.#shown.projection) {
+        // It is as exact as the closer view asks for.
+        cloud.maps.release(octree);
+        this.#pending = false;
+      } else {
+        const next = new PlacedFrames({ cloud, octree, projection }, gl, this.#owner, this.#events);
+        if (this.#shown) this.#next = next;
+        else this.#show(next);
+      }
+    } catch (thrown) {
+      if (turn !== this.#turn) return;
+      this.#failed(wish);
+      this.#events.failed(thrown);
+    }
+    this.#events.changed();
+  }
+
+  #show(placed: PlacedFrames): void {
+    this.#shown = placed;
+    this.#next = undefined;
+    this.#pending = false;
+  }
+
+  /** What was asked for cannot be had: what is drawn stays where it is of the same map. */
+  #failed({ projection }: PlacingWish): void {
+    this.#pending = false;
+    if (this.#shown?.projection === projection) return;
+    this.#shown?.destroy();
+    this.#shown = undefined;
+  }
+
+  #dropNext(): void {
+    this.#next?.destroy();
+    this.#next = undefined;
+  }
+}
