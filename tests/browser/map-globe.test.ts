@@ -174,7 +174,7 @@ describe.skipIf(pythonMissing)(`map and globe${pythonMissing ? ` (skipped: ${pyt
       timeout: 120_000,
     },
     async (requestRenderMode) => {
-      const seen = await stage.page.evaluate(
+      const { drawn: seen, kept } = await stage.page.evaluate(
         async ([requestRenderMode, width, center]) => {
           const { stage, SharedBudget } = window.linked;
           const { globe } = stage;
@@ -224,7 +224,9 @@ describe.skipIf(pythonMissing)(`map and globe${pythonMissing ? ` (skipped: ${pyt
           globe.scene.requestRenderMode = false;
           for (const layer of [map.layer, globe.layer])
             Object.assign(layer, { budget: undefined, maximumScreenSpaceError: 2 });
-          return drawn;
+          globe.frame();
+          await map.complete();
+          return { drawn, kept: [budget.granted, budget.gpu.used] };
         },
         [requestRenderMode, widthAt(0.05), CENTER] as const,
       );
@@ -235,6 +237,8 @@ describe.skipIf(pythonMissing)(`map and globe${pythonMissing ? ` (skipped: ${pyt
       for (const shared of [both, again, last]) {
         expect(Math.min(shared![0]!, shared![1]!)).toBeGreaterThan(9_000);
       }
+      // Without it nothing of it is theirs any more.
+      expect(kept).toEqual([0, 0]);
       expect([mapAlone![0], globeAlone![1]]).toEqual([0, 0]);
       expect(Math.min(mapAlone![1]!, globeAlone![0]!)).toBeGreaterThan(19_000);
     },

@@ -462,11 +462,17 @@ describe.skipIf(pythonMissing)(
         };
         const { renderer, octree } = objects.placed;
         const before = Object.values(gpuObjects).reduce((sum, count) => sum + count, 0);
+        const nameOf = (thrown: Error) => thrown.name;
+        const onItsWay = stage.layer.pick([300, 200]).then(String, nameOf);
         stage.map.removeLayer(stage.layer);
         stage.layer.dispose();
         stage.source.dispose();
+        const picks = [await onItsWay, await stage.layer.pick([300, 200]).then(String, nameOf)];
+        const found = [await stage.layer.getFeatures([300, 200]), stage.layer.getData([300, 200])];
         const after = Object.values(renderer.objects.counts).reduce((sum, count) => sum + count, 0);
         return {
+          picks,
+          found,
           before,
           after,
           bytes: octree.stream.bytes,
@@ -475,6 +481,8 @@ describe.skipIf(pythonMissing)(
       });
       expect(seen.before).toBeGreaterThan(10);
       expect([seen.after, seen.bytes, seen.canvases]).toEqual([0, 0, 0]);
+      expect(seen.picks).toEqual(["AbortError", "AbortError"]);
+      expect(seen.found).toEqual([[], null]);
       expect(stage.watch.errors).toEqual([]);
     });
   },

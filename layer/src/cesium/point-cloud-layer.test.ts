@@ -138,6 +138,14 @@ describe("PointCloudLayer.clips", () => {
 });
 
 describe("PointCloudLayer.destroy", () => {
+  it("ends picks that are on their way", async () => {
+    const layer = PointCloudLayer.fromCloud(await open());
+    const picks = [layer.pick({ x: 1, y: 1 }), layer.pickPosition({ x: 1, y: 1 })];
+    layer.destroy();
+    const aborted = expect.objectContaining({ name: "AbortError" });
+    for (const pick of picks) await expect(pick).rejects.toEqual(aborted);
+  });
+
   it("may be called again, but nothing else works after it, in Cesium's words", async () => {
     const layer = PointCloudLayer.fromCloud(await open());
     layer.destroy();

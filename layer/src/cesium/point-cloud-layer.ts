@@ -173,7 +173,9 @@ export class PointCloudLayer {
 
   set budget(budget: SharedBudget | undefined) {
     this.#mustExist();
-    this.#budget = budget === undefined ? undefined : this.#checked("budget", budget);
+    const next = budget === undefined ? undefined : this.#checked("budget", budget);
+    if (next !== this.#budget) this.#budget?.gpu.report(this, 0);
+    this.#budget = next;
     this.#events.watch(this.#budget);
   }
 
@@ -269,15 +271,17 @@ export class PointCloudLayer {
    * @param windowPosition CSS pixels from the upper left, as `scene.pick` takes it
    * @returns undefined where there is no point
    * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
-   * @throws StyleError STYLE_OPTION; DeveloperError after `destroy()`
+   * @throws StyleError STYLE_OPTION; DeveloperError after `destroy()`; an AbortError when it is called meanwhile
    */
   async pick(windowPosition: WindowPosition, given: PickOptions = {}): Promise<PickResult<this> | undefined> {
     this.#mustExist();
     const options = checkPick(windowPosition, given, this.cloud.name);
     const found = await this.#renderer?.pick(windowPosition, options);
-    if (!found || this.#destroyed) return undefined;
+    this.#mustLast();
+    if (!found) return undefined;
     const { cloud } = this;
     const record = await cloud.readPoint(found.drawn.node, found.index, { signal: options.signal });
+    this.#mustLast();
     const [x, y, z] = cloud.place(...record.source);
     return { ...record, layer: this, cloud, position: new Cartesian3(x, y, z) };
   }
@@ -294,6 +298,7 @@ export class PointCloudLayer {
     this.#mustExist();
     const renderer = this.#renderer;
     const found = await renderer?.pick(windowPosition, checkPick(windowPosition, given, this.cloud.name));
+    this.#mustLast();
     return found && renderer?.placeOf(found);
   }
 
@@ -362,6 +367,11 @@ export class PointCloudLayer {
   /** @throws DeveloperError after `destroy()`, in the words of Cesium's own objects */
   #mustExist(): void {
     if (this.#destroyed) throw new DeveloperError("This object was destroyed, i.e., destroy() was called.");
+  }
+
+  /** @throws an AbortError where the layer was destroyed while something was on its way */
+  #mustLast(): void {
+    if (this.#destroyed) throw new DOMException("The layer was destroyed.", "AbortError");
   }
 
   /** Frees all that is on the GPU. */

@@ -276,6 +276,20 @@ describe("NodeStream", () => {
     expect(budget.granted).toBe(0);
   });
 
+  it("gives a budget back when a view has another one, or none", () => {
+    const { stream } = setUp();
+    const [first, second] = [new SharedBudget(), new SharedBudget()];
+    const granted = [first, second, undefined].map((budget) => {
+      stream.update(viewer, viewAt(), { ...traversal, budget });
+      return [first.granted, second.granted];
+    });
+    expect(granted).toEqual([
+      [3 * POINTS, 0],
+      [0, 3 * POINTS],
+      [0, 0],
+    ]);
+  });
+
   it("loads once what two views want, and keeps it while one of them stays", async () => {
     const { stream, calls, answer } = setUp();
     const other = {};

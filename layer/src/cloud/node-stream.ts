@@ -137,6 +137,8 @@ export class NodeStream {
    */
   update(viewer: object, view: View, options: TraversalOptions): Selection {
     const selection = selectNodes(this.#source.store.root, view, options, this.#source.boundsOf, viewer);
+    const before = this.#budgets.get(viewer);
+    if (before !== options.budget) before?.release(viewer);
     this.#budgets.set(viewer, options.budget);
     this.#selections.set(viewer, selection);
     this.#rank();

@@ -142,6 +142,7 @@ export class PlacedOctree {
   /** Stops all loading. */
   destroy(): void {
     this.stream.destroy();
+    this.access.close();
     this.#parts.executor.removeDataSet(this.#dataSet);
   }
 

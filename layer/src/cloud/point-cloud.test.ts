@@ -189,6 +189,20 @@ describe("PointCloud", () => {
     );
   });
 
+  it("reads no more points once it is destroyed, and says so", async () => {
+    const { cloud } = await open(withRecord);
+    const query = cloud.query();
+    cloud.destroy();
+    const closed = expect.objectContaining({
+      name: "AbortError",
+      message: expect.stringContaining("closed"),
+    });
+    await expect(cloud.readPoint("0-0-0-0", 0)).rejects.toThrow(closed);
+    await expect(cloud.loadNode("0-0-0-0")).rejects.toThrow(closed);
+    await expect(query.bracket()).rejects.toThrow(closed);
+    await expect(cloud.query().batches().next()).rejects.toThrow(closed);
+  });
+
   it("leaves an executor that it was given alive", async () => {
     const { cloud, executor } = await open(withRecord);
     cloud.destroy();

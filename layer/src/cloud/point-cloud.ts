@@ -287,7 +287,7 @@ export class PointCloud implements PointOrigin {
    * Loads one node, reading hierarchy pages on the way.
    * @param key the node, or its name `depth-x-y-z`
    * @throws FormatError FORMAT_NODE where the octree has no such node, or one without points
-   * @throws SourceError, DecodeError, PlacementError; StyleError STYLE_OPTION
+   * @throws SourceError, DecodeError, PlacementError; StyleError STYLE_OPTION; an AbortError after `destroy()`
    */
   async loadNode(
     key: VoxelKey | string,
@@ -302,7 +302,7 @@ export class PointCloud implements PointOrigin {
    * @param from a node or batch, its key, or its name `depth-x-y-z`
    * @param point how many-th point in drawing order, or the index of its record in the chunk
    * @throws FormatError FORMAT_NODE where there is no such node or no such point in it
-   * @throws SourceError, DecodeError; StyleError STYLE_OPTION; the signal's reason when aborted
+   * @throws SourceError, DecodeError; StyleError STYLE_OPTION; the signal's reason when aborted; an AbortError after `destroy()`
    */
   async readPoint(
     from: { readonly key: VoxelKey } | VoxelKey | string,
@@ -356,7 +356,7 @@ export class PointCloud implements PointOrigin {
     return this.#source.lasEnvelope?.(options);
   }
 
-  /** Stops all loading and ends the workers. */
+  /** Stops all loading and ends the workers: what is read of points now or later throws an AbortError. */
   destroy(): void {
     this.#ahead.abort();
     this.globe.destroy();

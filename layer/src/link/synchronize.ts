@@ -7,6 +7,7 @@ import type Draw from "ol/interaction/Draw.js";
 import type OlMap from "ol/Map.js";
 import VectorSource from "ol/source/Vector.js";
 import type { ScreenPlace } from "../camera/index.js";
+import { isAbort } from "../errors/index.js";
 import {
   flag,
   type Kinds,
@@ -131,7 +132,11 @@ export class Link {
   /** @throws StyleError STYLE_OPTION */
   constructor(options: LinkOptions) {
     const given = parts(KINDS, DEFAULTS).read(options, optionPlace("options", PLACE));
-    const { view: mode, northUp, onError } = given;
+    const { view: mode, northUp } = given;
+    // A layer may go while the pointer's record is being read: nothing has failed then.
+    const onError = (thrown: unknown) => {
+      if (!isAbort(thrown)) given.onError(thrown);
+    };
     const globe = new GlobeSide(given.viewer.scene, given.middle, {
       moved: () => this.#views.globeMoved(),
       grew: () => this.#views.globeGrew(),

@@ -236,6 +236,7 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
 
   #release(): void {
     this.#placing.clear();
+    this.#drawing.budget?.gpu.report(this.getLayer(), 0);
     this.#wipe();
     this.#shown = undefined;
     clearTimeout(this.#timer);

@@ -121,7 +121,9 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
 
   set budget(budget: SharedBudget | undefined) {
     this.#assign(() => {
+      const before = this.#drawing.budget;
       this.#drawing.budget = budget;
+      if (before !== budget) before?.gpu.report(this, 0);
     });
   }
 
@@ -150,15 +152,19 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
    * @param pixel CSS pixels from the upper left of the map
    * @returns undefined where there is no point
    * @throws StyleError STYLE_OPTION
-   * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
+   * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted; an AbortError when
+   *   the layer or its source is disposed of
    */
   async pick(pixel: readonly number[], given: PickOptions = {}): Promise<PickResult | undefined> {
+    this.#mustLast();
     const { window = 9, signal } = checkPick(
       pixel,
       given,
       this.getSource()?.cloud?.name ?? "PointCloudLayer",
     );
-    return this.#renderer?.pick([...pixel], window, signal);
+    const found = await this.#renderer?.pick([...pixel], window, signal);
+    this.#mustLast();
+    return found;
   }
 
   /** Lets nodes that failed be asked for again. */
@@ -181,6 +187,10 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
   override unrender(): void {
     super.unrender();
     this.#renderer?.rest();
+  }
+
+  #mustLast(): void {
+    if (this.disposed) throw new DOMException("The layer was disposed of.", "AbortError");
   }
 
   get #renderer(): MapRenderer | undefined {

@@ -22,6 +22,7 @@ export interface NodeAccessParts {
 export class NodeAccess {
   readonly #parts: NodeAccessParts;
   readonly #opening = new Map<OctreeNode, Promise<void>>();
+  #closed = false;
 
   constructor(parts: NodeAccessParts) {
     this.#parts = parts;
@@ -46,6 +47,11 @@ export class NodeAccess {
     });
   }
 
+  /** Finds none any more: whoever asks hears that the data set was closed. */
+  close(): void {
+    this.#closed = true;
+  }
+
   /** Reads the page that a node in the state `opening` stands for. @throws as {@link openPage} */
   async openPage(node: OctreeNode, signal?: AbortSignal): Promise<void> {
     const { source, store } = this.#parts;
@@ -60,7 +66,7 @@ export class NodeAccess {
 
   /**
    * Works with the node with points that a key names, which stays in the octree meanwhile.
-   * @throws FormatError FORMAT_NODE where the octree has no such node
+   * @throws FormatError FORMAT_NODE where the octree has no such node; an AbortError when it is closed
    */
   async withPoints<T>(
     key: VoxelKey | string,
@@ -76,7 +82,7 @@ export class NodeAccess {
     });
   }
 
-  /** The same with a node that need not have points. @throws FormatError FORMAT_NODE where the octree has no such node */
+  /** The same with a node that need not have points. @throws as {@link withPoints} */
   async withNode<T>(
     key: VoxelKey,
     signal: AbortSignal,
@@ -85,6 +91,7 @@ export class NodeAccess {
     const { source, store } = this.#parts;
     for (;;) {
       signal.throwIfAborted();
+      if (this.#closed) throw new DOMException(`the data set ${source.name} is closed`, "AbortError");
       const node = store.closest(key);
       const opening = this.#opening.get(node);
       if (opening) await opening.catch(() => undefined);

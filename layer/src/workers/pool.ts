@@ -128,7 +128,7 @@ export class WorkerPool implements NodeExecutor {
   /** Ends all workers. Jobs still open are rejected. */
   destroy(): void {
     this.#destroyed = true;
-    const closed = new DOMException("the worker pool is destroyed", "AbortError");
+    const closed = destroyed();
     for (const task of this.#waiting.splice(0)) task.reject(closed);
     for (const slot of this.#slots.splice(0)) {
       clearTimeout(slot.timer);
@@ -140,7 +140,7 @@ export class WorkerPool implements NodeExecutor {
 
   #ask(request: Task["request"], signal: AbortSignal | undefined): Promise<WorkerReply> {
     return new Promise((resolve, reject) => {
-      if (this.#destroyed) throw new Error("the worker pool is destroyed");
+      if (this.#destroyed) throw destroyed();
       signal?.throwIfAborted();
       const abandon = () => this.#abandon(task);
       const settle =
@@ -259,4 +259,8 @@ function workerError(node: string, cause: string): DecodeError {
     cause: `the worker that decodes points died: ${cause}`,
     fix: "Check that node.worker.js is served and that the page allows workers",
   });
+}
+
+function destroyed(): DOMException {
+  return new DOMException("the worker pool is destroyed", "AbortError");
 }
