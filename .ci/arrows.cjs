@@ -183,7 +183,7 @@ module.exports = {
       "errors",
       "every-view.ts",
     ]),
-    layer("link", ["cesium", "openlayers", "camera", "options", "errors"]),
+    layer("link", ["cesium", "openlayers", "camera", "tools", "options", "errors"]),
     layer("link/geometry", ["camera"]),
     layer("navigation", ["cesium", "camera", "options", "errors"]),
     layer("navigation/motions", ["camera"]),

@@ -197,6 +197,57 @@ describe.skipIf(missing)(`the pointer on map and globe${unless}`, () => {
     );
   });
 
+  it("goes nowhere by clicks that any tool for measuring takes", { timeout: 120_000 }, async () => {
+    const { map, globe } = await linked.show({ view: "none", flight: 0, camera: false, click: true });
+    await linked.page.evaluate(() => {
+      const { stage, Cesium, MeasureTool, measureGlobe, measureMap } = window.linked;
+      const [{ map, layer }] = stage.maps as [(typeof stage.maps)[number]];
+      const { layer: onGlobe, scene } = stage.globe;
+      const clicks = { seen: 0, drawn: 0, places: () => "" };
+      // Told after the link is, and once the same point was read as it would have been for a flight.
+      const told = async (record: Promise<unknown>) => {
+        await record;
+        await stage.frames(3);
+        clicks.seen++;
+      };
+      map.on("singleclick" as never, ({ pixel }: { pixel: number[] }) => void told(layer.pick(pixel)));
+      new Cesium.ScreenSpaceEventHandler(scene.canvas).setInputAction(
+        ({ position }: { position: { x: number; y: number } }) => void told(onGlobe.pick(position)),
+        Cesium.ScreenSpaceEventType.LEFT_CLICK,
+      );
+      const tools = [
+        new MeasureTool(measureGlobe(scene, () => [onGlobe])),
+        new MeasureTool(measureMap(map, () => [layer])),
+      ];
+      clicks.places = () => `${map.getView().getCenter()} ${scene.camera.positionWC}`;
+      for (const tool of tools) void tool.distance().then(() => clicks.drawn++);
+      Object.assign(window, { clicks, end: () => tools.map((tool) => tool.destroy()) });
+    });
+    type Clicking = Window & {
+      clicks: { seen: number; drawn: number; places(): string };
+      end(): void;
+    };
+    const places = () => linked.page.evaluate(() => (window as never as Clicking).clicks.places());
+    const click = async (x: number, y: number, seen: number) => {
+      await linked.mouse.click(x, y);
+      await linked.until((seen) => (window as never as Clicking).clicks.seen === seen, seen);
+    };
+    const before = await places();
+    await click(map[0] + 340, map[1] + 180, 1);
+    await click(map[0] + 260, map[1] + 230, 2);
+    await click(globe[0] + 180, globe[1] + 140, 3);
+    await click(globe[0] + 220, globe[1] + 170, 4);
+    await linked.until(() => (window as never as Clicking).clicks.drawn === 2, undefined);
+    expect(await places()).toBe(before);
+    // Nothing is drawn any more: the next clicks are the link's.
+    await linked.mouse.click(map[0] + 340, map[1] + 180);
+    await linked.until((before) => (window as never as Clicking).clicks.places() !== before, before);
+    const between = await places();
+    await linked.mouse.click(globe[0] + 240, globe[1] + 120);
+    await linked.until((before) => (window as never as Clicking).clicks.places() !== before, between);
+    await linked.page.evaluate(() => (window as never as Clicking).end());
+  });
+
   it("ends by itself where the globe is destroyed first, and bears a map that is", {
     timeout: 120_000,
   }, async () => {

@@ -2,6 +2,7 @@ import type { Vector } from "@groma/georef";
 import { ScreenSpaceEventHandler, ScreenSpaceEventType } from "cesium";
 import type MapBrowserEvent from "ol/MapBrowserEvent.js";
 import { unByKey } from "ol/Observable.js";
+import { DRAWING_CLASS } from "../tools/index.js";
 import type { GlobeSide } from "./globe-side.js";
 import type { MapSide } from "./map-side.js";
 
@@ -46,25 +47,21 @@ export class Clicks {
   #listen(): () => void {
     const [globe, map] = [this.#globe, this.#map];
     const { seconds, busy } = this.#options;
-    const handler = new ScreenSpaceEventHandler(globe.scene.canvas);
+    const { canvas } = globe.scene;
+    const ofGlobe = new Press(canvas, busy);
+    const handler = new ScreenSpaceEventHandler(canvas);
     handler.setInputAction(({ position }: ScreenSpaceEventHandler.PositionedEvent) => {
-      if (busy() || !globe.lives) return;
+      if (ofGlobe.draws || !globe.lives) return;
       void this.#go(
         (signal) => globe.placeAt({ x: position.x, y: position.y }, signal),
         (place) => map.flyTo(place, seconds()),
       );
     }, ScreenSpaceEventType.LEFT_CLICK);
-    // What is drawn may be ended by the click, and its interaction taken away, before the map tells of it.
-    let drawing = false;
-    const viewport = map.map.getViewport();
-    const down = () => {
-      drawing = busy() || map.drawing;
-    };
-    viewport.addEventListener("pointerdown", down, { capture: true });
+    const ofMap = new Press(map.map.getViewport(), () => busy() || map.drawing);
     // A single click is told of a quarter of a second later, when the pointer may be down for something else.
     const ofFigures = new WeakSet<object>();
     const click = map.map.on("click", ({ originalEvent }: MapBrowserEvent) => {
-      if (drawing) ofFigures.add(originalEvent);
+      if (ofMap.draws) ofFigures.add(originalEvent);
     });
     const single = map.map.on("singleclick", ({ pixel, coordinate, originalEvent }: MapBrowserEvent) => {
       if (ofFigures.has(originalEvent) || !globe.lives) return;
@@ -77,7 +74,7 @@ export class Clicks {
     });
     return () => {
       handler.destroy();
-      viewport.removeEventListener("pointerdown", down, { capture: true });
+      for (const press of [ofGlobe, ofMap]) press.end();
       unByKey([click, single]);
     };
   }
@@ -97,4 +94,32 @@ export class Clicks {
       if (!signal.aborted) this.#options.failed(thrown);
     }
   }
+}
+
+/**
+ * Whether the pointer was pressed last on a view to draw there: asked for as it is pressed, since the click that follows may
+ * end the figure, and have its interaction taken away, before it is told of.
+ */
+class Press {
+  readonly #view: HTMLElement;
+  readonly #busy: () => boolean;
+  #draws = false;
+
+  constructor(view: HTMLElement, busy: () => boolean) {
+    this.#view = view;
+    this.#busy = busy;
+    view.addEventListener("pointerdown", this.#pressed, { capture: true });
+  }
+
+  get draws(): boolean {
+    return this.#draws;
+  }
+
+  end(): void {
+    this.#view.removeEventListener("pointerdown", this.#pressed, { capture: true });
+  }
+
+  readonly #pressed = (): void => {
+    this.#draws = this.#busy() || this.#view.classList.contains(DRAWING_CLASS);
+  };
 }

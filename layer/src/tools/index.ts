@@ -55,7 +55,7 @@ export type { MeasureToolOptions } from "./draw/given.js";
 export type { MeasurementChange } from "./draw/history.js";
 export { MeasureControl, type MeasureControlOptions } from "./draw/measure-control.js";
 export { MeasureTool } from "./draw/measure-tool.js";
-export type { ScreenPoint, ViewAdapter } from "./draw/view-adapter.js";
+export { DRAWING_CLASS, type ScreenPoint, type ViewAdapter } from "./draw/view-adapter.js";
 export type { MeasureWords } from "./draw/words.js";
 export { type LineOnEllipsoid, lineOnEllipsoid } from "./ellipsoid/line-on-ellipsoid.js";
 export {

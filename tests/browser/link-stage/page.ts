@@ -1,6 +1,17 @@
-import { Clip, PointCloud, PointCloudLayer, SharedBudget } from "@groma/layer/cesium";
+import {
+  Clip,
+  measureView as measureGlobe,
+  PointCloud,
+  PointCloudLayer,
+  SharedBudget,
+} from "@groma/layer/cesium";
 import { type Link, synchronize } from "@groma/layer/link";
-import { PointCloudLayer as MapLayer, PointCloudSource } from "@groma/layer/openlayers";
+import {
+  PointCloudLayer as MapLayer,
+  measureView as measureMap,
+  PointCloudSource,
+} from "@groma/layer/openlayers";
+import { MeasureTool } from "@groma/layer/tools";
 import * as Cesium from "cesium";
 import type VectorSource from "ol/source/Vector.js";
 import { MapStage, type StageView } from "../map-stage/map-stage.js";
@@ -98,6 +109,9 @@ declare global {
       readonly LinkStage: typeof LinkStage;
       readonly Stage: typeof Stage;
       readonly countListeners: typeof countListeners;
+      readonly MeasureTool: typeof MeasureTool;
+      readonly measureGlobe: typeof measureGlobe;
+      readonly measureMap: typeof measureMap;
       /** What stands, if anything. */
       stage: LinkStage;
       link: Link;
@@ -122,6 +136,9 @@ window.linked = {
     LinkStage,
     Stage,
     countListeners,
+    MeasureTool,
+    measureGlobe,
+    measureMap,
   },
   stage: undefined as unknown as LinkStage,
 } as Window["linked"];

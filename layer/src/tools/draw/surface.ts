@@ -6,7 +6,7 @@ import { Overlay, type ShownFigure } from "./overlay.js";
 import { Placing, type Turns } from "./placing.js";
 import { stepOf, watchPointer } from "./pointer.js";
 import { type Snaps, snapsOf } from "./snapping.js";
-import type { ScreenPoint, ViewAdapter } from "./view-adapter.js";
+import { DRAWING_CLASS, type ScreenPoint, type ViewAdapter } from "./view-adapter.js";
 import type { MeasureWords } from "./words.js";
 
 /** What is drawn, as a view needs it. */
@@ -95,6 +95,7 @@ export class Surface {
     const drawing = this.#host.draft() !== undefined;
     if (drawing !== this.#drawing) this.view.drawing?.(drawing);
     if (drawing) this.#reachable();
+    if (drawing !== this.#drawing) this.view.element.classList.toggle(DRAWING_CLASS, drawing);
     this.#drawing = drawing;
     this.#overlay.show(figures);
   }
@@ -107,7 +108,10 @@ export class Surface {
 
   destroy(): void {
     this.#end.abort();
-    if (this.#drawing) this.view.drawing?.(false);
+    if (this.#drawing) {
+      this.view.drawing?.(false);
+      this.view.element.classList.remove(DRAWING_CLASS);
+    }
     this.#overlay.destroy();
   }
 

@@ -6,6 +6,9 @@ export interface ScreenPoint {
   readonly y: number;
 }
 
+/** Class that the element of a view bears while a figure is drawn there: clicks are the figure's. */
+export const DRAWING_CLASS = "groma-drawing";
+
 /** What drawing needs of a view; one is made for each library of views. */
 export interface ViewAdapter {
   /** The element that the view is drawn in: pointer and keys are heard there, figures are laid over it. */
