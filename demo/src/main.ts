@@ -80,7 +80,7 @@ function start(viewer: Viewer): void {
   const drawing = new Drawing(groups, (thrown) => message.show(thrown));
   const classes = new Classes();
   const exporting = new ExportPoints((thrown) => message.show(thrown));
-  const ledger = new Ledger();
+  const ledger = new Ledger(() => beside.ledger);
   const picked = new Picked();
   const profile = new ProfilePanel(viewer, () => slot.layer, {
     // One tool at a time has the clicks.

@@ -141,6 +141,11 @@ describe.skipIf(scan.missing)(
       ]);
       await screenshot(page, "beside-linked");
       await page.selectOption("#views", "map");
+      const frames = await page.evaluateHandle(() => {
+        const frames = { globe: 0 };
+        window.groma.viewer.scene.postRender.addEventListener(() => frames.globe++);
+        return frames;
+      });
       expect(await page.isVisible("#split")).toBe(false);
       const width = await page.evaluate(() => document.getElementById("map")!.getBoundingClientRect().width);
       expect(width).toBe(1200);
@@ -156,6 +161,23 @@ describe.skipIf(scan.missing)(
         undefined,
         { timeout: 120_000 },
       );
+      // What is chosen for the globe holds for the map still.
+      await page.evaluate(() => {
+        window.groma.layer.style = { color: "intensity", gradient: "auto" };
+      });
+      await page.waitForFunction(
+        async () => {
+          const { map } = (await window.groma.beside.view)!;
+          const [layer] = map.getAllLayers().filter((one) => "style" in one) as never as [
+            { style: { color: unknown } },
+          ];
+          return `${layer.style.color}` === "intensity";
+        },
+        undefined,
+        { timeout: 60_000 },
+      );
+      await complete();
+      expect((await lit()).red).toBeLessThan(recoloured.red / 10);
       const there = await page.evaluate(() => window.groma.viewer.camera.positionWC.x);
       await page.evaluate(async () => {
         (await window.groma.beside.view)!.map.getView().adjustCenter([30_000, 0]);
@@ -168,6 +190,23 @@ describe.skipIf(scan.missing)(
       await page.waitForFunction((x) => Math.abs(window.groma.viewer.camera.positionWC.x - x) > 1000, there, {
         timeout: 120_000,
       });
+      // And where the globe is sent, the map goes.
+      await page.evaluate(async () => {
+        const { viewer } = window.groma;
+        const view = (await window.groma.beside.view)!.map.getView();
+        Object.assign(window, { before: `${view.getCenter()}` });
+        viewer.camera.moveRight(-20_000);
+      });
+      await page.waitForFunction(
+        async () => {
+          const view = (await window.groma.beside.view)!.map.getView();
+          return `${view.getCenter()}` !== (window as never as { before: string }).before;
+        },
+        undefined,
+        { timeout: 60_000 },
+      );
+      // All of that without a frame of the globe, which goes on when it is shown again.
+      expect(await frames.evaluate(({ globe }) => globe)).toBe(0);
       await page.locator("#copy-link").evaluate((button: HTMLButtonElement) => button.click());
       expect(new URL(page.url()).searchParams.get("map")).toBe("only");
       await page.evaluate(async () => {
@@ -175,6 +214,9 @@ describe.skipIf(scan.missing)(
       });
       await page.selectOption("#views", "globe");
       expect(await page.isVisible("#map")).toBe(false);
+      await page.waitForFunction((frames) => (frames as { globe: number }).globe > 2, frames, {
+        timeout: 60_000,
+      });
       expect(watch.errors).toEqual([]);
       expect(watch.foreign).toEqual([]);
       await page.context().close();

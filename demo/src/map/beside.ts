@@ -1,5 +1,5 @@
 import type { PointCloudLayer } from "@groma/layer/cesium";
-import type { LayerStatistics } from "@groma/layer/openlayers";
+import type { LayerStatistics, LedgerRow } from "@groma/layer/openlayers";
 import type { Viewer } from "cesium";
 import { byId } from "../panel/elements.js";
 import type { MapView } from "./map-view.js";
@@ -17,9 +17,6 @@ const STEPS: ReadonlyMap<string, number> = new Map([
 /** What the page shows. */
 export type Shown = "globe" | "both" | "map";
 
-/** Frames per second of a globe that the map covers: what of it the panel shows and the map takes over goes on. */
-const COVERED = 4;
-
 /** The map beside the globe or in its place: loaded when it is first shown, with a bar between the two. */
 export class Beside {
   readonly #viewer: Viewer;
@@ -33,6 +30,8 @@ export class Beside {
   /** The same once it is there. */
   #shown: MapView | undefined;
   #layer: PointCloudLayer | undefined;
+  /** The frame of the page in which a covered globe is looked at next. */
+  #next = 0;
 
   /**
    * @param failed told of what the map cannot draw
@@ -71,6 +70,11 @@ export class Beside {
     return this.alone ? this.#shown?.statistics : undefined;
   }
 
+  /** The effects of what the map draws, where it is in the place of the globe. */
+  get ledger(): readonly LedgerRow[] | undefined {
+    return this.alone ? this.#shown?.ledger : undefined;
+  }
+
   /** Has an address of the page ask for what is shown. */
   writeTo(page: URL): void {
     const { searchParams: query } = page;
@@ -87,7 +91,9 @@ export class Beside {
     document.body.classList.toggle("map-alone", shown === "map");
     byId("globe", HTMLElement).inert = shown === "map";
     byId("link-fields", HTMLElement).hidden = shown !== "both";
-    this.#viewer.targetFrameRate = shown === "map" ? COVERED : (undefined as unknown as number);
+    // Nobody sees the frames of a globe that the map covers.
+    this.#viewer.useDefaultRenderLoop = shown !== "map";
+    if (shown === "map") this.#beat();
     if (shown !== "globe") void this.#attach();
     else void this.#follow();
   }
@@ -112,6 +118,14 @@ export class Beside {
     } catch (thrown) {
       this.#failed(thrown);
     }
+  }
+
+  /** Goes on with what hangs on the frames of the globe, while none is drawn. */
+  #beat(): void {
+    if (!this.alone) return;
+    this.#shown?.follow();
+    cancelAnimationFrame(this.#next);
+    this.#next = requestAnimationFrame(() => this.#beat());
   }
 
   /** Links the map to the globe as the panel says. */

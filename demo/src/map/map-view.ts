@@ -4,6 +4,7 @@ import type { PointCloudLayer } from "@groma/layer/cesium";
 import { type Link, synchronize } from "@groma/layer/link";
 import {
   type LayerStatistics,
+  type LedgerRow,
   PointCloudLayer as MapLayer,
   measureView,
   PointCloudSource,
@@ -60,12 +61,17 @@ export class MapView {
       view: new View({ center: [0, 0], zoom: 1, maxZoom: 26, constrainRotation: false }),
     });
     this.map.addOverlay(this.#mark);
-    viewer.scene.postRender.addEventListener(() => this.#follow());
+    viewer.scene.postRender.addEventListener(() => this.#takeOver());
   }
 
   /** What of the cloud the map draws; undefined where there is none. */
   get statistics(): LayerStatistics | undefined {
     return this.#layer?.statistics;
+  }
+
+  /** The effects of what it draws. */
+  get ledger(): readonly LedgerRow[] | undefined {
+    return this.#layer?.ledger;
   }
 
   /** Shows a cloud in place of the one that is there. */
@@ -106,8 +112,14 @@ export class MapView {
     this.#link.northUp = options.northUp;
   }
 
+  /** Takes over what has changed of a globe that draws no frames. */
+  follow(): void {
+    this.#link?.update();
+    this.#takeOver();
+  }
+
   /** Takes over what has changed of the layer on the globe. */
-  #follow(): void {
+  #takeOver(): void {
     const [map, globe] = [this.#layer, this.#shown];
     if (!map || !globe || globe.isDestroyed()) return;
     const parts = partsOf(globe);

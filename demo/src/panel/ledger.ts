@@ -11,9 +11,12 @@ export class Ledger {
   readonly #place = byId("ledger", HTMLDetailsElement);
   readonly #rows = byId("ledger-rows", HTMLTableSectionElement);
   readonly #frame = byId("ledger-frame", HTMLParagraphElement);
+  readonly #instead: () => readonly LedgerRow[] | undefined;
   #layer: PointCloudLayer | undefined;
 
-  constructor() {
+  /** @param instead the rows of a view that stands in the place of the globe, if one does */
+  constructor(instead: () => readonly LedgerRow[] | undefined) {
+    this.#instead = instead;
     setInterval(() => this.#write(), INTERVAL);
     this.#place.addEventListener("toggle", () => this.#write());
   }
@@ -30,7 +33,7 @@ export class Ledger {
   #write(): void {
     const layer = this.#layer;
     if (!this.#place.open || !layer || layer.isDestroyed() || document.hidden) return;
-    this.#rows.replaceChildren(...[...layer.ledger, ...this.further()].map(rowOf));
+    this.#rows.replaceChildren(...[...(this.#instead() ?? layer.ledger), ...this.further()].map(rowOf));
     setText(this.#frame, frameWords(layer.statistics.gpuMilliseconds));
   }
 }

@@ -16,6 +16,8 @@ const SECOND = [0.35, 0.82, 0.9] as const;
 /** How the points of the plot are drawn: as on globe and map, or by their side of the line. */
 export class PlotStyle {
   readonly #choice = byId("profile-colour", HTMLSelectElement);
+  /** Has the plot take over what the layer looks like by now: to be called in each frame of a view that shows it. */
+  readonly tell: () => void;
   /** What the sides were drawn with last. */
   #sides: { readonly style: PointCloudLayer["style"]; readonly drawn: PointCloudLayer["style"] } | undefined;
 
@@ -25,13 +27,13 @@ export class PlotStyle {
     layer: () => PointCloudLayer | undefined,
     follow: (drawing: PlotDrawing) => void,
   ) {
-    const tell = () => {
+    this.tell = () => {
       const shown = layer();
       if (shown) follow(this.of(shown));
     };
-    this.#choice.addEventListener("change", tell);
+    this.#choice.addEventListener("change", this.tell);
     // A layer does not tell of its style; what it draws, it draws in frames.
-    viewer.scene.postRender.addEventListener(tell);
+    viewer.scene.postRender.addEventListener(this.tell);
   }
 
   /** How a layer's points are drawn. */

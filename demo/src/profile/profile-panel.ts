@@ -128,6 +128,7 @@ export class ProfilePanel {
   /** Lets lines be drawn and changed on a further view. */
   addView(view: ViewAdapter): void {
     this.lines.addView(view);
+    view.onFrame(this.#style.tell);
   }
 
   /** Forgets what is shown, and takes over the lines that were kept of a cloud. */

@@ -165,7 +165,8 @@ function keyOf({ code, definition, tolerance }: MapProjection): string {
   return JSON.stringify([code, definition, tolerance]);
 }
 
-function noPlace(file: string, code: string): PlacementError {
+/** A data set, or a part of it, that a projection has no place for. */
+export function noPlace(file: string, code: string): PlacementError {
   return new PlacementError({
     code: "PLACE_MAP",
     file,

@@ -40,6 +40,7 @@ export class GlobeSide {
   /** The camera, as it was told last. */
   #known: readonly number[] = [];
   readonly #middle: (() => ScreenPlace) | undefined;
+  readonly #moved: () => void;
   readonly #gone: () => void;
   readonly #unwatch: readonly (() => void)[];
   /** Whether points or terrain were still on their way when the last frame was drawn. */
@@ -58,19 +59,23 @@ export class GlobeSide {
   ) {
     this.scene = scene;
     this.#middle = middle;
+    this.#moved = moved;
     this.#gone = gone;
     this.#height = this.guess() ?? 0;
     this.#known = this.#numbers();
     this.#unwatch = [
-      scene.preRender.addEventListener(() => {
-        if (this.hasMoved && this.shown) moved();
-      }),
+      scene.preRender.addEventListener(() => this.look()),
       scene.postRender.addEventListener(() => {
         const loading = this.#loads;
         if (loading || this.#loading) grew();
         this.#loading = loading;
       }),
     ];
+  }
+
+  /** Tells where the camera is another than the one known. */
+  look(): void {
+    if (this.hasMoved && this.shown) this.#moved();
   }
 
   /** Whether there is a globe to work with; one that was destroyed, which Cesium tells nobody, is told of here. */

@@ -244,6 +244,11 @@ export class Link {
     return () => this.#listeners.delete(listener);
   }
 
+  /** Carries over at once what has moved of the globe, as each of its frames does: for a globe of which none is drawn. */
+  update(): void {
+    if (!this.#disposed && this.#globe.lives) this.#globe.look();
+  }
+
   /** Ends the link and takes away all that it has put on the globe and the map. */
   dispose(): void {
     if (this.#disposed) return;

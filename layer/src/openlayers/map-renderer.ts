@@ -3,9 +3,11 @@ import {
   type Extent,
   getBottomLeft,
   getBottomRight,
+  getIntersection,
   getTopLeft,
   getTopRight,
   getWidth,
+  isEmpty,
 } from "ol/extent.js";
 import Feature from "ol/Feature.js";
 import Point from "ol/geom/Point.js";
@@ -28,6 +30,14 @@ import type { PointCloudSource } from "./point-cloud-source.js";
 
 /** Milliseconds after which a frame is drawn again while nodes are on their way. */
 const PATIENCE = 50;
+
+/** Corners of an extent that nothing of is in the picture, CSS pixels. */
+const NOWHERE: Corners = [
+  [-2, -2],
+  [-1, -2],
+  [-1, -1],
+  [-2, -1],
+];
 
 /** A point that was found on the map. */
 interface Found {
@@ -204,10 +214,11 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
 
   /** Corners of the layer's extent, CSS pixels. */
   #cornersIn(frameState: FrameState): Corners | undefined {
-    const extent = extentIn(frameState);
-    const corners =
-      extent && [getBottomLeft, getBottomRight, getTopRight, getTopLeft].map((of) => of(extent));
-    return corners?.map((corner) => apply(frameState.coordinateToPixelTransform, [...corner]));
+    const extent = extentIn(frameState, this.placed);
+    if (!extent) return undefined;
+    if (isEmpty(extent)) return NOWHERE;
+    const corners = [getBottomLeft, getBottomRight, getTopRight, getTopLeft].map((of) => of(extent));
+    return corners.map((corner) => apply(frameState.coordinateToPixelTransform, [...corner]));
   }
 
   /** What a picture depends on. */
@@ -215,7 +226,7 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     const { viewState, size, pixelRatio } = frameState;
     const { center, resolution, rotation } = viewState;
     const { revision, clips } = this.#drawing;
-    return `${center} ${resolution} ${rotation} ${size} ${pixelRatio} ${revision} ${clips.revision} ${extentIn(frameState)}`;
+    return `${center} ${resolution} ${rotation} ${size} ${pixelRatio} ${revision} ${clips.revision} ${extentIn(frameState, this.placed)}`;
   }
 
   #changed(): void {
@@ -257,7 +268,7 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     if (!point) return undefined;
     const near = apply(frameState.pixelToCoordinateTransform, [x, y]);
     const found = { ...point, placed, coordinate: coordinateOf(point, placed, near) };
-    const extent = extentIn(frameState);
+    const extent = extentIn(frameState, placed);
     return extent && !containsCoordinate(extent, found.coordinate) ? undefined : found;
   }
 
@@ -291,7 +302,15 @@ function worldWidthOf(projection: Projection): number | undefined {
   return projection.canWrapX() ? getWidth(projection.getExtent()) : undefined;
 }
 
-/** Beyond which nothing of the layer is to show, units of the projection. */
-function extentIn({ layerStatesArray, layerIndex }: FrameState): Extent | undefined {
-  return layerStatesArray[layerIndex].extent;
+/** Beyond which nothing of the layer is to show, units of the projection: the layer's own extent, and the world's edges. */
+function extentIn(
+  { layerStatesArray, layerIndex, viewState, size }: FrameState,
+  placed: PlacedFrames | undefined,
+): Extent | undefined {
+  const { extent } = layerStatesArray[layerIndex];
+  if (!placed?.edges) return extent;
+  const { center, resolution } = viewState;
+  const [[south, north], reach] = [placed.edges, resolution * Math.hypot(...size)];
+  const world = [center[0] - reach, south, center[0] + reach, north];
+  return extent ? getIntersection(extent, world) : world;
 }

@@ -1,8 +1,9 @@
 import type Projection from "ol/proj/Projection.js";
-import type { PlacedOctree, PointCloud } from "../cloud/index.js";
+import { noPlace, type PlacedOctree, type PointCloud } from "../cloud/index.js";
 import { type FrameReport, LayerFrames, type LayerSettings } from "../drawing/frame.js";
 import { LayerRenderer } from "../webgl2/layer-renderer.js";
 import type { GlView } from "../webgl2/node-drawable.js";
+import type { NodeVertices } from "../workers/index.js";
 import { type Corners, ExtentMask } from "./extent-mask.js";
 import { type MapCamera, type MapFrame, mapCamera } from "./map-camera.js";
 
@@ -24,6 +25,10 @@ export class PlacedFrames implements PlacedPoints {
   readonly frames: LayerFrames<GlView>;
   readonly renderer: LayerRenderer;
   readonly #mask: ExtentMask;
+  readonly #failed: (error: Error) => void;
+  /** Least and greatest y that the map's world has, units of the projection; undefined where it has no such edges. */
+  readonly #world: readonly [number, number] | undefined;
+  #crossed = false;
   readonly #unsubscribe: () => void;
 
   /**
@@ -42,15 +47,28 @@ export class PlacedFrames implements PlacedPoints {
     this.projection = projection;
     this.frames = new LayerFrames(cloud, owner, octree);
     this.renderer = new LayerRenderer(gl);
+    this.#failed = failed;
+    const world = projection.canWrapX() ? projection.getExtent() : undefined;
+    this.#world = world && [world[1], world[3]];
+    octree.stream.forEachVertices((vertices) => this.#holdAgainst(vertices));
     this.#mask = new ExtentMask(this.renderer.objects);
     this.#unsubscribe = octree.stream.subscribe({
-      nodeLoaded: changed,
+      nodeLoaded: (node) => {
+        const vertices = octree.stream.vertices(node);
+        if (vertices) this.#holdAgainst(vertices);
+        changed();
+      },
       nodeFailed: (_node, error) => {
         failed(error);
         changed();
       },
       nodeEvicted: (node) => this.renderer.content.free(node),
     });
+  }
+
+  /** Least and greatest y that may be drawn, units of the projection; undefined where no point lies beyond. */
+  get edges(): readonly [number, number] | undefined {
+    return this.#crossed ? this.#world : undefined;
   }
 
   /** Draws a frame. @param extent beyond which nothing of it shows */
@@ -84,6 +102,16 @@ export class PlacedFrames implements PlacedPoints {
     this.#unsubscribe();
     this.renderer.destroy();
     this.cloud.maps.release(this.octree);
+  }
+
+  /** Tells, once, of points beyond the edge of the map's world: towards the poles Mercator's plane goes on without end. */
+  #holdAgainst({ frame, box, bound }: NodeVertices): void {
+    if (this.#crossed || !this.#world) return;
+    const { metresPerUnit = 1, code = "" } = this.octree.plane ?? {};
+    const [south, north] = this.#world.map((edge) => edge * metresPerUnit);
+    const [low, high] = [box[1], box[4]].map((y) => frame.origin[1] + y);
+    this.#crossed = low < south - bound || high > north + bound;
+    if (this.#crossed) this.#failed(noPlace(this.cloud.name, code));
   }
 
   #cameraOf(frame: AskedFrame): MapCamera {
