@@ -15,7 +15,7 @@ pub struct Statistics {
     version: u32,
     points: u64,
     /// 8 where no colour exceeds 255, 16 where one does, none where there is no colour but black.
-    rgb_bits: Option<u8>,
+    pub rgb_bits: Option<u8>,
     attributes: Vec<Attribute>,
     /// Points per class.
     classes: BTreeMap<u8, u64>,

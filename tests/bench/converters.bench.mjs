@@ -2,6 +2,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { ownTime } from "./converters/command.mjs";
 import { coreOf, lowerBoundOf, PEER, peerOf } from "./converters/commands.mjs";
 import { measure, summary } from "./converters/measure.mjs";
 import { writeReport } from "./converters/report.mjs";
@@ -75,8 +76,11 @@ export async function bench(root) {
   mkdirSync(join(folder, "scratch"));
   try {
     const peers = existsSync(scan) ? await race(root, python, folder, scan) : [];
+    const command = existsSync(scan)
+      ? ownTime(root, scan, join(folder, "command.copc.laz"), ROUNDS)
+      : undefined;
     const sizes = await grow(root, python, folder);
-    return writeReport(root, { peers, sizes });
+    return writeReport(root, { peers, command, sizes });
   } finally {
     rmSync(folder, { recursive: true, force: true });
   }

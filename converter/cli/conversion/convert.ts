@@ -2,7 +2,7 @@ import { writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import type { Fault } from "@groma/georef";
-import { type Conversion, type CoreEvent, convertFiles, type RecordMaker, scanFile } from "../core/core.js";
+import { type Conversion, type CoreEvent, convertFiles, type RecordMaker } from "../core/core.js";
 import { withScratch } from "../core/scratch.js";
 import type { Planned } from "../pdal/bring.js";
 import { type PdalReport, pdalReport } from "../pdal/report.js";
@@ -20,8 +20,6 @@ export interface Converted extends Conversion {
   readonly georeferenced: Georeferenced;
   readonly whereabouts: Whereabouts;
   readonly records: GeoreferenceRecords;
-  /** 8 where no colour exceeds 255 in its 16-bit field, null where there is no colour. */
-  readonly rgbBits: 8 | 16 | null;
   readonly pdal: readonly PdalReport[];
   /** Inputs that are empty or cannot be read, of which nothing is in the output. */
   readonly skipped: readonly Fault[];
@@ -59,12 +57,12 @@ async function convertPrepared(
   onEvent: (event: CoreEvent) => void,
   signal?: AbortSignal,
 ): Promise<Converted> {
-  const { georeferenced } = preparation;
+  const { georeferenced, proj } = preparation;
   const files = await filesOf(preparation, scratch, onEvent, signal);
   const { file, scale } = firstOf(preparation);
   let records: GeoreferenceRecords | undefined;
   const recordsFor: RecordMaker = async (bounds, ended) => {
-    const surroundings = { text: projString(options.crs), file, signal: ended };
+    const surroundings = { text: projString(options.crs), file, proj, signal: ended };
     records = await makeRecords(georeferenced, bounds, scale, options, surroundings);
     const record = join(scratch, "georeference.json");
     await writeFile(record, records.record);
@@ -76,13 +74,11 @@ async function convertPrepared(
   const coreArgs = await coreArguments(files, output, georeferenced, options, scratch);
   const conversion = await convertFiles(coreArgs, onEvent, recordsFor, signal);
   if (!records) throw new Error("the converter core has not asked for the records");
-  const { groma } = await scanFile(output);
   const pdal = plannedOf(preparation).map((planned) => pdalReport(preparation.pdal!, planned));
   const { skipped } = preparation;
   const { notes, centre: expected } = preparation.whereabouts;
   const whereabouts = { notes, centre: records.centre ?? expected };
-  const rgbBits = groma?.["2"]?.rgbBits ?? null;
-  return { ...conversion, output, georeferenced, whereabouts, records, rgbBits, pdal, skipped };
+  return { ...conversion, output, georeferenced, whereabouts, records, pdal, skipped };
 }
 
 /** What the core reads: the inputs themselves, and files of PDAL in place of the others. */

@@ -5,7 +5,7 @@ import { OutputError, requireOther, requirePlace } from "../given/output-place.j
 import type { Planned } from "../pdal/bring.js";
 import type { Pdal } from "../pdal/find.js";
 import type { Job } from "../pdal/pipeline.js";
-import { chosenProj } from "../place/engine.js";
+import { chosenProj, type Proj } from "../place/engine.js";
 import { commonGeoreference, type Georeferenced, type Named } from "../place/georeference.js";
 import { expectedWhereabouts, type Whereabouts } from "../place/whereabouts.js";
 import { expandInputs, InputError } from "./inputs.js";
@@ -28,6 +28,8 @@ export interface Preparation {
   readonly whereabouts: Whereabouts;
   /** Where one of the inputs needs it. */
   readonly pdal?: Pdal;
+  /** Where it is to place the points. */
+  readonly proj?: Proj | undefined;
 }
 
 /**
@@ -49,6 +51,9 @@ export async function prepare(
   const found = await sourcesOf(named, options.pipeline);
   const files = found.flatMap((source) => (source.reader === "core" ? [source.file] : []));
   const jobs = found.flatMap((source) => (source.reader === "pdal" ? [source.job] : []));
+  const searching = chosenProj(options);
+  // Whether that matters shows when the CRS is known.
+  searching.catch(() => undefined);
   // PDAL may take an hour; what the core would refuse after it is refused now.
   if (jobs.length > 0) requireTarget(output, options.overwrite ?? false, jobs);
   const { scanOf, skipped } = await scanAll(files, found.length === 1 || (options.strict ?? false), signal);
@@ -65,7 +70,7 @@ export async function prepare(
   });
   const georeferenced = await commonGeoreference(declared, options);
   // What is wrong with the choice of the engine is said before the points are read.
-  if (!georeferenced.local) await chosenProj(options);
+  const proj = georeferenced.local ? undefined : await searching;
   const geographic = georeferenced.crs.horizontalUnit.kind === "angular";
   const planned = read?.plan(read.probes, geographic, options.scale);
   const inputs = sources.map((source): Prepared => {
@@ -74,7 +79,7 @@ export async function prepare(
   });
   const bounds = boundsOf(inputs);
   const where = bounds ? expectedWhereabouts(georeferenced, bounds) : { centre: undefined, notes: [] };
-  return { inputs, skipped, georeferenced, whereabouts: where, ...(read && { pdal: read.pdal }) };
+  return { inputs, skipped, georeferenced, whereabouts: where, proj, ...(read && { pdal: read.pdal }) };
 }
 
 /** Bounds of all inputs with points; undefined where none has any that are numbers. */

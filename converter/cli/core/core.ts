@@ -76,6 +76,8 @@ export interface Conversion {
   readonly points: number;
   readonly nodes: number;
   readonly bytes: number;
+  /** 8 where no colour exceeds 255 in its 16-bit field, null where there is no colour. */
+  readonly rgbBits: 8 | 16 | null;
   readonly seconds: number;
 }
 

@@ -6,6 +6,8 @@ import { findProj, type Proj } from "../proj/program/find.js";
 import type { EngineResult } from "../proj/report.js";
 import { projTransformation } from "../proj/transformation.js";
 
+export type { Proj } from "../proj/program/find.js";
+
 /** Names of the engines as `--engine` takes them. */
 export const ENGINES = ["proj", "proj4js"] as const;
 
@@ -24,6 +26,8 @@ export interface EngineSurroundings {
   readonly text?: string | undefined;
   /** For error messages. */
   readonly file: string;
+  /** What {@link chosenProj} has found already. */
+  readonly proj?: Proj | undefined;
   readonly signal?: AbortSignal | undefined;
 }
 
@@ -68,9 +72,9 @@ export async function engineTransformation(
   crs: Crs,
   domain: Domain,
   choice: EngineChoice,
-  { text, file, signal }: EngineSurroundings,
+  { text, file, proj: found, signal }: EngineSurroundings,
 ): Promise<EngineResult> {
-  const proj = await chosenProj(choice);
+  const proj = found ?? (await chosenProj(choice));
   if (!proj) return proj4jsTransformation(crs, domain, { file, signal });
   try {
     return await projTransformation(proj, crs, domain, { text, file, signal });

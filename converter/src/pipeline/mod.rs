@@ -64,6 +64,7 @@ pub struct Built {
     info: Info,
     laz: LazVlr,
     additions: Additions,
+    rgb_bits: Option<u8>,
     first: Scan,
     nodes: Vec<Node>,
     workspace: Workspace,
@@ -78,10 +79,13 @@ struct Workspace {
 
 /// What stands at the end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Summary {
     pub points: u64,
     pub nodes: usize,
     pub bytes: u64,
+    /// As in the statistics.
+    pub rgb_bits: Option<u8>,
 }
 
 impl<'a> Pipeline<'a, Scanned> {
@@ -187,7 +191,8 @@ impl<'a> Pipeline<'a, Distributed> {
         let info = Info { cube, root_page: (0, 0), gps_time: time };
         let first = inputs.sources.into_iter().next().map(|source| source.scan);
         let first = first.ok_or_else(|| Error::option("USAGE", "no input"))?;
-        let stage = Built { points, info, laz, additions, first, nodes, workspace };
+        let rgb_bits = statistics.rgb_bits;
+        let stage = Built { points, info, laz, additions, rgb_bits, first, nodes, workspace };
         Ok(Pipeline { options, progress, stage })
     }
 }
@@ -196,7 +201,7 @@ impl Pipeline<'_, Built> {
     /// Writes the file; it has its name only when all of it is on disk.
     pub fn write(self) -> Result<Summary> {
         let Self { options, progress, stage } = self;
-        let Built { points, info, laz, mut additions, first, nodes, workspace } = stage;
+        let Built { points, info, laz, mut additions, rgb_bits, first, nodes, workspace } = stage;
         if options.wait_for_record {
             answer::read(std::io::stdin().lock(), &options.output, &mut additions)?;
         }
@@ -224,7 +229,7 @@ impl Pipeline<'_, Built> {
         let bytes = copc::write::write(&mut file, &content, &options.output, &meter)?;
         output.commit(file)?;
         meter.finish();
-        Ok(Summary { points: count, nodes: number, bytes })
+        Ok(Summary { points: count, nodes: number, bytes, rgb_bits })
     }
 }
 

@@ -65,12 +65,18 @@ function sizeTable(sizes) {
   return table(head, rows);
 }
 
+/** What the command adds to its core. */
+function commandLine({ seconds, own }) {
+  const share = Math.round((100 * own) / seconds);
+  return `Of ${seconds.toFixed(1)} s that \`groma convert\` takes with PROJ, ${own.toFixed(1)} s (${share} %) are not the core's: the command's start, the CRS, the summary. PROJ works while the core builds.`;
+}
+
 /** Writes docs/bench/converters.json and .md; returns rows for the terminal. */
-export function writeReport(root, { peers, sizes }) {
+export function writeReport(root, { peers, command, sizes }) {
   const folder = join(root, "docs/bench");
   mkdirSync(folder, { recursive: true });
   const machine = { cpu: cpus()[0]?.model, cores: cpus().length };
-  const report = { date: new Date().toISOString(), machine, peers, sizes };
+  const report = { date: new Date().toISOString(), machine, peers, command, sizes };
   writeFileSync(join(folder, "converters.json"), `${JSON.stringify(report, null, 2)}\n`);
   const text = `# Converters
 
@@ -80,6 +86,8 @@ within a round, to the lower bound: the crate \`laz\` on all cores decompresses,
 does nothing else (\`converter/examples/lower_bound.rs\`).
 
 ${peers.length > 0 ? peerTable(peers) : "autzen.laz was not there."}
+
+${command ? commandLine(command) : ""}
 
 ## Size and memory
 

@@ -1,5 +1,5 @@
 import type { Bounds, Grid } from "@groma/georef";
-import { fromFile, type GeoTIFF, type GeoTIFFImage } from "geotiff";
+import type { GeoTIFF, GeoTIFFImage } from "geotiff";
 import {
   checkedLattice,
   type GridImage,
@@ -43,6 +43,8 @@ export async function openGeoTiff(path: string, name: string, kind: GridKind): P
   let tiff: GeoTIFF;
   const images: (GridImage & { parent?: string | undefined })[] = [];
   try {
+    // Most conversions need no grid, and its reader is a quarter of all that would be loaded.
+    const { fromFile } = await import("geotiff");
     tiff = await fromFile(path);
     const count = await tiff.getImageCount();
     let first: GeoTIFFImage | undefined;

@@ -76,8 +76,11 @@ export async function findProj(options: FindOptions = {}): Promise<Proj | undefi
 
   let version: string;
   try {
+    const searching = searchPaths(projinfo, environment);
+    // Where both fail, the version says more.
+    searching.catch(() => undefined);
     version = await versionOf(cct, environment);
-    const directories = await searchPaths(projinfo, environment);
+    const directories = await searching;
     if (options.grids === undefined) return { version, projinfo, cct, environment, directories };
     environment.PROJ_DATA = withFolder(options.grids, directories);
   } catch (error) {
