@@ -1,7 +1,7 @@
 // `npm run docs`: the manual and the reference from the types as one site, in docs/dist.
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
-import { Application, Converter, TSConfigReader } from "typedoc";
+import { Application, Converter, ReflectionKind, TSConfigReader } from "typedoc";
 
 const root = join(import.meta.dirname, "..");
 const docs = (folder) =>
@@ -22,6 +22,7 @@ const tasks = [
   "serving",
   "applications",
   "errors",
+  "error-codes",
 ];
 /** Groups of pages, as the navigation shows them. */
 const groups = {
@@ -80,9 +81,20 @@ app.converter.on(Converter.EVENT_CREATE_DOCUMENT, (_, document) => {
   if (group) document.frontmatter.group = group;
 });
 
+/** Options without words: whoever reads the reference has to know of each what it is. */
+function untold(project) {
+  return project
+    .getReflectionsByKind(ReflectionKind.Interface)
+    .filter(({ name }) => /(Options|Style)$/.test(name))
+    .flatMap((options) => [options, ...(options.children ?? [])])
+    .filter((option) => !option.hasComment())
+    .map((option) => option.getFullName());
+}
+
 const project = await app.convert();
 if (project) {
   app.validate(project);
+  for (const name of untold(project)) app.logger.warn(`${name} says nothing of what it is`);
   if (!process.argv.includes("--check")) await app.generateOutputs(project);
 }
 // A link that leads nowhere, or a parameter that is not there, is an error.

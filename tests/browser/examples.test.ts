@@ -17,12 +17,29 @@ const examples = join(projectRoot, "demo/examples");
 const built = join(projectRoot, "tests/artifacts/examples");
 const clouds = join(projectRoot, "tests/artifacts/examples-data");
 const cesium = join(dirname(createRequire(import.meta.url).resolve("cesium/package.json")), "Build/Cesium");
+/** The engine of the oldest Cesium that `@groma/layer` takes. */
+const oldest = join(projectRoot, "node_modules/cesium-engine-oldest");
 
 async function buildWithVite(): Promise<void> {
   const { build } = await import("vite");
+  const configFile = join(examples, "vite.config.js");
+  await build({ configFile, logLevel: "error", build: { outDir: built, emptyOutDir: true } });
   await build({
-    ...{ configFile: join(examples, "vite.config.js"), logLevel: "error" },
-    build: { outDir: built, emptyOutDir: true },
+    ...{ configFile: false, root: examples, base: "/oldest/", logLevel: "error" },
+    ...{ worker: { format: "es" }, resolve: { alias: { cesium: oldest } } },
+    plugins: [
+      {
+        name: "oldest-cesium",
+        transform: (code, id) =>
+          id.endsWith("vite/main.js") ? code.replace("/cesium/", "/cesium-oldest/") : undefined,
+      },
+    ],
+    build: {
+      ...{ outDir: join(built, "oldest"), target: "es2022" },
+      // Making it small says nothing of whether it works.
+      minify: false,
+      rolldownOptions: { input: join(examples, "vite/index.html") },
+    },
   });
 }
 
@@ -54,6 +71,9 @@ const policy = /^Content-Security-Policy: (.*)$/m.exec(
 function serve(): Promise<Server> {
   const folders = [
     ["/cesium/", cesium],
+    ["/cesium-oldest/Assets/", join(oldest, "Source/Assets")],
+    ["/cesium-oldest/Workers/", join(oldest, "Build/Workers")],
+    ["/cesium-oldest/ThirdParty/", join(oldest, "Build/ThirdParty")],
     ["/node_modules/", join(projectRoot, "node_modules")],
     ["/groma/", join(projectRoot, "layer/dist")],
     ["/clouds/", clouds],
@@ -100,6 +120,7 @@ afterAll(async () => {
 
 it.each([
   ["vite", "vite/index.html?"],
+  ["the oldest Cesium", "oldest/vite/index.html?"],
   ["react", "react/index.html?"],
   ["vue", "vue/index.html?"],
   ["webpack", "webpack/index.html?"],
@@ -112,7 +133,7 @@ it.each([
   await shown.waitFor({ timeout: 200_000 }).catch(() => undefined);
   expect([watch.errors, watch.foreign]).toEqual([[], []]);
   expect(Number.parseInt(await shown.innerText(), 10)).toBeGreaterThan(1_000);
-  await screenshot(page, `example-${name}`);
+  await screenshot(page, `example-${name.replaceAll(" ", "-")}`);
   await page.context().close();
 });
 

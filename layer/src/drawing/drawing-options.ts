@@ -36,6 +36,7 @@ export const DRAWING_KINDS: Kinds<
 export interface PickOptions {
   /** Edge of the square around it in which the nearest point counts, CSS pixels, at most 1000. Default: 9. */
   readonly window?: number | undefined;
+  /** Stops it; what is asked for ends with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
 }
 

@@ -19,6 +19,7 @@ export const USUAL_GROUND: GroundOptions = { interval: 1 };
 
 /** How the picture of a profile is written. */
 export interface PictureFileOptions extends DocumentOptions {
+  /** Both true to scale. */
   readonly format: "pdf" | "svg";
 }
 

@@ -36,6 +36,7 @@ export interface ExportProgress {
 
 /** What every export may be given. */
 export interface ExportOptions {
+  /** Stops it; what is asked for ends with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
   /** Told after each node. */
   readonly onProgress?: ((progress: ExportProgress) => void) | undefined;

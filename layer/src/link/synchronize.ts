@@ -32,6 +32,7 @@ import { type Move, ViewLink, type ViewMode } from "./view-link.js";
 export interface LinkOptions {
   /** A `Viewer` or a `CesiumWidget` of Cesium. */
   readonly viewer: { readonly scene: Scene };
+  /** A `Map` of OpenLayers. */
   readonly map: OlMap;
   /**
    * Which view follows which: `both`, the map only (`to-map`), the globe only (`to-globe`), or `none`. Default: `both`;

@@ -12,6 +12,7 @@ import type { PointCloudSource } from "./point-cloud-source.js";
 export interface PointCloudLayerOptions
   extends DrawingOptions,
     Omit<LayerOptions<PointCloudSource>, "render" | "source"> {
+  /** The points; without one the layer draws nothing. */
   readonly source?: PointCloudSource | undefined;
 }
 

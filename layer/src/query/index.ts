@@ -5,7 +5,6 @@ export { openPage } from "./open-page.js";
 export { Pace } from "./pace.js";
 export {
   type BoxRelation,
-  everyRecord,
   ofClasses,
   type PointBatch,
   type PointBracket,

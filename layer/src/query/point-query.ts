@@ -240,8 +240,7 @@ export class PointQuery {
   }
 }
 
-/** Indices of all records of a node. */
-export function everyRecord(count: number): Uint32Array {
+function everyRecord(count: number): Uint32Array {
   const indices = new Uint32Array(count);
   for (let index = 0; index < count; index++) indices[index] = index;
   return indices;

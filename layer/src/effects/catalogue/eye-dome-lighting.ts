@@ -13,6 +13,7 @@ export interface EyeDomeLighting {
   readonly neighbours: 4 | 8;
 }
 
+/** Shading by depth in a style. */
 export interface EyeDomeStyle {
   /**
    * Shading by depth (thesis, 4.4); `auto`: where colours do not show the shape. Numbers that are left out stay as they

@@ -2,6 +2,7 @@ import { MEASUREMENT_KINDS, type MeasurementKind } from "../measure/index.js";
 import type { MeasureTool } from "./measure-tool.js";
 import type { MeasureWords } from "./words.js";
 
+/** How a tool bar looks. */
 export interface MeasureControlOptions {
   /** Which buttons there are, in their order. Default: one for each kind. */
   readonly kinds?: readonly MeasurementKind[] | undefined;

@@ -14,6 +14,7 @@ export interface GroundOptions extends WorthOptions {
   readonly radius?: number | undefined;
   /** Default: 2, ground. */
   readonly classes?: ReadonlySet<number> | undefined;
+  /** Stops it; what is asked for ends with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
 }
 

@@ -18,6 +18,7 @@ export interface Terrain {
 }
 
 export interface AboveTerrainOptions extends WorthOptions {
+  /** Stops it; what is asked for ends with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
 }
 

@@ -17,6 +17,7 @@ export interface ReadValuesOptions extends WorthOptions {
   readonly clouds?: readonly MeasuredCloud[] | undefined;
   /** For heights above the ground: the terrain's is told too. */
   readonly terrain?: Terrain | undefined;
+  /** Stops it; what is asked for ends with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
   /** Hears the share of the work that is done, 0 to 1. */
   readonly onProgress?: ((share: number) => void) | undefined;
