@@ -10,7 +10,7 @@ const markup: ExtractorType = {
   match: (file) => file.endsWith(".html"),
   extract(file, code, found) {
     const { document } = parseHTML(code || readFileSync(file, "utf8"));
-    for (const { words } of textsOf(document)) found({ id: words, origin: [file, 0] });
+    for (const { words } of textsOf(document.body)) found({ id: words, origin: [file, 0] });
   },
 };
 

@@ -7,6 +7,8 @@ import {
   Viewer,
 } from "cesium";
 import { i18n } from "./language/i18n.js";
+import { libraryWords } from "./language/library-words.js";
+import { textsOf } from "./language/markup.js";
 import { PageError } from "./panel/page-error.js";
 
 /**
@@ -48,6 +50,9 @@ export function createViewer(container: HTMLElement): Viewer {
     });
   }
   const { scene, canvas } = viewer;
+  for (const root of [container, credits]) {
+    for (const text of textsOf(root)) text.write(libraryWords(text.words));
+  }
   // With this role screen readers leave the keys to the globe.
   canvas.setAttribute("role", "application");
   canvas.setAttribute("aria-label", i18n.t("Globe with the point cloud, question mark for its keys"));

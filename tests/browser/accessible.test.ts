@@ -63,6 +63,88 @@ it("the page with globe and map has nothing that axe objects to", { timeout: 180
   await screenshot(page, "accessible-320");
 });
 
+/** Elements of the page that stand out of the window, at the side. */
+function outside(): Promise<string[]> {
+  return page.evaluate(() =>
+    Array.from(document.querySelectorAll<HTMLElement>("main, main *, aside *, dialog *"))
+      .filter((element) => {
+        const { left, right, width } = element.getBoundingClientRect();
+        return width > 0 && (left < -1 || right > innerWidth + 1);
+      })
+      .map(({ tagName, id, className }) => `${tagName} #${id} .${className}`),
+  );
+}
+
+it("turns round where lines run from right to left", { timeout: 60_000 }, async () => {
+  await page.setViewportSize({ width: 1000, height: 700 });
+  const sides = (direction: string) =>
+    page.evaluate((dir) => {
+      document.documentElement.dir = dir;
+      const boxOf = (selector: string) => document.querySelector(selector)!.getBoundingClientRect();
+      const [panel, credits] = [boxOf("#panel"), boxOf(".credits")];
+      return [panel.left, innerWidth - panel.right, credits.left, innerWidth - credits.right].map(Math.round);
+    }, direction);
+  const [start, end, ahead, behind] = await sides("ltr");
+  expect([start, behind]).toEqual([12, 12]);
+  expect(await sides("rtl")).toEqual([end, start, behind, ahead]);
+  expect(await outside()).toEqual([]);
+  await screenshot(page, "accessible-rtl");
+  await page.setViewportSize({ width: 320, height: 640 });
+  expect(await outside()).toEqual([]);
+  await sides("ltr");
+});
+
+it("serves readers with colours of their own, large text and no motion", { timeout: 60_000 }, async () => {
+  await page.emulateMedia({ forcedColors: "active", reducedMotion: "reduce" });
+  // 1280 px at 200 %.
+  await page.setViewportSize({ width: 640, height: 360 });
+  expect(await outside()).toEqual([]);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(640);
+  const lookOf = (pressed: boolean) =>
+    page.evaluate((state) => {
+      const button = document.querySelector("#walk")!;
+      button.setAttribute("aria-pressed", String(state));
+      return getComputedStyle(button).backgroundColor;
+    }, pressed);
+  expect(await lookOf(true)).not.toBe(await lookOf(false));
+  await screenshot(page, "accessible-forced-colours");
+  // From the click on, the camera is where it was to come.
+  const pitch = await page.evaluate(() => {
+    document.querySelector<HTMLElement>("#north-up")!.click();
+    document.querySelector<HTMLElement>("#above")!.click();
+    return new Promise<number>((resolve) => {
+      window.groma.viewer.scene.postRender.addEventListener(() => resolve(window.groma.viewer.camera.pitch));
+      window.groma.viewer.scene.requestRender();
+    });
+  });
+  expect(pitch).toBeCloseTo(-Math.PI / 2, 3);
+  expect(await page.evaluate(() => document.getAnimations().length)).toBe(0);
+  await page.emulateMedia({ forcedColors: "none", reducedMotion: "no-preference" });
+});
+
+it("asks before another language loses what was measured", { timeout: 60_000 }, async () => {
+  const note = () => page.textContent("#language-note");
+  await page.evaluate(() => {
+    const { measure, layer } = window.groma;
+    const [longitude, latitude, height] = [0.1, 0, 1];
+    const place = { ...{ longitude, latitude, height }, ecef: [6_300_000, 630_000, 0] as const };
+    measure.add([
+      { id: "kept", kind: "point", name: "7", vertices: [{ ...place, cloud: layer.cloud } as never] },
+    ]);
+  });
+  await page.selectOption("#language", "ja");
+  expect(await note()).toContain("measurements that are not saved are lost");
+  expect(await page.getAttribute("html", "lang")).toBe("en");
+  await page.evaluate(() => window.groma.measure.remove("kept"));
+  await page.selectOption("#language", "en");
+  expect(await note()).toBe("");
+  await page.selectOption("#language", "ja");
+  await page.waitForFunction(() => document.documentElement.lang === "ja");
+  await page.waitForSelector("#language");
+  await page.selectOption("#language", "en");
+  await page.waitForFunction(() => document.documentElement.lang === "en");
+});
+
 it("so has the page that says what went wrong", { timeout: 60_000 }, async () => {
   await page.goto(new URL("?cloud=none.copc.laz", server.address).href);
   await page.waitForSelector("#message:not(:empty)", { timeout: 50_000 });

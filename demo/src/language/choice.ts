@@ -34,7 +34,7 @@ async function show({ code, direction }: Language): Promise<void> {
   }
   document.documentElement.lang = code;
   document.documentElement.dir = direction;
-  for (const text of textsOf(document)) text.write(i18n.t(text.words));
+  for (const text of textsOf(document.body)) text.write(i18n.t(text.words));
 }
 
 /** Keeps a language for this visit and the next. @returns false where the browser keeps nothing */

@@ -81,6 +81,10 @@ const WORDS: ReadonlySet<string> = new Set([
   /*i18n*/ "metre",
   /*i18n*/ "foot",
   /*i18n*/ "US survey foot",
+  // What Cesium writes on the page
+  /*i18n*/ "Data attribution",
+  /*i18n*/ "Close data attribution",
+  /*i18n*/ "Data provided by:",
   // What keys do, and those that have names
   /*i18n*/ "Arrow keys",
   /*i18n*/ "Shift + arrow keys",

@@ -8,9 +8,9 @@ export interface MarkupText {
   write(words: string): void;
 }
 
-/** The texts of a page's markup, but for what says `translate="no"`, as names and examples of input do. */
-export function textsOf(page: Document): MarkupText[] {
-  return Array.from(page.querySelectorAll("body *:not(script)"))
+/** The texts of markup within an element, but for what says `translate="no"`, as names and examples of input do. */
+export function textsOf(root: Element): MarkupText[] {
+  return Array.from(root.querySelectorAll("*:not(script, style)"))
     .filter((element) => !element.closest('[translate="no"]'))
     .flatMap((element) => [...attributesOf(element), ...ownTexts(element)])
     .filter(({ words }) => /\p{L}/u.test(words));

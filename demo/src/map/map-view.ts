@@ -11,6 +11,7 @@ import {
 } from "@groma/layer/openlayers";
 import type { ViewAdapter } from "@groma/layer/tools";
 import { buildModuleUrl, type Viewer } from "cesium";
+import { defaults } from "ol/control/defaults.js";
 import { boundingExtent } from "ol/extent.js";
 import TileLayer from "ol/layer/Tile.js";
 import OlMap from "ol/Map.js";
@@ -19,6 +20,7 @@ import { fromLonLat, get as projectionOf } from "ol/proj.js";
 import TileImage from "ol/source/TileImage.js";
 import TileGrid from "ol/tilegrid/TileGrid.js";
 import View from "ol/View.js";
+import { i18n } from "../language/i18n.js";
 import { textElement } from "../panel/elements.js";
 import { freeArea } from "../panel/fold.js";
 
@@ -57,6 +59,11 @@ export class MapView {
     this.map = new OlMap({
       target,
       layers: [baseMap()],
+      controls: defaults({
+        zoomOptions: { zoomInTipLabel: i18n.t("Zoom in"), zoomOutTipLabel: i18n.t("Zoom out") },
+        rotateOptions: { tipLabel: i18n.t("North up") },
+        attributionOptions: { tipLabel: i18n.t("Sources of the map") },
+      }),
       // Turned as the globe is, also by a degree.
       view: new View({ center: [0, 0], zoom: 1, maxZoom: 26, constrainRotation: false }),
     });

@@ -1,5 +1,6 @@
 import type { AttributeInfo } from "@groma/layer/cesium";
 import { i18n } from "../language/i18n.js";
+import { libraryWords } from "../language/library-words.js";
 
 const LABELS: ReadonlyMap<string, string> = new Map(
   Object.entries({
@@ -27,5 +28,5 @@ export function attributeLabel({
   unit,
 }: Pick<AttributeInfo, "name"> & Partial<AttributeInfo>): string {
   const text = LABELS.get(name) ?? label ?? name;
-  return unit ? `${text} (${unit})` : text;
+  return unit ? `${text} (${libraryWords(unit)})` : text;
 }

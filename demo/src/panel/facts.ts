@@ -3,7 +3,7 @@ import { printable } from "@groma/georef/printable";
 import type { PointCloudLayer, SourceWarning } from "@groma/layer/cesium";
 import { i18n } from "../language/i18n.js";
 import { libraryWords } from "../language/library-words.js";
-import { noteWords } from "../language/note-words.js";
+import { type Note, noteWords } from "../language/note-words.js";
 import { byId, setText, textElement } from "./elements.js";
 import {
   accuracyWords,
@@ -38,12 +38,12 @@ export function showFacts({ cloud, nodeLoaded }: PointCloudLayer, { given }: { g
   const facts = byId("facts", HTMLDListElement);
   facts.replaceChildren(
     ...fact(i18n.t("Points"), { text: countWords(pointCount) }, doubts),
-    ...fact(i18n.t("Coordinate system"), crsWords(crs, { given })),
+    ...named(i18n.t("Coordinate system"), crsWords(crs, { given })),
     ...fact(i18n.t("Height"), heightWords(crs, { geoids, remark })),
     ...fact(
       i18n.t("Placed by"),
       engineWords(cloud),
-      ...warningsOf(operation, { remark }).map(warning),
+      ...warningsOf(operation, { remark }).map((note) => noteElement(note, "warning")),
       ...operationOf(operation),
       ...lackingOf(operation),
     ),
@@ -54,7 +54,7 @@ export function showFacts({ cloud, nodeLoaded }: PointCloudLayer, { given }: { g
 
 /** Writes what a data set says of itself and does not hold. */
 function showDoubts(place: HTMLElement, warnings: readonly SourceWarning[]): void {
-  place.replaceChildren(...warnings.map(({ message }) => warning(message)));
+  place.replaceChildren(...warnings.map(({ message }) => noteElement(noteWords(message), "warning")));
 }
 
 function fact(term: string, { text, note }: Words, ...more: HTMLElement[]): HTMLElement[] {
@@ -64,14 +64,23 @@ function fact(term: string, { text, note }: Words, ...more: HTMLElement[]): HTML
   return [textElement("dt", term), value];
 }
 
-function warning(text: string): HTMLElement {
-  return textElement("small", text, "warning");
+/** A fact that is a name: registries have them in English. */
+function named(term: string, { text, note }: Words): HTMLElement[] {
+  const [title, value] = fact(term, note === undefined ? { text: "" } : { text: "", note });
+  value!.prepend(nameElement(text));
+  return [title!, value!];
+}
+
+function nameElement(name: string): HTMLElement {
+  const element = textElement("span", name);
+  element.lang = "en";
+  return element;
 }
 
 /** The name of the operation, a step after the other, folded away. */
 function operationOf(operation: OperationReport | undefined): HTMLElement[] {
   if (!operation) return [];
-  const steps = operation.name.split(" + ").map((step) => row([textElement("span", step)], undefined));
+  const steps = operation.name.split(" + ").map((step) => row([nameElement(step)], undefined));
   return [folded(i18n.t("operation"), steps)];
 }
 
@@ -79,7 +88,9 @@ function operationOf(operation: OperationReport | undefined): HTMLElement[] {
 function lackingOf(operation: OperationReport | undefined): HTMLElement[] {
   const lacking = lackingWords(operation);
   if (lacking.length === 0) return [];
-  const items = lacking.map(({ text, note }) => row([textElement("span", text)], note));
+  const items = lacking.map(({ text, note }) =>
+    row([nameElement(text)], note === undefined ? undefined : { text: note, translated: true }),
+  );
   return [
     folded(
       i18n.t("{count, plural, one {# better operation} other {# better operations}}, grids missing", {
@@ -93,12 +104,15 @@ function lackingOf(operation: OperationReport | undefined): HTMLElement[] {
 /** The parts of an accuracy, folded away. */
 function partsOf(parts: readonly AccuracyPart[]): HTMLElement {
   const items = parts.map(({ name, metres, note }) =>
-    row([textElement("span", libraryWords(name)), textElement("span", lengthWords(metres))], note),
+    row(
+      [textElement("span", libraryWords(name)), textElement("span", lengthWords(metres))],
+      note === undefined ? undefined : noteWords(note),
+    ),
   );
   return folded(i18n.t("{count, plural, one {# part} other {# parts}}", { count: parts.length }), items);
 }
 
-function row(cells: readonly HTMLElement[], note: string | undefined): HTMLElement {
+function row(cells: readonly HTMLElement[], note: Note | undefined): HTMLElement {
   const item = document.createElement("li");
   item.append(...cells);
   if (note) item.append(noteElement(note));
@@ -106,8 +120,7 @@ function row(cells: readonly HTMLElement[], note: string | undefined): HTMLEleme
 }
 
 /** A remark of the libraries. */
-function noteElement(note: string, className?: string): HTMLElement {
-  const { text, translated } = noteWords(note);
+function noteElement({ text, translated }: Note, className?: string): HTMLElement {
   const element = textElement("small", text, className);
   if (!translated) element.lang = "en";
   return element;

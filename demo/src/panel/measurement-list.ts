@@ -147,7 +147,9 @@ export class MeasurementList {
     const fact = (title: string, text: string, note?: string) => {
       const told = textElement("dd", text);
       if (note) told.title = note;
-      facts.append(textElement("dt", title), told);
+      const term = textElement("dt", title);
+      facts.append(term, told);
+      return term;
     };
     if (reading?.state === "reading")
       fact(
@@ -158,7 +160,12 @@ export class MeasurementList {
     try {
       for (const one of this.#tool.valuesOf(measurement))
         fact(titleOf(one), this.#words(one), unknownOf(one));
-      if (kind === "point") for (const [title, text] of placesOf(vertices[0])) fact(title, text);
+      if (kind !== "point") return;
+      for (const [title, text] of placesOf(vertices[0])) {
+        const term = fact(title, text);
+        // Registries have names of systems in English.
+        if (title === vertices[0]?.cloud?.crs.name) term.lang = "en";
+      }
     } catch (thrown) {
       fact(i18n.t("no value"), shortlyOf(thrown));
     }

@@ -16,7 +16,7 @@ const scalar = ({ style, cloud }: Layer) =>
 const spaced = ({ style }: Layer) => style.size !== "fixed";
 const lit = ({ style }: Layer) => style.eyeDomeLighting !== false;
 
-/** What the values of a style are called; gradients have names of their own, the same in every language. */
+/** What the values of a style are called; viridis, cividis and turbo are names, the same in every language. */
 const STYLE_WORDS: ReadonlyMap<string, string> = new Map([
   ["auto", i18n.t("auto")],
   ["fixed", i18n.t("fixed")],
@@ -25,6 +25,9 @@ const STYLE_WORDS: ReadonlyMap<string, string> = new Map([
   ["square", i18n.t("square")],
   ["disc", i18n.t("disc")],
   ["paraboloid", i18n.t("paraboloid")],
+  ["spectral", i18n.t("spectral")],
+  ["greyscale", i18n.t("greyscale")],
+  ["terrain", i18n.t("terrain")],
 ]);
 
 /** The switches for everything in a style. */

@@ -75,7 +75,7 @@ describe("a cloud in words", () => {
     expect(said(`unknown: ${guess}`)).toBe(guess);
     expect(said("reference unknown, drawn as ellipsoidal")).toBe("drawn as ellipsoidal");
     const operation = { ...report, notes: [`height unknown: ${guess}`, "another"] };
-    expect(warningsOf(operation, { remark: `unknown: ${guess}` })).toEqual(["another"]);
+    expect(warningsOf(operation, { remark: `unknown: ${guess}` })).toMatchObject([{ text: "another" }]);
   });
 
   it("says above whose ellipsoid, and what is declared and not applied", () => {
@@ -108,8 +108,8 @@ describe("a cloud in words", () => {
     expect(lackingWords(report)).toEqual([
       { text: "RD to ITRF", note: "stated accuracy 10 cm; lacks c.tif" },
     ]);
-    expect(warningsOf(report)).toEqual(["outside of the grids"]);
-    expect(warningsOf({ ...report, ballpark: true })[0]).toContain("hundreds of metres");
+    expect(warningsOf(report).map(({ text }) => text)).toEqual(["outside of the grids"]);
+    expect(warningsOf({ ...report, ballpark: true })[0]!.text).toContain("hundreds of metres");
   });
 
   it("says so where the page derives the places itself, or where they were given", () => {

@@ -2,7 +2,7 @@ import { type Crs, EGM96, EGM96_ACCURACY, type OperationReport, type StatedAccur
 import type { PointCloud } from "@groma/layer/cesium";
 import { i18n } from "../language/i18n.js";
 import { libraryWords } from "../language/library-words.js";
-import { noteWords } from "../language/note-words.js";
+import { type Note, noteWords } from "../language/note-words.js";
 
 /** A fact and, where there is one, a remark to it. */
 export interface Words {
@@ -101,11 +101,11 @@ export function engineWords({ engine, operation }: Pick<PointCloud, "engine" | "
 export function warningsOf(
   operation: OperationReport | undefined,
   { remark }: { remark?: string | undefined } = {},
-): string[] {
+): Note[] {
   if (!operation) return [];
   const ballpark = i18n.t("No datum shift is applied: positions may be off by hundreds of metres.");
   const notes = operation.notes.filter((note) => !(remark && note.includes(remark)));
-  return [...(operation.ballpark ? [ballpark] : []), ...notes];
+  return [...(operation.ballpark ? [{ text: ballpark, translated: true }] : []), ...notes.map(noteWords)];
 }
 
 /** Better operations whose grids the conversion did not have. */
