@@ -129,7 +129,14 @@ describe.skipIf(pythonMissing)(
       const [beside, away, top] = [await colourAt(4.12, 0), await colourAt(8, 0), await colourAt(0, 0)];
       expect(away[0]! - beside[0]!).toBeGreaterThan(20);
       expect(Math.abs(away[0]! - top[0]!)).toBeLessThan(8);
+      const ran = () =>
+        stage.page.evaluate(() => {
+          const { ledger } = window.map.stage.layer;
+          return ledger.filter(({ effect, active }) => effect === "eyeDomeLighting" && active).length;
+        });
+      expect(await ran()).toBe(1);
       await change({ style: { eyeDomeLighting: false } });
+      expect(await ran()).toBe(0);
       expect(Math.abs((await colourAt(4.12, 0))[0]! - away[0]!)).toBeLessThan(8);
       await change({ style: { opacity: 0.5 } });
       expect(Math.abs((await colourAt(0, 0))[3]! - 128)).toBeLessThan(3);
@@ -327,17 +334,29 @@ describe.skipIf(pythonMissing)(
         };
         const { renderer, octree } = objects.placed;
         const before = Object.values(gpuObjects).reduce((sum, count) => sum + count, 0);
+        const { Clip, SharedBudget } = window.map.layer;
+        const { source } = stage;
+        const budget = new SharedBudget();
+        stage.layer.budget = budget;
+        await stage.complete();
+        const shared = [budget.granted > 0, budget.gpu.used > 0];
         const nameOf = (thrown: Error) => thrown.name;
         const onItsWay = stage.layer.pick([300, 200]).then(String, nameOf);
         stage.map.removeLayer(stage.layer);
         stage.layer.dispose();
         stage.source.dispose();
         const picks = [await onItsWay, await stage.layer.pick([300, 200]).then(String, nameOf)];
+        // Whatever it was given has forgotten it.
+        let changes = 0;
+        stage.layer.changed = () => changes++;
+        stage.layer.clips.add(Clip.box({ center: { source: [500_000, 5_200_000, 500] }, size: [4, 4, 4] }));
+        budget.points = 5;
+        source.changed();
         const found = [await stage.layer.getFeatures([300, 200]), stage.layer.getData([300, 200])];
         const after = Object.values(renderer.objects.counts).reduce((sum, count) => sum + count, 0);
         return {
-          picks,
-          found,
+          ...{ picks, found, changes, shared },
+          kept: [budget.granted, budget.gpu.used, source.hasListener("change")],
           before,
           after,
           bytes: octree.stream.bytes,
@@ -348,6 +367,7 @@ describe.skipIf(pythonMissing)(
       expect([seen.after, seen.bytes, seen.canvases]).toEqual([0, 0, 0]);
       expect(seen.picks).toEqual(["AbortError", "AbortError"]);
       expect(seen.found).toEqual([[], null]);
+      expect([seen.shared, seen.kept, seen.changes]).toEqual([[true, true], [0, 0, false], 0]);
       expect(stage.watch.errors).toEqual([]);
     });
   },

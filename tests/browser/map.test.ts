@@ -88,6 +88,42 @@ describe.skipIf(missing)(`Autzen on maps of OpenLayers${missing ? ` (skipped: ${
     expect(stage.watch.errors).toEqual([]);
   });
 
+  it("draws finer levels the closer the map comes, and none that shows no more", {
+    timeout: 120_000,
+  }, async () => {
+    const { points } = referee;
+    const center = [0, 1].map(
+      (axis) => points.reduce((sum, { "EPSG:32610": at }) => sum + at[axis]!, 0) / points.length,
+    );
+    const seen = await stage.page.evaluate(async (center) => {
+      const { stage } = window.map;
+      const found: (readonly [spacing: number, deepest: number])[] = [];
+      for (const resolution of [8, 2, 0.5]) {
+        await stage.show({ projection: "EPSG:32610", center, resolution });
+        const { placed } = stage.layer.getRenderer() as never as {
+          placed: {
+            renderer: { content: { nodes: { count: number; node: { key: { depth: number } } }[] } };
+            octree: { bounds: { spacing: number } };
+          };
+        };
+        const depths = placed.renderer.content.nodes.flatMap(({ count, node }) =>
+          count > 0 ? [node.key.depth] : [],
+        );
+        const deepest = Math.max(...depths);
+        found.push([placed.octree.bounds.spacing / 2 ** deepest / resolution, deepest]);
+      }
+      return found;
+    }, center);
+    const deepest = seen.map(([, depth]) => depth);
+    expect(new Set(deepest).size).toBe(3);
+    expect(deepest).toEqual(deepest.toSorted((a, b) => a - b));
+    // By default points lie 2 pixels of the canvas apart at most, and a level whose points do needs none below it: at 8 m and 2 m.
+    for (const [pixels] of seen.slice(0, 2)) {
+      expect(RATIO * pixels).toBeLessThanOrEqual(2);
+      expect(RATIO * pixels).toBeGreaterThan(1);
+    }
+  });
+
   it.each(CODES.flatMap((code) => ROTATIONS.map((rotation) => [code, rotation] as const)))(
     "puts 100 points in %s, turned by %f, on PROJ's pixel",
     { timeout: 120_000 },
