@@ -235,6 +235,29 @@ describe.skipIf(scan.missing)(
       await page.keyboard.press("ArrowUp");
       const top = await page.evaluate(() => document.getElementById("map")!.getBoundingClientRect().top);
       expect(top).toBeCloseTo(0.45 * 700, 3);
+      const bar = await page.evaluate(() =>
+        document.getElementById("split")!.getBoundingClientRect().toJSON(),
+      );
+      await page.mouse.move(bar.x + bar.width / 2, bar.y + bar.height / 2);
+      await page.mouse.down();
+      await page.mouse.move(200, 420, { steps: 3 });
+      await page.mouse.up();
+      const dragged = await page.evaluate(() => document.getElementById("map")!.getBoundingClientRect().top);
+      expect(dragged).toBeCloseTo(420, 0);
+      // The base map that comes with the page lies below the points, on all of the map.
+      const bare = await page.evaluate(async () => {
+        const { map } = (await window.groma.beside.view)!;
+        await new Promise<void>((resolve) => {
+          map.once("rendercomplete", () => resolve());
+          map.render();
+        });
+        const { width, height } = document.querySelector<HTMLCanvasElement>("#map .base canvas")!;
+        const context = new OffscreenCanvas(width, height).getContext("2d")!;
+        context.drawImage(document.querySelector<HTMLCanvasElement>("#map .base canvas")!, 0, 0);
+        const { data } = context.getImageData(0, 0, width, height);
+        return data.filter((value, at) => at % 4 === 3 && value === 0).length / (width * height);
+      });
+      expect(bare).toBe(0);
       await page.context().close();
     });
   },
