@@ -222,6 +222,45 @@ describe.skipIf(scan.missing)(
       await page.context().close();
     });
 
+    it("shows all of the cloud alone, without a frame of the globe from the start", {
+      timeout: 240_000,
+    }, async () => {
+      const { page, watch } = await openPage(browser, { width: 800, height: 500 });
+      await page.goto(`${server.address}&map=only&fly=0&budget=50000`);
+      await page.waitForFunction(
+        () => document.getElementById("stage")?.textContent === "This view is complete.",
+        undefined,
+        { timeout: 120_000 },
+      );
+      const seen = await page.evaluate(async () => {
+        const { viewer, beside, layer } = window.groma;
+        const { frameState } = viewer.scene as unknown as { frameState: { frameNumber: number } };
+        const { map } = (await beside.view)!;
+        const [minX, minY, maxX, maxY] = map.getView().calculateExtent() as [number, number, number, number];
+        const { min, max } = layer.cloud.boundingBox;
+        const [x, y, z] = layer.cloud.place(
+          ...([0, 1, 2].map((axis) => (min[axis]! + max[axis]!) / 2) as [number, number, number]),
+        );
+        const middle = viewer.scene.globe.ellipsoid.cartesianToCartographic({ x, y, z } as never)!;
+        const at = [middle.longitude * 6378137, Math.asinh(Math.tan(middle.latitude)) * 6378137];
+        return {
+          frames: frameState.frameNumber,
+          drawn: beside.statistics!.pointsDrawn,
+          within: at[0]! > minX && at[0]! < maxX && at[1]! > minY && at[1]! < maxY,
+          width: maxX - minX,
+        };
+      });
+      await screenshot(page, "map-alone-from-the-start");
+      expect(seen.frames).toBeLessThanOrEqual(1);
+      expect(seen.drawn).toBeGreaterThan(10_000);
+      expect(seen.within).toBe(true);
+      // Autzen is 1.1 km wide, 1.5 km in Mercator's plane.
+      expect(seen.width).toBeGreaterThan(1500);
+      expect(seen.width).toBeLessThan(10_000);
+      expect(watch.errors).toEqual([]);
+      await page.context().close();
+    });
+
     it("stands below the globe on a phone", { timeout: 240_000 }, async () => {
       const { page } = await openPage(browser, { width: 400, height: 700 });
       await page.goto(`${server.address}&map=1&fly=0&budget=50000`);
