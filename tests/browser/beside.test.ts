@@ -248,6 +248,8 @@ describe.skipIf(scan.missing)(
           drawn: beside.statistics!.pointsDrawn,
           within: at[0]! > minX && at[0]! < maxX && at[1]! > minY && at[1]! < maxY,
           width: maxX - minX,
+          pixel: map.getPixelFromCoordinate(at)[0]!,
+          covered: document.getElementById("panel")!.getBoundingClientRect().right,
         };
       });
       await screenshot(page, "map-alone-from-the-start");
@@ -255,6 +257,8 @@ describe.skipIf(scan.missing)(
       expect(seen.drawn).toBeGreaterThan(10_000);
       expect(seen.within).toBe(true);
       // Autzen is 1.1 km wide, 1.5 km in Mercator's plane.
+      // And it lies in the middle of what the panel leaves of the map.
+      expect(Math.abs(seen.pixel - (seen.covered + 800) / 2)).toBeLessThan(10);
       expect(seen.width).toBeGreaterThan(1500);
       expect(seen.width).toBeLessThan(10_000);
       expect(watch.errors).toEqual([]);

@@ -113,7 +113,8 @@ export class MapView {
     if (!options) return;
     const { marks } = options;
     const shown = { footprint: marks, camera: marks, cursor: marks };
-    const views = { viewer: this.#viewer, map: this.map, middle };
+    // Beside the globe the map lies free; in its place the panel covers both alike.
+    const views = { viewer: this.#viewer, map: this.map, middle: marks ? middle : undefined };
     this.#link ??= synchronize({ ...views, ...shown, onError: this.#failed });
     if (options.northUp) this.map.getView().setRotation(0);
     this.#link.northUp = options.northUp;
