@@ -2,6 +2,7 @@ import { join } from "node:path";
 import { lingui } from "@lingui/vite-plugin";
 import { defineConfig } from "vite";
 import { cesiumFiles } from "./vite/cesium-files.js";
+import { knockoutWithoutEval } from "./vite/knockout.js";
 import { thirdPartyNotices } from "./vite/notices.js";
 import { completeWords } from "./vite/words.js";
 
@@ -17,6 +18,7 @@ export default defineConfig({
     }),
     completeWords(),
     cesiumFiles(),
+    knockoutWithoutEval(),
     thirdPartyNotices(),
   ],
   resolve: { dedupe: ["cesium", "ol", "proj4"] },

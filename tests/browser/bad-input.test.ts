@@ -65,6 +65,18 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
     expect(await page.textContent("#message")).toContain("groma view");
   });
 
+  it("PAGE_WEBGL: a browser without WebGL", async () => {
+    await page.addInitScript(() => {
+      const get = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...rest) {
+        return /webgl/.test(kind) ? null : get.call(this, kind, ...rest);
+      } as typeof get;
+    });
+    await show(goodCloud);
+    expect(await told()).toBe("PAGE_WEBGL");
+    expect(await page.textContent("#message")).toContain("hardware acceleration");
+  });
+
   /** The same page opens and draws a good cloud after all that; no exception went unhandled. */
   async function livesOn(): Promise<void> {
     if (!(await page.locator("#chooser").evaluate((chooser: HTMLDetailsElement) => chooser.open))) {
