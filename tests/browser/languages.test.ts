@@ -96,6 +96,12 @@ async function open(locale: string): Promise<Page> {
     );
   });
   await page.waitForSelector("#profile-table tbody tr");
+  // An error of a library: English, below a sentence that is not.
+  await page.evaluate(() => {
+    document.querySelector<HTMLInputElement>("#address")!.value = "none.copc.laz";
+    document.querySelector<HTMLFormElement>("#by-address")!.requestSubmit();
+  });
+  await page.waitForSelector("#message .told + [lang=en]");
   return page;
 }
 

@@ -27,8 +27,10 @@ export class Message {
     const told = sentenceFor(thrown);
     // What stays English is read out as English.
     if (told !== undefined) for (const element of detail) element.lang = "en";
+    const stable = textElement("p", code, "code");
+    stable.translate = false;
     this.#place.replaceChildren(
-      textElement("p", code, "code"),
+      stable,
       ...(told === undefined ? [] : [textElement("p", told, "told")]),
       ...detail,
       buttons,
