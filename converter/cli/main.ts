@@ -202,7 +202,7 @@ const profile = program
       .makeOptionMandatory(),
   )
   .addOption(
-    new Option("--stations <how>", "how chainage is counted: in the plane, or along geodesics in metres")
+    new Option("--stations <how>", "how chainage is counted: in the plane, or along geodesics")
       .choices(["grid", "geodesic"])
       .default("grid"),
   )
@@ -260,7 +260,6 @@ const profile = program
     const { sections, interval, at } = options;
     if (sections && interval === undefined && at === undefined)
       command.error("error: --sections requires --interval or --at");
-    if (sections && options.clips) command.error("error: --clips does not go with --sections");
     if (!sections && (interval ?? at) !== undefined)
       command.error("error: --interval and --at require --sections");
     const asked = (statistic ?? groundInterval ?? groundClasses) !== undefined;

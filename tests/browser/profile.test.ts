@@ -312,6 +312,11 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
   await complete();
   expect(await page.evaluate(() => window.groma.profile.shown)).toBeGreaterThan(shown);
 
+  // By what tells the scan from others, which may have its name.
+  const [keys, identity] = await page.evaluate(
+    () => [Object.keys(localStorage), window.groma.layer.cloud.identity] as const,
+  );
+  expect(keys.filter((key) => key.startsWith("groma-profiles:"))).toEqual([`groma-profiles:${identity}`]);
   await page.reload();
   await page.waitForSelector("#profile-list:not([hidden])", { timeout: 60_000 });
   await settle(page);

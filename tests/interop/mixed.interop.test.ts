@@ -121,4 +121,61 @@ describe.skipIf(REFUSED)("a profile along an alignment", () => {
     expect(zip).toContain("section-2_5+050.000.csv");
     expect(run("profile.csv", "--line-name", "rail").stderr).toMatch(/FORMAT_ALIGNMENT.*"road"/s);
   });
+
+  it("is the same in feet as in metres: stations, equations, geodesics, and equations from another start", {
+    timeout: 240_000,
+  }, () => {
+    const write = (name: string, linearUnit: string, unit: number) => {
+      const [start, internal, ahead, y, x, north, east] = [
+        1000, 1100, 2000, 231350, 589600, 231450, 589800,
+      ].map((metres) => metres / unit);
+      const file = join(folder, name);
+      writeFileSync(
+        file,
+        `<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2"><Units><Imperial linearUnit="${linearUnit}"/></Units>
+<Alignments><Alignment name="road" staStart="${start}" length="0"><CoordGeom><Line><Start>${y} ${x}</Start><End>${north} ${east}</End></Line></CoordGeom>
+<StaEquation staInternal="${internal}" staAhead="${ahead}"/></Alignment></Alignments></LandXML>`,
+      );
+      return file;
+    };
+    const files = [write("m.xml", "meter", 1), write("ft.xml", "foot", 0.3048)];
+    const sections = (line: string, ...options: string[]) => {
+      const run = groma([
+        ...["profile", converted(road.path), converted(road.path), "--line", line, "--width", "20"],
+        ...[
+          "--sections",
+          "--interval",
+          "50",
+          "--files",
+          "csv",
+          "--out",
+          join(folder, "s.zip"),
+          "--overwrite",
+        ],
+        ...options,
+      ]);
+      expect(run).toMatchObject({ code: 0 });
+      // One file named twice is one file.
+      expect(run.stdout).toContain("from 1 file");
+      const zip = readFileSync(join(folder, "s.zip"), "latin1");
+      const rows = zip.slice(zip.lastIndexOf("section,station,")).split("sections.xml")[0]!.split("\r\n");
+      return rows.slice(1, -1).map((row) => row.split(","));
+    };
+    const named = (rows: string[][]) => rows.map(([, station]) => station);
+    for (const options of [
+      ["--stations", "geodesic"],
+      ["--start", "0"],
+    ]) {
+      const [metres, feet] = files.map((line) => sections(line, ...options));
+      expect(named(feet!)).toEqual(named(metres!));
+      for (const [index, row] of feet!.entries())
+        for (const column of [2, 3, 4]) {
+          const other = Number(metres![index]![column]);
+          expect(Math.abs(Number(row[column]) - other)).toBeLessThan(1e-6);
+        }
+      // The equation stands 100 m from the start, wherever that begins.
+      const from = options[1] === "0" ? "0+" : "1+";
+      expect(named(feet!).slice(0, 3)).toEqual([`${from}000.000`, `${from}050.000`, "2+000.000"]);
+    }
+  });
 });

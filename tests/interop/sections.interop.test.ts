@@ -3,6 +3,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { Clip } from "../../layer/src/clips/index.js";
 import { converted } from "../converted.js";
 import { data } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
@@ -15,6 +16,8 @@ const REFUSED = road.missing ?? coreMissing ?? pythonMissing;
 describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: ${REFUSED})` : ""}`, () => {
   let folder = "";
   let axis = "";
+  /** Points of the sections, without clips and with them. */
+  const counts: number[][] = [];
   beforeAll(() => {
     folder = mkdtempSync(join(tmpdir(), "groma-sections-"));
     axis = join(folder, "axis.geojson");
@@ -33,7 +36,9 @@ describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: $
       ...["--out", join(folder, out), "--overwrite", ...options],
     ]);
 
-  it("have just the records in their rectangles, and the ground of these, in one archive", () => {
+  it("have just the records in their rectangles, and the ground of these, in one archive", {
+    timeout: 240_000,
+  }, () => {
     const options = ["--sections", "--interval", "5", "--thickness", "1", "--ground", "p10"];
     const run = cut("sections.zip", ...options, "--files", "las,dxf,laz");
     expect(run).toMatchObject({ code: 0 });
@@ -45,11 +50,25 @@ describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: $
     expect(found.doubtful).toBeGreaterThan(0);
   });
 
-  it("are what a profile along the section alone is, byte for byte", () => {
-    expect(cut("one.zip", "--sections", "--at", "40,260", "--files", "las")).toMatchObject({ code: 0 });
+  it.each(["", "clips.json"])("are what a profile along the section alone is, byte for byte %s", (given) => {
+    const ring = [
+      [589500, 231300],
+      [589900, 231300],
+      [589870, 231447],
+      [589500, 231367],
+    ] as const;
+    const clips = given === "" ? [] : ["--clips", join(folder, given)];
+    if (clips[1])
+      writeFileSync(
+        clips[1],
+        JSON.stringify([Clip.polygon(ring, { coordinates: "source", mode: "inside" })]),
+      );
+    const run = cut("one.zip", "--sections", "--at", "40,260", "--files", "las", ...clips);
+    expect(run).toMatchObject({ code: 0 });
     execFileSync("python3", ["-m", "zipfile", "-e", join(folder, "one.zip"), folder]);
     const rows = readFileSync(join(folder, "sections.csv"), "utf8").trim().split("\r\n").slice(1);
     expect(rows).toHaveLength(2);
+    counts.push(rows.map((row) => Number(row.split(",").at(-1))));
     for (const row of rows) {
       const [number, station, , , , ...ends] = row.split(",");
       const [leftX, leftY, rightX, rightY] = ends.map(Number);
@@ -62,12 +81,18 @@ describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: $
       const out = join(folder, "alone.las");
       const run = groma([
         ...["profile", converted(road.path), "--line", line, "--line-crs", "source", "--width", "0.5"],
-        ...["--out", out, "--overwrite"],
+        ...["--out", out, "--overwrite", ...clips],
       ]);
       expect(run).toMatchObject({ code: 0 });
       const together = readFileSync(join(folder, `section-${number}_${station}.las`));
       expect(Buffer.compare(together, readFileSync(out))).toBe(0);
     }
+    // The clips leave some of the points of each section, and not all.
+    if (clips[1])
+      for (const [index, count] of counts[1]!.entries()) {
+        expect(count).toBeGreaterThan(0);
+        expect(count).toBeLessThan(counts[0]![index]!);
+      }
   });
 
   it("are refused in formats and at stations that there are not, before anything is read", () => {

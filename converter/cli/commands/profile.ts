@@ -1,13 +1,12 @@
 import { basename, extname } from "node:path";
-import type { PointSelection } from "@groma/layer/export";
-import { StationEquations, type StationOptions, stations } from "@groma/layer/tools";
+import { type StationEquation, StationEquations, type StationOptions, stations } from "@groma/layer/tools";
 import type { CutRequest } from "../cut/cut.js";
 import { readGivenLine } from "../cut/line-file.js";
 import { type NarrowingOptions, narrowing } from "../cut/narrowing.js";
 import type { GivenCrs } from "../cut/place.js";
-import { layLine } from "../cut/profile-line.js";
+import { type LaidLine, layLine } from "../cut/profile-line.js";
 import { crossSections } from "../cut/volumes.js";
-import type { CutOptions } from "../cut/writers.js";
+import type { CutOptions, WrittenStations } from "../cut/writers.js";
 import type { ProgressKind } from "../given/choices.js";
 import { tellCut } from "./cut.js";
 
@@ -22,9 +21,9 @@ export interface ProfileCommandOptions extends CutOptions, StationOptions, Narro
   readonly plane: "source" | "ellipsoid";
   /** Of the whole strip: source units, or metres where the line is in longitude and latitude. */
   readonly width: number;
-  /** How chainage is counted: in the plane, source units, or along geodesics, metres. */
+  /** How chainage is counted: in the plane, or along geodesics; source units. */
   readonly stations: "grid" | "geodesic";
-  /** Chainage at the start of the line, in the same unit. Default: what its file says, else 0. */
+  /** Chainage at the start of the line. Default: what its file says, else 0. */
   readonly start?: number;
   /** Cuts across the line, at an interval and at stations, instead of along it. */
   readonly sections?: true;
@@ -43,36 +42,36 @@ export async function runProfile(files: readonly string[], options: ProfileComma
   const { line: file, lineCrs, lineName, width, sections, thickness, spacing } = options;
   const { left = width / 2, right = width / 2, interval, at } = options;
   const line = await readGivenLine(file, lineName);
-  const { start = line.start } = options;
-  const { equations } = line;
-  const stationing = new StationEquations(equations);
-  const stationOf = (chainage: number) => stationing.stationOf(chainage).station;
-  const choices = { ...options, line, start, crs: lineCrs ?? line.usualCrs, given: file };
+  const choices = {
+    ...{ line, width, crs: lineCrs ?? line.usualCrs, given: file },
+    ...{ start: options.start, stations: options.stations, plane: options.plane },
+  };
   const narrow = await narrowing(options);
-  let facts: CutRequest["facts"];
+  let laid: LaidLine | undefined;
   const select: CutRequest["select"] = async (origin, all) => {
-    const { strip, unit, ellipsoid } = await layLine(origin, all, choices);
-    facts = ellipsoid?.facts;
+    laid = await layLine(origin, all, choices);
+    const { strip, unit, ellipsoid } = laid;
     const along = ellipsoid?.corridor(strip) ?? strip;
     if (!sections) return narrow({ origin, volume: along, along, spacing });
     const widths = { left: left * unit, right: right * unit, thickness: thickness * unit };
     const volume = crossSections(strip, (from, to) => stations(from, to, { interval, at }), widths);
     const parts = ellipsoid?.sections(volume) ?? volume;
-    // Of sections each has a volume of its own; what is recorded of points decides in all of them.
-    const { classes, filter, geodetic }: PointSelection = await narrow({ origin });
-    return { origin, volume: parts, line: along, spacing, classes, filter, geodetic };
+    return narrow({ origin, volume: parts, line: along, spacing });
   };
   const request: CutRequest = {
     title: basename(file, extname(file)),
     given: [file, options.clips],
     ...(sections && { sections }),
     select,
-    facts: (known) => facts?.(known) ?? known,
+    facts: (known) => laid?.ellipsoid?.facts(known) ?? known,
+    stationing: () => stationingOf(laid?.equations ?? []),
   };
-  await tellCut(
-    "profile",
-    files,
-    { ...options, ...(equations.length > 0 && { equations, stationOf }) },
-    request,
-  );
+  await tellCut("profile", files, options, request);
+}
+
+/** What documents say of stations that are counted anew; nothing where none are. */
+function stationingOf(equations: readonly StationEquation[]): WrittenStations {
+  if (equations.length === 0) return {};
+  const stationing = new StationEquations(equations);
+  return { equations, stationOf: (chainage) => stationing.stationOf(chainage).station };
 }

@@ -1,3 +1,4 @@
+import { realpath } from "node:fs/promises";
 import { basename } from "node:path";
 import { GromaError } from "@groma/georef";
 import type { CutFacts, ExportProgress } from "@groma/layer/export";
@@ -5,7 +6,7 @@ import { type OpenedPoints, openPoints } from "../files/points.js";
 import { requirePlace } from "../given/output-place.js";
 import { writeWhole } from "./output-file.js";
 import { factsOf, geodeticOf } from "./place.js";
-import { type CutOptions, type CutSelection, writerOf } from "./writers.js";
+import { type CutOptions, type CutSelection, type WrittenStations, writerOf } from "./writers.js";
 
 /** No point is where points are asked for. Code: SELECTION_EMPTY. */
 class SelectionError extends GromaError {
@@ -38,6 +39,8 @@ export interface CutRequest {
   ) => Promise<CutSelection>;
   /** What documents say of the coordinates, where that is not what the first file says. */
   readonly facts?: ((known: CutFacts) => CutFacts) | undefined;
+  /** How stations are written, once it is selected. Default: as chainages. */
+  readonly stationing?: (() => WrittenStations) | undefined;
 }
 
 /**
@@ -61,7 +64,7 @@ export async function cut(
   const opened: OpenedPoints[] = [];
   try {
     const selections: CutSelection[] = [];
-    for (const input of inputs) opened.push(await openPoints(input, signal));
+    for (const input of await different(inputs)) opened.push(await openPoints(input, signal));
     const all = opened.map(({ points }) => points);
     for (const one of all) {
       const selection = await select(one, all);
@@ -80,13 +83,21 @@ export async function cut(
         read = progress.read;
         onProgress(progress);
       };
-      points = await writer.write(selections, unfinished, { ...options, facts, signal, onProgress: told });
+      const stationing = request.stationing?.();
+      const how = { ...options, ...stationing, facts, signal, onProgress: told };
+      points = await writer.write(selections, unfinished, how);
       if (points === 0) throw empty(out);
     });
-    return { output: out, points, read, inputs: inputs.length, seconds: (performance.now() - began) / 1000 };
+    return { output: out, points, read, inputs: opened.length, seconds: (performance.now() - began) / 1000 };
   } finally {
     await Promise.all(opened.map((one) => one.close()));
   }
+}
+
+/** Inputs without those that are another's file once more, which would give its points twice. */
+async function different(inputs: readonly string[]): Promise<string[]> {
+  const paths = await Promise.all(inputs.map((input) => realpath(input).catch(() => input)));
+  return inputs.filter((_, index) => paths.indexOf(paths[index]!) === index);
 }
 
 const asKnown = (facts: CutFacts): CutFacts => facts;

@@ -8,7 +8,9 @@ import {
   CrossSectionsOnEllipsoid,
   type Geodetic,
   geodesicLengths,
+  inUnit,
   lineOnEllipsoid,
+  type StationEquation,
 } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
 import type { GivenLine } from "./line-file.js";
@@ -33,8 +35,8 @@ export interface LineChoices {
   readonly width: number;
   /** How chainage is counted. */
   readonly stations: "grid" | "geodesic";
-  /** Chainage at the start. */
-  readonly start: number;
+  /** Chainage at the start, which moves station equations too. Default: what its file says. */
+  readonly start: number | undefined;
   /** In which plane points are decided: that of the files, where they have one in common, or one of the ellipsoid. */
   readonly plane: "source" | "ellipsoid";
   /** File of the line, for errors. */
@@ -44,6 +46,8 @@ export interface LineChoices {
 /** A line as it lies in the plane of one file. */
 export interface LaidLine {
   readonly strip: Corridor;
+  /** Where stations are counted anew, in its chainage. */
+  readonly equations: readonly StationEquation[];
   /** Units of that plane for a unit of the lengths that were given. */
   readonly unit: number;
   /** The plane on the ellipsoid that the strip lies in; undefined: that of the file. */
@@ -67,7 +71,7 @@ export async function layLine(
   all: readonly RecordedPoints[],
   choices: LineChoices,
 ): Promise<LaidLine> {
-  const { line, crs, width, start, plane, given } = choices;
+  const { line, crs, width, plane, given } = choices;
   const { angles, different } = await known(all, crs);
   const onEllipsoid = plane === "ellipsoid" || different || (angles && crs !== "source");
   if (!onEllipsoid) return inPlaneOf(origin, choices);
@@ -84,13 +88,13 @@ export async function layLine(
   const radians = line.vertices.map(([x, y]) => [x * DEGREE, y * DEGREE] as const);
   const { plane: local, middle, vertices: positions } = lineOnEllipsoid(radians);
   const lengths = choices.stations === "geodesic" ? geodesicLengths(radians) : undefined;
+  const { start, equations } = stationsOf(inUnit(line, 1), choices.start);
   const strip = corridor({ positions, unit: 1 }, width, { lengths, start }, given);
   const geodetic: Geodetic = await radiansOf(origin);
   const { boundingBox } = origin.source;
   const about = middle.map((angle) => `${(angle / DEGREE).toFixed(4)}°`).join(", ");
   return {
-    strip,
-    unit: 1,
+    ...{ strip, equations, unit: 1 },
     ellipsoid: {
       corridor: (inner) => new CorridorOnEllipsoid(inner, local, geodetic, boundingBox),
       sections: (inner) => new CrossSectionsOnEllipsoid(inner, local, geodetic, boundingBox),
@@ -113,32 +117,30 @@ async function known(all: readonly RecordedPoints[], crs: GivenCrs): Promise<Pla
   }
 }
 
-/** In the plane of the file's own coordinates. */
+/** In the plane of the file's own coordinates, whose unit chainages have, those along geodesics too. */
 async function inPlaneOf(origin: RecordedPoints, choices: LineChoices): Promise<LaidLine> {
-  const { line, crs, width, stations, start, given } = choices;
-  const geodesic = stations === "geodesic" ? await lengthsOnEarth(line.vertices, crs, origin) : undefined;
-  const { positions, unit } = await inSource(line.vertices, crs, origin, given);
-  const own = crs === "source" ? await scaled(line, positions, origin) : { positions, lengths: undefined };
-  const strip = corridor(
-    { positions: own.positions, unit },
-    width,
-    { lengths: geodesic ?? own.lengths, start },
-    given,
-  );
-  return { strip, unit, ellipsoid: undefined };
+  const { crs, width, given } = choices;
+  const geodesic = choices.stations === "geodesic";
+  const own = geodesic || choices.line.unit !== undefined ? await unitOf(origin) : undefined;
+  const line = own === undefined ? choices.line : inUnit(choices.line, own);
+  const { vertices } = crs === "source" ? line : choices.line;
+  const onEarth = geodesic ? await lengthsOnEarth(vertices, crs, origin) : undefined;
+  const { positions, unit } = await inSource(vertices, crs, origin, given);
+  const straight = crs === "source" ? line.lengths : undefined;
+  const lengths = onEarth?.map((metres) => metres / (own ?? 1)) ?? straight;
+  const { start, equations } = stationsOf(line, choices.start);
+  const strip = corridor({ positions, unit }, width, { lengths, start }, given);
+  return { strip, equations, unit, ellipsoid: undefined };
 }
 
-/** A line whose file names another unit than the scan has, in the unit of the scan; with its true lengths. */
-async function scaled(
-  { lengths, unit }: GivenLine,
-  positions: GivenLine["vertices"],
-  origin: RecordedPoints,
-) {
-  const own = unit === undefined ? undefined : await unitOf(origin);
-  const factor = own === undefined ? 1 : unit! / own;
-  if (Math.abs(factor - 1) < 1e-12) return { positions, lengths };
-  return {
-    positions: positions.map(([x, y]) => [x * factor, y * factor] as const),
-    lengths: lengths?.map((length) => length * factor),
-  };
+/** Where a line's stations begin and are counted anew; from another start on, the equations stay where they are on the ground. */
+function stationsOf(
+  { start: own, equations }: Pick<GivenLine, "start" | "equations">,
+  start = own,
+): { readonly start: number; readonly equations: readonly StationEquation[] } {
+  const moved = ({ internal, ...equation }: StationEquation) => ({
+    ...equation,
+    internal: internal + start - own,
+  });
+  return { start, equations: start === own ? equations : equations.map(moved) };
 }

@@ -17,6 +17,12 @@ import { OptionError } from "../given/option-error.js";
 import { BlockFile } from "./block-file.js";
 import { writeFile } from "./output-file.js";
 
+/** Where stations are counted anew, and the stations that follow. */
+export interface WrittenStations {
+  readonly equations?: DatedOptions["equations"];
+  readonly stationOf?: ((chainage: number) => number) | undefined;
+}
+
 /** How a cut is written. */
 export interface CutOptions extends PictureScale {
   readonly out: string;
@@ -27,9 +33,6 @@ export interface CutOptions extends PictureScale {
   readonly straightened?: boolean | undefined;
   /** The ground that documents show. */
   readonly ground?: GroundOptions | undefined;
-  /** Where stations are counted anew, and the stations that follow. */
-  readonly equations?: DatedOptions["equations"];
-  readonly stationOf?: ((chainage: number) => number) | undefined;
   /** Files of each cross-section in an archive. */
   readonly files?: readonly SectionFormat[] | undefined;
 }
@@ -37,7 +40,7 @@ export interface CutOptions extends PictureScale {
 /** What is written: points as they are selected, or as they lie in cross-sections of a line. */
 export type CutSelection = PointSelection | (SectionSelection & { readonly line: AlongLine });
 
-interface WriteOptions extends ExportOptions, CutOptions {
+interface WriteOptions extends ExportOptions, CutOptions, WrittenStations {
   readonly facts: CutFacts;
 }
 

@@ -3,6 +3,7 @@ import type { PointCloud } from "@groma/layer/cesium";
 import { Pace } from "@groma/layer/query";
 import {
   type Alignment,
+  inUnit,
   readDxfLine,
   readLandXml,
   readMeasurements,
@@ -66,7 +67,7 @@ function asFeature(text: string): string {
 }
 
 /** An alignment in the unit of the cloud, arcs as fewer chords. */
-async function inCloud({ vertices, unit, start }: Alignment, { crs }: PointCloud, file: string) {
+async function inCloud(alignment: Alignment, { crs }: PointCloud, file: string) {
   const { kind, size } = crs.horizontalUnit;
   if (kind === "angular") {
     throw new PlacementError({
@@ -74,12 +75,12 @@ async function inCloud({ vertices, unit, start }: Alignment, { crs }: PointCloud
       fix: "Give the line as GeoJSON, in longitude and latitude",
     });
   }
-  const factor = unit === undefined ? 1 : unit / size;
+  const { vertices, start } = inUnit(alignment, size);
   const { default: LineString } = await import("ol/geom/LineString.js");
-  const line = new LineString(vertices.map(([x, y]) => [x * factor, y * factor]));
+  const line = new LineString(vertices.map(([x, y]) => [x, y]));
   const simple = line.simplify(TOLERANCE / size) as typeof line;
   const places = simple.getCoordinates().map(([x, y]) => [x!, y!] as const);
-  return { places, start: start * factor * size };
+  return { places, start: start * size };
 }
 
 /** Vertices at places, each as high as the point that is nearest to it. */

@@ -17,7 +17,7 @@ import { readLines } from "./line-file.js";
 /** A line on the globe: longitude and latitude of each vertex, radians. */
 export type DrawnLine = readonly (readonly [number, number])[];
 
-/** Where the browser keeps the lines of a cloud between visits. */
+/** Where the browser keeps the lines of a cloud between visits, by its identity. */
 const KEY = "groma-profiles:";
 
 /**
@@ -32,7 +32,7 @@ export class ProfileLines {
   /** Vertices that the picture was told of. */
   #told = "";
   #chosen: string | undefined;
-  /** Name of the cloud whose lines these are. */
+  /** Identity of the cloud whose lines these are: several scans may have one name. */
   #cloud: string | undefined;
   /** Whether the browser keeps them; false where it cannot, or has some that this program cannot read. */
   #keeps = true;
@@ -89,15 +89,15 @@ export class ProfileLines {
   /** Takes over the lines that were kept of a cloud, with their records. */
   attach(layer: PointCloudLayer): void {
     const { cloud } = layer;
-    if (this.#cloud === cloud.name) {
+    if (this.#cloud === cloud.identity) {
       this.tool.attach([cloud]);
       return;
     }
     this.#clear();
-    this.#cloud = cloud.name;
+    this.#cloud = cloud.identity;
     this.#keeps = true;
     try {
-      const kept = localStorage.getItem(KEY + cloud.name);
+      const kept = localStorage.getItem(KEY + cloud.identity);
       if (kept) this.tool.add(readMeasurements(kept, [cloud], cloud.name).measurements);
     } catch (thrown) {
       this.#keepsNone(thrown);
@@ -178,7 +178,7 @@ export class ProfileLines {
   }
 
   #keep(): void {
-    if (!this.#keeps || this.#cloud === undefined || this.#layer()?.cloud.name !== this.#cloud) return;
+    if (!this.#keeps || this.#cloud === undefined || this.#layer()?.cloud.identity !== this.#cloud) return;
     const key = KEY + this.#cloud;
     try {
       if (this.all.length === 0) localStorage.removeItem(key);

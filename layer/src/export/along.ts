@@ -11,12 +11,15 @@ export interface PointAlong {
   offset: number;
   /** Source z. */
   height: number;
-  /** The colour that is asked for, 0 to 255; else the scan's own as it is recorded, or a grey. */
+  /** Undefined where the data set has no classes. */
+  classification: number | undefined;
+}
+
+/** The same with a colour, 0 to 255: the one that is asked for, else the scan's own as it is recorded, or a grey. */
+export interface PaintedPoint extends PointAlong {
   red: number;
   green: number;
   blue: number;
-  /** Undefined where the data set has no classes. */
-  classification: number | undefined;
 }
 
 /** How points are coloured on paper. */
@@ -28,6 +31,9 @@ export interface PaintOptions {
 /** Colour of points without one. */
 const GREY = 70;
 
+/** Gives a point what a record has besides its place. */
+type Finish<P> = (record: number, point: P) => void;
+
 /**
  * Goes through the points of selections with a line, in a fixed order.
  * @param take is given the same object each time
@@ -36,43 +42,84 @@ const GREY = 70;
  */
 export async function eachAlong(
   selections: readonly PointSelection[],
-  options: ExportOptions & PaintOptions,
+  options: ExportOptions,
   take: (point: PointAlong) => void,
 ): Promise<number> {
-  const point: PointAlong = {
-    ...{ chainage: 0, offset: 0, height: 0, red: GREY, green: GREY, blue: GREY },
-    classification: undefined,
-  };
+  const point = { chainage: 0, offset: 0, height: 0, classification: undefined };
+  return goAlong(selections, options, point, () => undefined, take);
+}
+
+/** As {@link eachAlong}, with colours. */
+export async function eachPainted(
+  selections: readonly PointSelection[],
+  { paint, ...options }: ExportOptions & PaintOptions,
+  take: (point: PaintedPoint) => void,
+): Promise<number> {
+  const place = { chainage: 0, offset: 0, height: 0, classification: undefined };
+  const point: PaintedPoint = { ...place, red: GREY, green: GREY, blue: GREY };
+  const finishOf = (batch: PointBatch, selection: PointSelection) =>
+    paint ? painting(paint, batch, selection, () => point.offset) : recordedColour(batch);
+  return goAlong(selections, options, point, finishOf, take);
+}
+
+/** @param finishOf says what each point of a batch is given before it is taken */
+async function goAlong<P extends PointAlong>(
+  selections: readonly PointSelection[],
+  options: ExportOptions,
+  point: P,
+  finishOf: (batch: PointBatch, selection: PointSelection) => Finish<P> | undefined,
+  take: (point: P) => void,
+): Promise<number> {
   const place = new Float64Array(2);
-  const colour = new Uint8ClampedArray(3);
   const pace = new Pace(options.signal);
   return eachBatch(selections, options, async (batch, wanted, selection) => {
     const { origin, along } = selection;
     const { scale, offset } = origin;
     const { xyz } = batch.records;
-    const paint = options.paint && paintOf(options.paint, batch, selection, () => point.offset);
-    const [red, green, blue, classification] = numbersOf(batch, ["red", "green", "blue", "classification"]);
+    const finish = finishOf(batch, selection);
+    const [classification] = numbersOf(batch, ["classification"]);
     for (let index = 0; index < wanted.length; index++) {
       const record = wanted[index];
       const at = 3 * record;
       point.height = xyz[at + 2] * scale[2] + offset[2];
-      const [x, y] = [xyz[at] * scale[0] + offset[0], xyz[at + 1] * scale[1] + offset[1]];
+      const x = xyz[at] * scale[0] + offset[0];
+      const y = xyz[at + 1] * scale[1] + offset[1];
       along?.locate(x, y, place, point.height);
       point.chainage = place[0];
       point.offset = place[1];
-      if (paint) {
-        paint(record, colour);
-        [point.red, point.green, point.blue] = colour;
-      } else if (red && green && blue) {
-        point.red = red(record);
-        point.green = green(record);
-        point.blue = blue(record);
-      }
       point.classification = classification?.(record);
+      finish?.(record, point);
       take(point);
       if (index % SLICE === 0) await pace.rest();
     }
   });
+}
+
+/** Colours as they are recorded; grey where a batch has none. */
+function recordedColour(batch: PointBatch): Finish<PaintedPoint> {
+  const [red, green, blue] = numbersOf(batch, ["red", "green", "blue"]);
+  const grey = () => GREY;
+  const [r, g, b] = red && green && blue ? [red, green, blue] : [grey, grey, grey];
+  return (record, point) => {
+    point.red = r(record);
+    point.green = g(record);
+    point.blue = b(record);
+  };
+}
+
+/** Colours of a style. @param offset of the point that is coloured, in the unit of its line */
+function painting(
+  style: PaintStyle,
+  batch: PointBatch,
+  selection: PointSelection,
+  offset: () => number,
+): Finish<PaintedPoint> {
+  const paint = paintOf(style, batch, selection, offset);
+  const colour = new Uint8ClampedArray(3);
+  return (record, point) => {
+    paint(record, colour);
+    [point.red, point.green, point.blue] = colour;
+  };
 }
 
 /** What colours the points of a batch. @param offset of the point that is coloured, in the unit of its line */

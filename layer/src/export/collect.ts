@@ -1,6 +1,6 @@
 import { FormatError } from "../errors/index.js";
 import { ROOT_KEY } from "../octree/index.js";
-import { Pace, type PointBatch, type PointOrigin, type QueryVolume } from "../query/index.js";
+import { everyRecord, Pace, type PointBatch, type PointOrigin, type QueryVolume } from "../query/index.js";
 import { type RecordedNode, readCoordinates, type StoredAttribute } from "../workers/index.js";
 import type { BlockStore } from "./block-store.js";
 import { SLICE } from "./columns.js";
@@ -135,8 +135,9 @@ class Collected {
     const [offsetX, offsetY, offsetZ] = this.#origin.offset;
     const [length, found, parts] = [this.#length, this.#found, this.#parts];
     const pace = new Pace(undefined);
-    for (const [index, point] of wanted.entries()) {
+    for (let index = 0; index < wanted.length; index++) {
       if (index % SLICE === 0) await pace.rest();
+      const point = wanted[index];
       const at = 3 * point;
       const x = xyz[at] * scaleX + offsetX;
       const y = xyz[at + 1] * scaleY + offsetY;
@@ -156,7 +157,7 @@ class Collected {
     if (records.count === 0) return undefined;
     const batchOf = (bytes: Uint8Array): PointBatch => {
       const count = bytes.length / this.#length;
-      const inside = Uint32Array.from({ length: count }, (_, index) => index);
+      const inside = everyRecord(count);
       const attributes = this.#attributes.map((attribute) => ({ ...attribute, bytes }));
       const xyz = readCoordinates(bytes, this.#length);
       return {
@@ -166,12 +167,16 @@ class Collected {
         inside,
       };
     };
+    // Of most parts that is all there is, and each of their files goes through it.
+    let last: PointBatch | undefined;
     async function* batches(options?: { signal?: AbortSignal | undefined }) {
       for (const block of records.blocks) {
         options?.signal?.throwIfAborted();
         yield batchOf(await store.get(block));
       }
-      if (records.rest.length > 0) yield batchOf(records.rest);
+      if (records.rest.length === 0) return;
+      last ??= batchOf(records.rest);
+      yield last;
     }
     const bracket = async () => ({ least: records.count, most: records.count, nodes: 1 });
     return {

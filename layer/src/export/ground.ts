@@ -1,5 +1,5 @@
 import { TerrainLine, type TerrainOptions, type TerrainStatistic } from "../tools/terrain/terrain-line.js";
-import { eachAlong, type PaintOptions } from "./along.js";
+import { eachAlong, eachPainted, type PaintOptions } from "./along.js";
 import { type CutFacts, coordinatesInWords, type LengthUnit } from "./cut-facts.js";
 import type { GroundRuns } from "./landxml.js";
 import { type PictureScale, ProfilePicture } from "./picture/profile-picture.js";
@@ -57,7 +57,7 @@ export async function drawSheet(
   const [unit, heightUnit] = [facts.unit.size, facts.heightUnit.size];
   const picture = new ProfilePicture({ from, to, unit, heightUnit, scale, exaggeration, file });
   const line = ground && new TerrainLine(from, to, ground);
-  const count = await eachAlong(selections, options, (point) => {
+  const count = await eachPainted(selections, options, (point) => {
     const { chainage, height, offset, red, green, blue, classification } = point;
     picture.add(chainage, height, offset, red, green, blue);
     const { classes } = ground ?? {};

@@ -44,6 +44,7 @@ export class LasFrame {
   readonly recordLength: number;
   readonly #envelope: LasEnvelope;
   readonly #records: readonly LasVariableRecord[];
+  #front: Uint8Array | undefined;
 
   /**
    * @param baseLength bytes of a record without extra bytes
@@ -58,15 +59,20 @@ export class LasFrame {
         : withDescriptors(envelope, envelope.recordLength - baseLength, added);
   }
 
-  /** Header and records before the points. */
+  /** Header and records before the points; the same bytes each time, with what follows from the points put in anew. */
   front(points: PointSummary): Uint8Array {
+    this.#front ??= this.#before();
+    this.#fill(new DataView(this.#front.buffer), this.#front, points);
+    return this.#front;
+  }
+
+  #before(): Uint8Array {
     const before = this.#records.filter(({ extended }) => !extended);
     const head = this.#envelope.header;
-    const length = before.reduce((sum, record) => sum + lengthOf(record), head.length);
-    const bytes = new Uint8Array(length);
+    const bytes = new Uint8Array(before.reduce((sum, record) => sum + lengthOf(record), head.length));
     bytes.set(head);
     putRecords(bytes, head.length, before);
-    this.#fill(new DataView(bytes.buffer), bytes, before.length, points);
+    new DataView(bytes.buffer).setUint32(HEADER.recordCount, before.length, true);
     return bytes;
   }
 
@@ -82,18 +88,12 @@ export class LasFrame {
     return this.#records.filter(({ extended }) => extended);
   }
 
-  #fill(
-    view: DataView,
-    bytes: Uint8Array,
-    recordCount: number,
-    { count, returns, bounds }: PointSummary,
-  ): void {
+  #fill(view: DataView, bytes: Uint8Array, { count, returns, bounds }: PointSummary): void {
     const { pointFormat } = this.#envelope;
     const extended = this.#behind().length;
     bytes.fill(0, HEADER.software, HEADER.software + 32);
     bytes.set(new TextEncoder().encode(SOFTWARE), HEADER.software);
     view.setUint32(HEADER.pointsOffset, bytes.length, true);
-    view.setUint32(HEADER.recordCount, recordCount, true);
     view.setUint8(HEADER.format, pointFormat);
     view.setUint16(HEADER.recordLength, this.recordLength, true);
     // The counts of LAS 1.3 and before have to be 0 for the formats from 6 on.

@@ -2,6 +2,7 @@ import { type Clip, ClipSet, type SourceSpace } from "../clips/index.js";
 import { checkFilter, type PointFilter, type StyledAttribute } from "../effects/index.js";
 import { Pace, type PointOrigin, type QueryVolume } from "../query/index.js";
 import { ClippedVolume } from "../tools/area/clipped-volume.js";
+import type { PartedVolume } from "./collect.js";
 import { noPlace } from "./passing.js";
 import type { PointSelection } from "./selection.js";
 
@@ -46,10 +47,27 @@ export async function narrowed<S extends PointSelection>(
   if (filter && attributes) checkFilter(filter, { name, attributes });
   const volumes = [...new ClipSet(clips ?? [])];
   if (volumes.length > 0 && !space) throw noPlace(name, "clips of the globe");
-  const volume =
-    space && volumes.length > 0 ? await clipped(volumes, space, selection.volume, signal) : selection.volume;
+  const { volume: of } = selection;
+  const left = space && volumes.length > 0 ? await clipped(volumes, space, of, signal) : of;
+  const volume = left && left !== of && isParted(of) ? inParts(of, left) : left;
   // What a class has as a getter is not copied with the rest.
   return { ...selection, along: selection.along, volume, filter: filter ?? selection.filter };
+}
+
+function isParted(volume: QueryVolume | undefined): volume is PartedVolume {
+  return volume !== undefined && "partsAt" in volume;
+}
+
+/** What is left of a volume of parts, cross-sections say: in the same parts. */
+function inParts<V extends PartedVolume>(parts: V, left: QueryVolume): PartedVolume {
+  const places = "sections" in parts ? { sections: parts.sections } : {};
+  return {
+    ...places,
+    count: parts.count,
+    toBox: (box) => left.toBox(box),
+    contains: (x, y, z) => left.contains(x, y, z),
+    partsAt: (x, y, z, out) => parts.partsAt(x, y, z, out),
+  };
 }
 
 async function clipped(

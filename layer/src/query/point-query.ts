@@ -240,7 +240,8 @@ export class PointQuery {
   }
 }
 
-function everyRecord(count: number): Uint32Array {
+/** Indices of all records of a node. */
+export function everyRecord(count: number): Uint32Array {
   const indices = new Uint32Array(count);
   for (let index = 0; index < count; index++) indices[index] = index;
   return indices;

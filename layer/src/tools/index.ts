@@ -36,7 +36,7 @@ export type {
 export type { NumberType, PointAttribute } from "../sources/contract/point-attribute.js";
 export type { LasEnvelope, LasVariableRecord } from "../sources/contract/point-source.js";
 export type { RecordedNode, StoredAttribute } from "../workers/index.js";
-export type { Alignment } from "./alignment/alignment.js";
+export { type Alignment, inUnit } from "./alignment/alignment.js";
 export { readDxfLine } from "./alignment/read-dxf.js";
 export { readLandXml } from "./alignment/read-landxml.js";
 export { type Station, type StationEquation, StationEquations } from "./alignment/station-equations.js";

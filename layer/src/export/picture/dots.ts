@@ -25,6 +25,9 @@ export class Dots {
   #low = Number.POSITIVE_INFINITY;
   #high = Number.NEGATIVE_INFINITY;
   #brightest = 0;
+  /** Least and greatest number of a stripe. */
+  #first = Number.POSITIVE_INFINITY;
+  #last = Number.NEGATIVE_INFINITY;
 
   /** @param file named in errors */
   constructor(columns: number, file: string) {
@@ -62,7 +65,10 @@ export class Dots {
 
   #grow(number: number): Stripe {
     const pixels = STRIPE * this.columns;
-    if ((this.#stripes.size + 1) * pixels > MOST_PIXELS) throw tooLarge(this.#file);
+    this.#first = Math.min(this.#first, number);
+    this.#last = Math.max(this.#last, number);
+    // What lies between dots takes room in the picture too.
+    if ((this.#last - this.#first + 1) * pixels > MOST_PIXELS) throw tooLarge(this.#file);
     const stripe = {
       colours: new Uint16Array(3 * pixels),
       distance: new Float32Array(pixels).fill(Number.POSITIVE_INFINITY),
@@ -101,6 +107,6 @@ function tooLarge(file: string): FormatError {
     code: "EXPORT_PICTURE",
     file,
     cause: "the picture would be too large for its scale",
-    fix: "Choose a smaller scale, such as 1:1000",
+    fix: "Choose a smaller scale, such as 1:1000, or less exaggeration",
   });
 }

@@ -112,6 +112,10 @@ describe("a picture to scale", () => {
     expect(() => {
       for (let row = 0; row < 1e6; row += 64) dots.add(0, row, 0, 0, 0, 0);
     }).toThrow(expect.objectContaining({ code: "EXPORT_PICTURE" }));
+    // Two dots far apart: what lies between them takes room too.
+    const apart = new Dots(10, "scan");
+    apart.add(0, 0, 0, 0, 0, 0);
+    expect(() => apart.add(0, 1e9, 0, 0, 0, 0)).toThrow(expect.objectContaining({ code: "EXPORT_PICTURE" }));
   });
 
   it("has the largest round scale that fits onto A3", () => {

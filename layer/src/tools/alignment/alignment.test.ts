@@ -1,6 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
-import { TOLERANCE } from "./alignment.js";
+import { inUnit, TOLERANCE } from "./alignment.js";
 import { readDxfLine } from "./read-dxf.js";
 import { readLandXml } from "./read-landxml.js";
 import { StationEquations } from "./station-equations.js";
@@ -113,9 +113,36 @@ describe("an alignment of LandXML", () => {
       /other distances/,
     ],
     [landXml("<Chain>1 2</Chain>"), /a Chain of it has no Start/],
+    [landXml("", 'name="A" staStart="1+000"'), /staStart is no number: 1\+000/],
+    [landXml("").replace("meter", "ell"), /unit of length is not known: ell/],
+    [
+      landXml("", undefined, '<StaEquation staInternal="5" staAhead="1"/>'.repeat(2)),
+      /two station equations at 5/,
+    ],
   ])("is refused where %s", (text, message) => {
     expect(() => readLandXml(text, undefined, "axis.xml")).toThrow(refused(message));
   });
+});
+
+it("comes into another unit whole: places, lengths, start, equations", () => {
+  const line = "<Line><Start>0 0</Start><End>0 10</End></Line>";
+  const equation = '<StaEquation staInternal="1004" staAhead="2000" staIncrement="decreasing"/>';
+  const metres = readLandXml(landXml(line, undefined, equation), undefined, "axis.xml");
+  expect(inUnit(metres, 1)).toBe(metres);
+  expect(inUnit(metres, 0.5)).toMatchObject({
+    ...{
+      unit: 0.5,
+      vertices: [
+        [0, 0],
+        [20, 0],
+      ],
+      lengths: [20],
+      start: 2000,
+    },
+    equations: [{ internal: 2008, ahead: 4000, increment: "decreasing" }],
+  });
+  const untold = { ...metres, unit: undefined };
+  expect(inUnit(untold, 0.3048)).toBe(untold);
 });
 
 const dxf = (...entities: string[]) => `0\nSECTION\n2\nENTITIES\n${entities.join("")}0\nENDSEC\n0\nEOF\n`;
@@ -153,6 +180,49 @@ describe("a polyline of DXF", () => {
     expect(() => readDxfLine(dxf(light("a", [0, 0], [Number.NaN, 1])), undefined, "axis.dxf")).toThrow(
       refused(/no place/),
     );
+  });
+
+  it("is what is drawn in model space: no control points, meshes, or lines of sheets", () => {
+    const vertex = (x: number, y: number, flags: number) =>
+      `0\nVERTEX\n8\na\n10\n${x}\n20\n${y}\n70\n${flags}\n`;
+    const old = (flags: number, ...vertices: string[]) =>
+      `0\nPOLYLINE\n8\na\n66\n1\n70\n${flags}\n${vertices.join("")}0\nSEQEND\n8\na\n`;
+    // A spline of two points that are drawn, and its frame.
+    const spline = old(4, vertex(0, 0, 16), vertex(1, 9, 16), vertex(0, 0, 8), vertex(3, 4, 8));
+    const meshes = [
+      old(16, vertex(0, 0, 64), vertex(5, 5, 64)),
+      old(64, vertex(0, 0, 192), vertex(1, 1, 192)),
+    ];
+    const sheet = light("a", [0, 0], [9, 9]).replace("8\na\n", "67\n1\n8\na\n");
+    const { vertices, lengths } = readDxfLine(dxf(...meshes, spline, sheet), undefined, "axis.dxf");
+    expect(vertices).toEqual([
+      [0, 0],
+      [3, 4],
+    ]);
+    expect(lengths).toEqual([5]);
+    expect(() => readDxfLine(dxf("0\nLINE\n8\na\n10\n0\n20\n0\n"), undefined, "axis.dxf")).toThrow(
+      refused(/no line.*lines, arcs and splines have to be joined/is),
+    );
+  });
+
+  it("lies in the world where its own plane is seen from below, and is refused in a tilted one", () => {
+    const seen = (...normal: number[]) =>
+      dxf(
+        light("a", [-20, 0, 1], [-10, 0]) +
+          normal.map((part, axis) => `${210 + 10 * axis}\n${part}\n`).join(""),
+      );
+    const { vertices } = readDxfLine(seen(0, 0, -1), undefined, "axis.dxf");
+    expect([vertices[0], vertices[vertices.length - 1]]).toEqual([
+      [20, 0],
+      [10, 0],
+    ]);
+    // A half circle that turns right from there: above the chord; seen from above it is below.
+    expect(Math.min(...vertices.map(([, y]) => y))).toBeCloseTo(-5, 3);
+    const above = readDxfLine(seen(0, 0, 1), undefined, "axis.dxf").vertices;
+    expect(above).toHaveLength(vertices.length);
+    for (const [index, [x, y]] of above.entries())
+      expect(Math.hypot(x + vertices[index][0], y - vertices[index][1])).toBeLessThan(1e-9);
+    expect(() => readDxfLine(seen(0, 1, 1), undefined, "axis.dxf")).toThrow(refused(/tilted plane/));
   });
 });
 

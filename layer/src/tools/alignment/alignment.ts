@@ -15,11 +15,38 @@ export interface Alignment {
   readonly unit: number | undefined;
 }
 
+/** What of an alignment has a unit of length. */
+type MeasuredLine = Pick<Alignment, "vertices" | "start" | "equations" | "unit"> & {
+  readonly lengths: readonly number[] | undefined;
+};
+
 /** Distance between a curve and the chords that stand for it, at most, in the unit of the file. */
 export const TOLERANCE = 1e-4;
 
 /** By how much the end of a curve may miss the one that the file gives, at most, in the unit of the file. */
 export const CLOSURE = 0.01;
+
+/**
+ * An alignment in another unit of length: its places, its lengths, its stations and where they are counted anew.
+ * @param unit metres in it; an alignment that names no unit is in it already
+ */
+export function inUnit<T extends MeasuredLine>(alignment: T, unit: number): T {
+  const factor = (alignment.unit ?? unit) / unit;
+  if (Math.abs(factor - 1) < 1e-12) return alignment;
+  const { vertices, lengths, start, equations } = alignment;
+  return {
+    ...alignment,
+    unit,
+    vertices: vertices.map(([x, y]) => [x * factor, y * factor] as const),
+    lengths: lengths?.map((length) => length * factor),
+    start: start * factor,
+    equations: equations.map((equation) => inFactor(equation, factor)),
+  };
+}
+
+function inFactor({ internal, ahead, ...rest }: StationEquation, factor: number): StationEquation {
+  return { ...rest, internal: internal * factor, ahead: ahead * factor };
+}
 
 /** An alignment that cannot be used. */
 export function noAlignment(file: string, cause: string, fix: string): FormatError {
@@ -29,12 +56,14 @@ export function noAlignment(file: string, cause: string, fix: string): FormatErr
 /**
  * The one of several lines that is wanted.
  * @param name undefined: there has to be one alone
+ * @param without what to do where there is none at all
  * @throws FormatError FORMAT_ALIGNMENT
  */
 export function theOne<T extends { readonly name: string }>(
   lines: readonly T[],
   name: string | undefined,
   file: string,
+  without = "give a file with a polyline or an alignment",
 ): T {
   const found = name === undefined ? lines : lines.filter((line) => line.name === name);
   const [one, ...others] = found;
@@ -42,9 +71,5 @@ export function theOne<T extends { readonly name: string }>(
   const names = [...new Set(lines.map((line) => `"${line.name}"`))].slice(0, 10).join(", ");
   const which = name === undefined ? "" : ` of the name "${name}"`;
   const cause = one ? `it has ${found.length} lines${which}` : `it has no line${which}`;
-  throw noAlignment(
-    file,
-    cause,
-    lines.length > 0 ? `name one of ${names}` : "give a file with a polyline or an alignment",
-  );
+  throw noAlignment(file, cause, lines.length > 0 ? `name one of ${names}` : without);
 }

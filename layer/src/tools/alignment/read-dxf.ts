@@ -3,37 +3,55 @@ import { CurveLine } from "./curves.js";
 
 /** A vertex of a polyline, and how the stretch to the next one bends (DXF group 42: tangent of a quarter of its angle). */
 interface Vertex {
-  x: number;
-  y: number;
-  bulge: number;
+  readonly x: number;
+  readonly y: number;
+  readonly bulge: number;
 }
 
 interface Polyline {
   /** Of its layer. */
-  name: string;
-  closed: boolean;
+  readonly name: string;
+  readonly closed: boolean;
+  /** How its own plane lies to that of x and y: on it, on it and seen from below, or otherwise (group 210). */
+  readonly plane: "above" | "below" | "tilted";
   readonly vertices: Vertex[];
 }
 
+/** An entity of a file, or the begin of a section: pairs of codes and values. */
+interface Entity {
+  readonly type: string;
+  readonly groups: readonly (readonly [code: number, value: string])[];
+}
+
+/** Bits of group 70 (DXF reference: POLYLINE, VERTEX). */
+const CLOSED = 1;
+const NO_LINE = 16 | 64; // a mesh of polygons, of faces
+const SPLINE_FRAME = 16; // a control point of a fitted curve, which is not drawn
+
 /**
- * Reads a polyline of a DXF file (ASCII; LWPOLYLINE, or POLYLINE with vertices): x and y, arcs by their bulges. DXF knows no
- * chainage: it begins with 0.
+ * Reads a polyline of a DXF file (ASCII; LWPOLYLINE, or POLYLINE with vertices) in model space: x and y of the world, arcs by their
+ * bulges, of fitted curves the vertices that are drawn. DXF knows no chainage: it begins with 0. The unit that the header names is
+ * not taken: drawings in coordinates of a map often bear the one of their template.
  *
  * @param layer that the polyline is on; undefined where the file has one polyline alone
  * @param file for errors
- * @throws FormatError FORMAT_ALIGNMENT where it is no such file, or has no such polyline
+ * @throws FormatError FORMAT_ALIGNMENT where it is no such file, has no such polyline, or one in a tilted plane
  */
 export function readDxfLine(text: string, layer: string | undefined, file: string): Alignment {
   if (text.startsWith("AutoCAD Binary DXF"))
     throw noAlignment(file, "it is a binary DXF file", "Save it as ASCII DXF");
-  const { name, vertices, closed } = theOne(polylines(text), layer, file);
-  const [first, ...others] = vertices;
-  if (!first || others.length === 0 || !vertices.every(({ x, y, bulge }) => Number.isFinite(x + y + bulge)))
+  const without = "give a file with a polyline; lines, arcs and splines have to be joined to one first";
+  const { name, vertices, closed, plane } = theOne(polylines(text), layer, file, without);
+  const places = vertices.every(({ x, y, bulge }) => Number.isFinite(x + y + bulge));
+  if (vertices.length < 2 || !places)
     throw noAlignment(
       file,
       "its polyline has fewer than two vertices, or one that is no place",
       "Draw it again",
     );
+  if (plane === "tilted")
+    throw noAlignment(file, "its polyline lies in a tilted plane", "Draw it in the plane of x and y");
+  const [first, ...others] = plane === "below" ? vertices.map(mirrored) : vertices;
   const line = new CurveLine([first.x, first.y]);
   let { bulge } = first;
   for (const vertex of closed ? [...others, first] : others) {
@@ -41,6 +59,11 @@ export function readDxfLine(text: string, layer: string | undefined, file: strin
     ({ bulge } = vertex);
   }
   return { name, vertices: line.vertices, lengths: line.lengths, start: 0, equations: [], unit: undefined };
+}
+
+/** From a plane that is seen from below to that of the world (DXF reference, arbitrary axis algorithm). */
+function mirrored({ x, y, bulge }: Vertex): Vertex {
+  return { x: -x, y, bulge: -bulge };
 }
 
 /** Adds a stretch: straight, or the arc whose bulge is given, to the left positive. */
@@ -56,39 +79,70 @@ function bend(line: CurveLine, { x, y }: Vertex, bulge: number): void {
   line.arcTo([x, y], [(ax + x) / 2 - away * uy, (ay + y) / 2 + away * ux], 4 * Math.atan(bulge));
 }
 
-/** Polylines of the ENTITIES section, with at least one vertex. */
+/** Polylines of the model space, with at least one vertex. */
 function polylines(text: string): Polyline[] {
   const found: Polyline[] = [];
-  const lines = text.split(/\r\n|\r|\n/);
   let section = "";
-  let entity = "";
   let current: Polyline | undefined;
-  let vertex: Vertex | undefined;
+  for (const { type, groups } of entities(text)) {
+    if (type === "SECTION") section = firstOf(groups, 2) ?? "";
+    if (section !== "ENTITIES") continue;
+    if (type === "VERTEX") {
+      if (current && (flags(groups) & SPLINE_FRAME) === 0) current.vertices.push(...verticesOf(groups));
+      continue;
+    }
+    current = type === "POLYLINE" || type === "LWPOLYLINE" ? polylineOf(type, groups) : undefined;
+    if (current) found.push(current);
+  }
+  return found.filter(({ vertices }) => vertices.length > 0);
+}
+
+/** A polyline, with its vertices where these stand in it; undefined for one on a sheet, or for a mesh. */
+function polylineOf(type: "POLYLINE" | "LWPOLYLINE", groups: Entity["groups"]): Polyline | undefined {
+  const own = type === "POLYLINE";
+  const onSheet = Number(firstOf(groups, 67) ?? 0) === 1;
+  if (onSheet || (own && (flags(groups) & NO_LINE) !== 0)) return undefined;
+  const [x, y, z] = [210, 220, 230].map((code) => Number(firstOf(groups, code) ?? (code === 230 ? 1 : 0)));
+  const plane = Math.hypot(x, y) > 1e-9 * Math.abs(z) ? "tilted" : z > 0 ? "above" : "below";
+  return {
+    ...{ name: firstOf(groups, 8) ?? "", closed: (flags(groups) & CLOSED) !== 0, plane },
+    vertices: own ? [] : verticesOf(groups),
+  };
+}
+
+/** The vertices that stand in an entity, each begun by its x. */
+function verticesOf(groups: Entity["groups"]): Vertex[] {
+  const found: { x: number; y: number; bulge: number }[] = [];
+  for (const [code, value] of groups) {
+    const last = found[found.length - 1];
+    if (code === 10) found.push({ x: Number(value), y: Number.NaN, bulge: 0 });
+    else if (code === 20 && last) last.y = Number(value);
+    else if (code === 42 && last) last.bulge = Number(value);
+  }
+  return found;
+}
+
+function firstOf(groups: Entity["groups"], wanted: number): string | undefined {
+  return groups.find(([code]) => code === wanted)?.[1];
+}
+
+function flags(groups: Entity["groups"]): number {
+  return Number(firstOf(groups, 70) ?? 0);
+}
+
+function* entities(text: string): Generator<Entity> {
+  const lines = text.split(/\r\n|\r|\n/);
+  let groups: [number, string][] = [];
+  let type = "";
   for (let at = 0; at + 1 < lines.length; at += 2) {
     const code = Number(lines[at]);
     const value = lines[at + 1].trim();
-    if (code === 0) {
-      if (value !== "VERTEX") current = undefined;
-      if (value === "LWPOLYLINE" || value === "POLYLINE") {
-        current = { name: "", closed: false, vertices: [] };
-        if (section === "ENTITIES") found.push(current);
-      } else if (value === "VERTEX") {
-        current = found[found.length - 1];
-        vertex = { x: Number.NaN, y: Number.NaN, bulge: 0 };
-        if (entity === "POLYLINE" || entity === "VERTEX") current?.vertices.push(vertex);
-      }
-      entity = value;
-    } else if (code === 2 && entity === "SECTION") section = value;
-    else if (current && code === 8 && entity !== "VERTEX") current.name = value;
-    else if (current && code === 70 && entity !== "VERTEX") current.closed = (Number(value) & 1) !== 0;
-    else if (entity === "LWPOLYLINE" && current && code === 10) {
-      vertex = { x: Number(value), y: Number.NaN, bulge: 0 };
-      current.vertices.push(vertex);
-    } else if (entity === "VERTEX" && vertex && code === 10) vertex.x = Number(value);
-    else if ((entity === "VERTEX" || entity === "LWPOLYLINE") && vertex) {
-      if (code === 20) vertex.y = Number(value);
-      if (code === 42) vertex.bulge = Number(value);
+    if (code !== 0) {
+      groups.push([code, value]);
+      continue;
     }
+    yield { type, groups };
+    [type, groups] = [value, []];
   }
-  return found.filter(({ vertices }) => vertices.length > 0);
+  yield { type, groups };
 }

@@ -87,9 +87,14 @@ class Reader {
   open(name: string, attributes: ReadonlyMap<string, string>): void {
     this.#stack.push({ name, attributes, places: new Map(), text: "" });
     const unit = attributes.get("linearUnit");
-    if ((name === "Metric" || name === "Imperial") && unit !== undefined) this.unit = UNITS.get(unit);
+    if ((name === "Metric" || name === "Imperial") && unit !== undefined) {
+      this.unit = UNITS.get(unit);
+      if (this.unit === undefined) throw this.#refusal(`its unit of length is not known: ${unit}`);
+    }
     if (name === "Alignment") {
-      const start = Number(attributes.get("staStart") ?? 0);
+      const station = attributes.get("staStart") ?? "0";
+      const start = station.trim() === "" ? Number.NaN : Number(station);
+      if (!Number.isFinite(start)) throw this.#refusal(`its staStart is no number: ${station}`);
       this.alignments.push({ name: attributes.get("name") ?? "", start, line: undefined, equations: [] });
     }
   }
@@ -139,7 +144,10 @@ class Reader {
     );
     if (!Number.isFinite(internal + ahead)) throw this.#refusal("a station equation of it has no numbers");
     const increment = attributes.get("staIncrement") === "decreasing" ? "decreasing" : "increasing";
-    this.alignments[this.alignments.length - 1]?.equations.push({ internal, ahead, increment });
+    const equations = this.alignments[this.alignments.length - 1]?.equations;
+    if (equations?.some((other) => other.internal === internal))
+      throw this.#refusal(`it has two station equations at ${internal}`);
+    equations?.push({ internal, ahead, increment });
   }
 
   #part(element: Element): void {

@@ -1,4 +1,7 @@
-import { type LocalPlane, localPlane } from "@groma/georef";
+import { type LocalPlane, localPlane, PlacementError } from "@groma/georef";
+
+/** Metres from the middle of the plane, where lengths to the side are 0.3 % too long: 1 + x² / 2R². */
+const FARTHEST = 500_000;
 
 /** A line in a plane of the ellipsoid about its middle. */
 export interface LineOnEllipsoid {
@@ -12,6 +15,7 @@ export interface LineOnEllipsoid {
 /**
  * Lays a line into the transverse Mercator plane of WGS 84 about the mean of its vertices.
  * @param line longitude and latitude of each vertex, radians; it takes the shorter way across 180°
+ * @throws PlacementError PLACE_LINE where a vertex lies so far from the middle that lengths in the plane mean little
  */
 export function lineOnEllipsoid(line: readonly (readonly [number, number])[]): LineOnEllipsoid {
   const first = line[0]?.[0] ?? 0;
@@ -26,7 +30,15 @@ export function lineOnEllipsoid(line: readonly (readonly [number, number])[]): L
   const place = new Float64Array(2);
   const vertices = line.map(([longitude, latitude]) => {
     plane.toPlane(longitude, latitude, place);
+    if (!(Math.hypot(place[0], place[1]) <= FARTHEST)) throw tooLong();
     return [place[0], place[1]] as const;
   });
   return { plane, middle, vertices };
+}
+
+function tooLong(): PlacementError {
+  return new PlacementError({
+    ...{ code: "PLACE_LINE", file: "line", cause: "it reaches farther than 500 km from its middle" },
+    fix: "Give shorter lines, each with a plane of its own",
+  });
 }

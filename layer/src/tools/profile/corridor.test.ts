@@ -284,5 +284,18 @@ describe("a corridor along a line", () => {
           ),
       ).toThrow("width");
     }
+    // Chainages that float64 could not tell apart.
+    const from = (start: number, end: number) => () =>
+      new Corridor(
+        [
+          [0, 0],
+          [end, 0],
+        ],
+        1,
+        { start },
+      );
+    expect(from(1e12, 1)).not.toThrow();
+    for (const start of [1e300, -1e13, Number.NaN]) expect(from(start, 1)).toThrow("cannot start");
+    expect(from(1e12, 1e-9)).toThrow("no length");
   });
 });

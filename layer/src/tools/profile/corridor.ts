@@ -9,6 +9,9 @@ export interface Stationing {
   readonly start?: number | undefined;
 }
 
+/** Chainages beyond which float64 no longer tells tenths of a millimetre apart. */
+const MOST_START = 1e12;
+
 /** A place on a line. */
 export interface LinePlace {
   /** Source units. */
@@ -42,7 +45,7 @@ export class Corridor implements QueryVolume {
   /**
    * @param line x and y of each vertex, source units; vertices that repeat the one before are passed over
    * @param width of the whole strip, source units
-   * @throws RangeError where the line has no length, or a number is not finite
+   * @throws RangeError where the line has no length, beside its start or at all, or a number is not finite
    */
   constructor(
     line: readonly (readonly [number, number])[],
@@ -50,6 +53,7 @@ export class Corridor implements QueryVolume {
     { lengths, start = 0 }: Stationing = {},
   ) {
     if (!(width > 0 && Number.isFinite(width))) throw new RangeError(`the width cannot be ${width}`);
+    if (!(Math.abs(start) <= MOST_START)) throw new RangeError(`chainage cannot start at ${start}`);
     const ends: number[] = [];
     const stations = [start];
     const chainages = [start];
@@ -66,7 +70,9 @@ export class Corridor implements QueryVolume {
       stations.push(stations[stations.length - 1] + (lengths?.[index - 1] ?? Math.hypot(bx - ax, by - ay)));
       chainages.push(stations[stations.length - 1]);
     }
-    if (ends.length === 0) throw new RangeError("the line has no length");
+    const length = stations[stations.length - 1] - start;
+    if (ends.length === 0 || !(length > 0 && Number.isFinite(length)))
+      throw new RangeError("the line has no length");
     this.vertices = line;
     this.chainages = chainages;
     this.reach = width / 2;

@@ -99,7 +99,7 @@ export class TerrainLine {
     for (const [station, count] of this.#count.entries()) {
       const [least, greatest, mean] = [this.#least[station], this.#greatest[station], this.#mean[station]];
       yield {
-        chainage: this.#from + station * this.interval,
+        chainage: this.#chainage(station),
         height: count === 0 ? Number.NaN : this.#height(station, count),
         ...(count === 0
           ? { least: Number.NaN, greatest: Number.NaN, mean: Number.NaN }
@@ -114,12 +114,17 @@ export class TerrainLine {
   runs(): (readonly [chainage: number, height: number])[][] {
     const runs: (readonly [number, number])[][] = [];
     let open = false;
-    for (const { chainage, height, count } of this.stations()) {
+    for (let station = 0; station < this.#count.length; station++) {
+      const count = this.#count[station];
       if (count > 0 && !open) runs.push([]);
       open = count > 0;
-      if (open) runs[runs.length - 1].push([chainage, height]);
+      if (open) runs[runs.length - 1].push([this.#chainage(station), this.#height(station, count)]);
     }
     return runs;
+  }
+
+  #chainage(station: number): number {
+    return this.#from + station * this.interval;
   }
 
   #height(station: number, count: number): number {
