@@ -12,7 +12,9 @@ class LineFileError extends GromaError {
 /** A line that was given, and in which coordinates lines of its format usually are. */
 export interface GivenLine extends Pick<Alignment, "vertices" | "start" | "equations" | "unit"> {
   /** True lengths of the stretches; undefined where they are straight. */
-  readonly lengths: readonly number[] | undefined;
+  readonly lengths: Alignment["lengths"] | undefined;
+  /** Directions of the curves that stretches are chords of; undefined where all are straight. */
+  readonly headings: Alignment["headings"] | undefined;
   readonly usualCrs: "source" | "EPSG:4326";
 }
 
@@ -25,7 +27,8 @@ export async function readGivenLine(file: string, name: string | undefined): Pro
   const ending = extname(file).toLowerCase();
   if (ending !== ".dxf" && ending !== ".xml" && ending !== ".landxml") {
     const vertices = await readLine(file);
-    return { vertices, lengths: undefined, start: 0, equations: [], unit: undefined, usualCrs: "EPSG:4326" };
+    const straight = { lengths: undefined, headings: undefined, unit: undefined };
+    return { ...straight, vertices, start: 0, equations: [], usualCrs: "EPSG:4326" };
   }
   const text = await readFile(file, "utf8").catch((error: NodeJS.ErrnoException) => {
     throw new LineFileError({

@@ -86,7 +86,7 @@ export async function layLine(
     });
   }
   const radians = line.vertices.map(([x, y]) => [x * DEGREE, y * DEGREE] as const);
-  const { plane: local, middle, vertices: positions } = lineOnEllipsoid(radians);
+  const { plane: local, middle, vertices: positions } = lineOnEllipsoid(radians, given);
   const lengths = choices.stations === "geodesic" ? geodesicLengths(radians) : undefined;
   const { start, equations } = stationsOf(inUnit(line, 1), choices.start);
   const strip = corridor({ positions, unit: 1 }, width, { lengths, start }, given);
@@ -126,10 +126,11 @@ async function inPlaneOf(origin: RecordedPoints, choices: LineChoices): Promise<
   const { vertices } = crs === "source" ? line : choices.line;
   const onEarth = geodesic ? await lengthsOnEarth(vertices, crs, origin) : undefined;
   const { positions, unit } = await inSource(vertices, crs, origin, given);
-  const straight = crs === "source" ? line.lengths : undefined;
-  const lengths = onEarth?.map((metres) => metres / (own ?? 1)) ?? straight;
+  const { lengths, headings } = crs === "source" ? line : { lengths: undefined, headings: undefined };
+  const counted = onEarth?.map((metres) => metres / (own ?? 1)) ?? lengths;
   const { start, equations } = stationsOf(line, choices.start);
-  const strip = corridor({ positions, unit }, width, { lengths, start }, given);
+  const stationing = { lengths: counted, headings, start };
+  const strip = corridor({ positions, unit }, width, stationing, given);
   return { strip, equations, unit, ellipsoid: undefined };
 }
 

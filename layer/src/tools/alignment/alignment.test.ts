@@ -1,5 +1,6 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
+import { Corridor } from "../profile/corridor.js";
 import { inUnit, TOLERANCE } from "./alignment.js";
 import { readDxfLine } from "./read-dxf.js";
 import { readLandXml } from "./read-landxml.js";
@@ -58,6 +59,43 @@ describe("an alignment of LandXML", () => {
       }
     }
     expect(vertices[vertices.length - 1]).toEqual(end);
+  });
+
+  it("knows the direction of its curves everywhere, which its chords do not have", () => {
+    // A clothoid of 40 m into a right arc of 50 m radius, of 0.6 radians.
+    const [ex, ey] = clothoidEnd(40, 1 / 50);
+    const [sx, sy, turned] = [ex, -ey, -0.4];
+    const [cx, cy] = [sx + 50 * Math.sin(turned), sy - 50 * Math.cos(turned)];
+    const end = [cx - 50 * Math.sin(turned - 0.6), cy + 50 * Math.cos(turned - 0.6)];
+    const text = landXml(`<Line><Start>0 -10</Start><End>0 0</End></Line>
+<Spiral length="40" radiusStart="INF" radiusEnd="50" rot="cw" spiType="clothoid"><Start>0 0</Start><PI>0 ${ex - ey / Math.tan(0.4)}</PI><End>${sy} ${sx}</End></Spiral>
+<Curve rot="cw"><Start>${sy} ${sx}</Start><Center>${cy} ${cx}</Center><End>${end[1]} ${end[0]}</End></Curve>`);
+    const { vertices, ...course } = readLandXml(text, undefined, "axis.xml");
+    expect(course.headings[0]).toBeUndefined();
+    const line = new Corridor(vertices, 1, { ...course, start: 0 });
+    for (let along = 0; along < 80; along += 0.37) {
+      const s = along - 10;
+      const heading = s < 0 ? 0 : s < 40 ? -(s * s) / (2 * 40 * 50) : turned - (s - 40) / 50;
+      const [dx, dy] = line.at(along)!.direction;
+      // 5 µm to the side at a metre for 100 m of it: half a chord would be off by 2e-3.
+      expect(Math.abs(Math.atan2(dy, dx) - heading)).toBeLessThan(5e-6);
+    }
+  });
+
+  it("has no circle where an arc has no length, and one where it says so", () => {
+    const arc = (end: string, more = "") => `<Line><Start>0 0</Start><End>0 20.001</End></Line>
+<Curve rot="ccw" ${more}><Start>0 20</Start><Center>50 20</Center><End>${end}</End></Curve>
+<Line><Start>0 20</Start><End>0 40</End></Line>`;
+    const lengthOf = (parts: string) =>
+      readLandXml(landXml(parts), undefined, "axis.xml").lengths.reduce((sum, length) => sum + length, 0);
+    expect(lengthOf(arc("0 20"))).toBe(40);
+    expect(lengthOf(arc("0 19.9999999"))).toBe(40);
+    expect(lengthOf(arc("0 20", `length="${100 * Math.PI}"`))).toBeCloseTo(40 + 100 * Math.PI, 2);
+    const exact = arc("0 20", `length="${100 * Math.PI}"`).replace("20.001", "20");
+    expect(lengthOf(exact)).toBeCloseTo(40 + 100 * Math.PI, 9);
+    const spiral =
+      '<Spiral length="0" spiType="clothoid"><Start>0 20</Start><PI>0 20</PI><End>0 20</End></Spiral>';
+    expect(lengthOf(`<Line><Start>0 0</Start><End>0 20</End></Line>${spiral}`)).toBe(20);
   });
 
   it("takes right turns, references to points, irregular lines and station equations", () => {
@@ -119,6 +157,21 @@ describe("an alignment of LandXML", () => {
       landXml("", undefined, '<StaEquation staInternal="5" staAhead="1"/>'.repeat(2)),
       /two station equations at 5/,
     ],
+    [landXml("", undefined, '<StaEquation staInternal="" staAhead="1"/>'), /equation of it has no numbers/],
+    [
+      landXml("<Curve><Start>0 0</Start><Center>0 10</Center><End>0 20</End></Curve>"),
+      /Curve of it turns neither cw nor ccw/,
+    ],
+    [
+      landXml(
+        "<IrregularLine><Start>0 0</Start><End>0 9</End><PntList2D>0 0 x 5</PntList2D></IrregularLine>",
+      ),
+      /place without numbers/,
+    ],
+    [
+      landXml("<Line><Start>0 0</Start><End>0 1</End></Line>").replace(/<Alignment .*<\/Alignment>/s, "$&$&"),
+      /2 lines.*give each line a name/is,
+    ],
   ])("is refused where %s", (text, message) => {
     expect(() => readLandXml(text, undefined, "axis.xml")).toThrow(refused(message));
   });
@@ -159,6 +212,11 @@ describe("a polyline of DXF", () => {
     expect(Math.min(...vertices.map(([, y]) => y))).toBeCloseTo(-5, 3);
     expect(Math.max(...vertices.filter(([x]) => x < 20).map(([, y]) => y))).toBeCloseTo(5, 3);
     for (const [x, y] of vertices.filter(([x]) => x < 10)) expect(Math.hypot(x - 5, y)).toBeCloseTo(5, 9);
+    // Downwards at first, and again where the second half circle ends; the last piece is straight.
+    const { headings } = readDxfLine(dxf(half), undefined, "axis.dxf");
+    expect(Math.sin(headings[0]![0])).toBeCloseTo(-1, 12);
+    expect(Math.sin(headings.at(-2)![1])).toBeCloseTo(-1, 12);
+    expect(headings.at(-1)).toBeUndefined();
   });
 
   it("is found by its layer, in the old form too, and closed where it says so", () => {
@@ -205,6 +263,16 @@ describe("a polyline of DXF", () => {
     );
   });
 
+  it("has the unit of the header, unless that is one of templates", () => {
+    const header = (unit: number) =>
+      `0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1024\n9\n$INSUNITS\n70\n     ${unit}\n0\nENDSEC\n`;
+    const unitOf = (front: string) =>
+      readDxfLine(front + dxf(light("a", [0, 0], [1, 1])), undefined, "axis.dxf").unit;
+    expect([2, 6, 21].map((unit) => unitOf(header(unit)))).toEqual([0.3048, 1, 1200 / 3937]);
+    expect([0, 1, 4].map((unit) => unitOf(header(unit)))).toEqual([undefined, undefined, undefined]);
+    expect(unitOf("")).toBeUndefined();
+  });
+
   it("lies in the world where its own plane is seen from below, and is refused in a tilted one", () => {
     const seen = (...normal: number[]) =>
       dxf(
@@ -216,12 +284,15 @@ describe("a polyline of DXF", () => {
       [20, 0],
       [10, 0],
     ]);
-    // A half circle that turns right from there: above the chord; seen from above it is below.
+    // A half circle to the left, seen from below: to the right in the world, below the chord in both.
     expect(Math.min(...vertices.map(([, y]) => y))).toBeCloseTo(-5, 3);
     const above = readDxfLine(seen(0, 0, 1), undefined, "axis.dxf").vertices;
     expect(above).toHaveLength(vertices.length);
     for (const [index, [x, y]] of above.entries())
-      expect(Math.hypot(x + vertices[index][0], y - vertices[index][1])).toBeLessThan(1e-9);
+      expect(Math.hypot(x + vertices[index][0], y - vertices[index][1])).toBeLessThan(1e-12);
+    const space = "0\nPOLYLINE\n8\na\n70\n8\n210\n0\n220\n0\n230\n-1\n";
+    const places = [1, 2].map((x) => `0\nVERTEX\n8\na\n10\n${x}\n20\n0\n70\n32\n`).join("");
+    expect(readDxfLine(dxf(`${space}${places}`), undefined, "axis.dxf").vertices[0]).toEqual([1, 0]);
     expect(() => readDxfLine(seen(0, 1, 1), undefined, "axis.dxf")).toThrow(refused(/tilted plane/));
   });
 });

@@ -8,6 +8,8 @@ export interface Alignment {
   readonly vertices: readonly (readonly [number, number])[];
   /** True lengths of the stretches between the vertices, along arcs and clothoids. */
   readonly lengths: readonly number[];
+  /** True directions at both ends of each stretch, as `Corridor` takes them; undefined for straight ones. */
+  readonly headings: readonly (readonly [from: number, to: number] | undefined)[];
   /** Chainage of the first vertex. */
   readonly start: number;
   readonly equations: readonly StationEquation[];
@@ -54,7 +56,7 @@ export function noAlignment(file: string, cause: string, fix: string): FormatErr
 }
 
 /**
- * The one of several lines that is wanted.
+ * The one of several lines that is wanted; one that cannot be named is no choice.
  * @param name undefined: there has to be one alone
  * @param without what to do where there is none at all
  * @throws FormatError FORMAT_ALIGNMENT
@@ -68,8 +70,13 @@ export function theOne<T extends { readonly name: string }>(
   const found = name === undefined ? lines : lines.filter((line) => line.name === name);
   const [one, ...others] = found;
   if (one && others.length === 0) return one;
-  const names = [...new Set(lines.map((line) => `"${line.name}"`))].slice(0, 10).join(", ");
+  const known = lines.map((line) => line.name);
+  const single = known.filter((own) => known.indexOf(own) === known.lastIndexOf(own));
+  const names = single.slice(0, 10).map((own) => `"${own}"`);
   const which = name === undefined ? "" : ` of the name "${name}"`;
   const cause = one ? `it has ${found.length} lines${which}` : `it has no line${which}`;
-  throw noAlignment(file, cause, lines.length > 0 ? `name one of ${names}` : without);
+  if (lines.length === 0) throw noAlignment(file, cause, without);
+  const choice =
+    names.length > 0 ? `name one of ${names.join(", ")}` : "give each line a name, or a layer, of its own";
+  throw noAlignment(file, cause, choice);
 }

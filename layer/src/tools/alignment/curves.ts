@@ -1,12 +1,15 @@
-import { TOLERANCE } from "./alignment.js";
+import { type Alignment, TOLERANCE } from "./alignment.js";
 
 type Place = readonly [x: number, y: number];
+type Headings = Alignment["headings"][number];
 
 /** A line that grows by straight stretches, arcs and clothoids. */
 export class CurveLine {
   readonly vertices: Place[];
   /** True length of each stretch. */
   readonly lengths: number[] = [];
+  /** True directions at both ends of each stretch; undefined where it is straight. */
+  readonly headings: Headings[] = [];
 
   constructor(start: Place) {
     this.vertices = [start];
@@ -30,10 +33,12 @@ export class CurveLine {
     const radius = Math.hypot(x - centre[0], y - centre[1]);
     const begin = Math.atan2(y - centre[1], x - centre[0]);
     const count = steps(Math.abs(turn) * radius, 1 / radius);
+    const ahead = begin + (Math.sign(turn) * Math.PI) / 2;
     for (let step = 1; step <= count; step++) {
       const angle = begin + (turn * step) / count;
       const on: Place = [centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle)];
-      this.#add(step === count ? place : on, (Math.abs(turn) * radius) / count);
+      const headings = [ahead + (turn * (step - 1)) / count, ahead + (turn * step) / count] as const;
+      this.#add(step === count ? place : on, (Math.abs(turn) * radius) / count, headings);
     }
   }
 
@@ -62,14 +67,18 @@ export class CurveLine {
     for (const [step, [px, py]] of places.entries()) {
       const share = (step + 1) / count;
       const on: Place = [px + share * missX, py + share * missY];
-      this.#add(step + 1 === count ? place : on, length / count);
+      const [from, to] = [step / count, share].map(
+        (part) => heading + turnOf(part * length, length, first, last),
+      );
+      this.#add(step + 1 === count ? place : on, length / count, [from, to]);
     }
     return Math.hypot(missX, missY);
   }
 
-  #add(place: Place, length: number): void {
+  #add(place: Place, length: number, headings?: Headings): void {
     this.vertices.push(place);
     this.lengths.push(length);
+    this.headings.push(headings);
   }
 }
 
@@ -86,6 +95,11 @@ const GAUSS = [
   [Math.sqrt(5 + 2 * Math.sqrt(10 / 7)) / 3, (322 - 13 * Math.sqrt(70)) / 900],
 ] as const;
 
+/** What a clothoid has turned by at a length along it, radians, to the left positive. */
+function turnOf(along: number, length: number, first: number, last: number): number {
+  return first * along + ((last - first) * along * along) / (2 * length);
+}
+
 /** What a clothoid moves by between two lengths along it. */
 function clothoidStep(
   a: number,
@@ -100,7 +114,7 @@ function clothoidStep(
   for (const [place, weight] of GAUSS) {
     for (const side of place === 0 ? [0] : [-place, place]) {
       const s = middle + half * side;
-      const angle = heading + first * s + ((last - first) * s * s) / (2 * length);
+      const angle = heading + turnOf(s, length, first, last);
       x += weight * half * Math.cos(angle);
       y += weight * half * Math.sin(angle);
     }

@@ -17,21 +17,37 @@ interface Polyline {
   readonly vertices: Vertex[];
 }
 
-/** An entity of a file, or the begin of a section: pairs of codes and values. */
+/** Pairs of codes and values, as the entities of a file have them. */
+type Groups = readonly (readonly [code: number, value: string])[];
+
+/** An entity of a file, or the begin of a section. */
 interface Entity {
   readonly type: string;
-  readonly groups: readonly (readonly [code: number, value: string])[];
+  readonly groups: Groups;
 }
 
 /** Bits of group 70 (DXF reference: POLYLINE, VERTEX). */
 const CLOSED = 1;
 const NO_LINE = 16 | 64; // a mesh of polygons, of faces
 const SPLINE_FRAME = 16; // a control point of a fitted curve, which is not drawn
+const IN_SPACE = 8; // vertices of a polyline in space stand in the world, whatever its plane
+
+/**
+ * Metres in the units of `$INSUNITS` that a drawing in map coordinates bears on purpose: foot, metre, kilometre, yard, US survey
+ * foot. Inches and millimetres are those of templates, whatever is drawn on them.
+ */
+const UNITS: ReadonlyMap<string, number> = new Map([
+  ["2", 0.3048],
+  ["6", 1],
+  ["7", 1000],
+  ["10", 0.9144],
+  ["21", 1200 / 3937],
+]);
 
 /**
  * Reads a polyline of a DXF file (ASCII; LWPOLYLINE, or POLYLINE with vertices) in model space: x and y of the world, arcs by their
- * bulges, of fitted curves the vertices that are drawn. DXF knows no chainage: it begins with 0. The unit that the header names is
- * not taken: drawings in coordinates of a map often bear the one of their template.
+ * bulges, of fitted curves the vertices that are drawn; its unit by `$INSUNITS`, unless that is inches or millimetres, which
+ * templates bear. DXF knows no chainage: it begins with 0.
  *
  * @param layer that the polyline is on; undefined where the file has one polyline alone
  * @param file for errors
@@ -41,7 +57,8 @@ export function readDxfLine(text: string, layer: string | undefined, file: strin
   if (text.startsWith("AutoCAD Binary DXF"))
     throw noAlignment(file, "it is a binary DXF file", "Save it as ASCII DXF");
   const without = "give a file with a polyline; lines, arcs and splines have to be joined to one first";
-  const { name, vertices, closed, plane } = theOne(polylines(text), layer, file, without);
+  const { lines, unit } = readDrawing(text);
+  const { name, vertices, closed, plane } = theOne(lines, layer, file, without);
   const places = vertices.every(({ x, y, bulge }) => Number.isFinite(x + y + bulge));
   if (vertices.length < 2 || !places)
     throw noAlignment(
@@ -58,7 +75,8 @@ export function readDxfLine(text: string, layer: string | undefined, file: strin
     bend(line, vertex, bulge);
     ({ bulge } = vertex);
   }
-  return { name, vertices: line.vertices, lengths: line.lengths, start: 0, equations: [], unit: undefined };
+  const { lengths, headings } = line;
+  return { name, vertices: line.vertices, lengths, headings, start: 0, equations: [], unit };
 }
 
 /** From a plane that is seen from below to that of the world (DXF reference, arbitrary axis algorithm). */
@@ -79,13 +97,15 @@ function bend(line: CurveLine, { x, y }: Vertex, bulge: number): void {
   line.arcTo([x, y], [(ax + x) / 2 - away * uy, (ay + y) / 2 + away * ux], 4 * Math.atan(bulge));
 }
 
-/** Polylines of the model space, with at least one vertex. */
-function polylines(text: string): Polyline[] {
+/** Polylines of the model space, with at least one vertex, and the unit that the header names, metres. */
+function readDrawing(text: string): { readonly lines: Polyline[]; readonly unit: number | undefined } {
   const found: Polyline[] = [];
+  let unit: number | undefined;
   let section = "";
   let current: Polyline | undefined;
   for (const { type, groups } of entities(text)) {
-    if (type === "SECTION") section = firstOf(groups, 2) ?? "";
+    if (type === "SECTION") section = textOf(groups, 2) ?? "";
+    if (section === "HEADER") unit ??= unitOf(groups);
     if (section !== "ENTITIES") continue;
     if (type === "VERTEX") {
       if (current && (flags(groups) & SPLINE_FRAME) === 0) current.vertices.push(...verticesOf(groups));
@@ -94,24 +114,38 @@ function polylines(text: string): Polyline[] {
     current = type === "POLYLINE" || type === "LWPOLYLINE" ? polylineOf(type, groups) : undefined;
     if (current) found.push(current);
   }
-  return found.filter(({ vertices }) => vertices.length > 0);
+  return { lines: found.filter(({ vertices }) => vertices.length > 0), unit };
+}
+
+/** The header's `$INSUNITS`, whose value follows its name. */
+function unitOf(header: Groups): number | undefined {
+  const at = header.findIndex(([code, value]) => code === 9 && value === "$INSUNITS");
+  return UNITS.get(header[at + 1]?.[1] ?? "");
 }
 
 /** A polyline, with its vertices where these stand in it; undefined for one on a sheet, or for a mesh. */
-function polylineOf(type: "POLYLINE" | "LWPOLYLINE", groups: Entity["groups"]): Polyline | undefined {
+function polylineOf(type: "POLYLINE" | "LWPOLYLINE", groups: Groups): Polyline | undefined {
   const own = type === "POLYLINE";
-  const onSheet = Number(firstOf(groups, 67) ?? 0) === 1;
+  const onSheet = Number(textOf(groups, 67) ?? 0) === 1;
   if (onSheet || (own && (flags(groups) & NO_LINE) !== 0)) return undefined;
-  const [x, y, z] = [210, 220, 230].map((code) => Number(firstOf(groups, code) ?? (code === 230 ? 1 : 0)));
-  const plane = Math.hypot(x, y) > 1e-9 * Math.abs(z) ? "tilted" : z > 0 ? "above" : "below";
+  const inSpace = own && (flags(groups) & IN_SPACE) !== 0;
   return {
-    ...{ name: firstOf(groups, 8) ?? "", closed: (flags(groups) & CLOSED) !== 0, plane },
+    name: textOf(groups, 8) ?? "",
+    closed: (flags(groups) & CLOSED) !== 0,
+    plane: inSpace ? "above" : planeOf(groups),
     vertices: own ? [] : verticesOf(groups),
   };
 }
 
+/** How the plane of an entity lies, by its normal. */
+function planeOf(groups: Groups): Polyline["plane"] {
+  const [x, y, z] = [210, 220, 230].map((code) => Number(textOf(groups, code) ?? (code === 230 ? 1 : 0)));
+  if (Math.hypot(x, y) > 1e-9 * Math.abs(z)) return "tilted";
+  return z < 0 ? "below" : "above";
+}
+
 /** The vertices that stand in an entity, each begun by its x. */
-function verticesOf(groups: Entity["groups"]): Vertex[] {
+function verticesOf(groups: Groups): Vertex[] {
   const found: { x: number; y: number; bulge: number }[] = [];
   for (const [code, value] of groups) {
     const last = found[found.length - 1];
@@ -122,12 +156,12 @@ function verticesOf(groups: Entity["groups"]): Vertex[] {
   return found;
 }
 
-function firstOf(groups: Entity["groups"], wanted: number): string | undefined {
+function textOf(groups: Groups, wanted: number): string | undefined {
   return groups.find(([code]) => code === wanted)?.[1];
 }
 
-function flags(groups: Entity["groups"]): number {
-  return Number(firstOf(groups, 70) ?? 0);
+function flags(groups: Groups): number {
+  return Number(textOf(groups, 70) ?? 0);
 }
 
 function* entities(text: string): Generator<Entity> {

@@ -21,14 +21,14 @@ interface Found {
   readonly equations: StationEquation[];
 }
 
-/** Metres in LandXML's units of length. */
+/** Metres in LandXML's units of length, whose names some programs write in other letters. */
 const UNITS: ReadonlyMap<string, number> = new Map([
   ["meter", 1],
   ["millimeter", 0.001],
   ["centimeter", 0.01],
   ["kilometer", 1000],
   ["foot", 0.3048],
-  ["USSurveyFoot", 1200 / 3937],
+  ["ussurveyfoot", 1200 / 3937],
   ["inch", 0.0254],
   ["mile", 1609.344],
 ]);
@@ -63,12 +63,13 @@ export function readLandXml(text: string, name: string | undefined, file: string
     );
   });
   parser.write(text).close();
-  const { line, equations, ...found } = theOne(
+  const { line, ...found } = theOne(
     reader.alignments.filter((one) => one.line !== undefined),
     name,
     file,
   );
-  return { ...found, equations, vertices: line!.vertices, lengths: line!.lengths, unit: reader.unit };
+  const { vertices, lengths, headings } = line!;
+  return { ...found, vertices, lengths, headings, unit: reader.unit };
 }
 
 const localName = (tag: string): string => tag.slice(tag.indexOf(":") + 1);
@@ -88,12 +89,12 @@ class Reader {
     this.#stack.push({ name, attributes, places: new Map(), text: "" });
     const unit = attributes.get("linearUnit");
     if ((name === "Metric" || name === "Imperial") && unit !== undefined) {
-      this.unit = UNITS.get(unit);
+      this.unit = UNITS.get(unit.toLowerCase());
       if (this.unit === undefined) throw this.#refusal(`its unit of length is not known: ${unit}`);
     }
     if (name === "Alignment") {
       const station = attributes.get("staStart") ?? "0";
-      const start = station.trim() === "" ? Number.NaN : Number(station);
+      const start = numberOf(station);
       if (!Number.isFinite(start)) throw this.#refusal(`its staStart is no number: ${station}`);
       this.alignments.push({ name: attributes.get("name") ?? "", start, line: undefined, equations: [] });
     }
@@ -139,9 +140,7 @@ class Reader {
   }
 
   #equation({ attributes }: Element): void {
-    const [internal, ahead] = ["staInternal", "staAhead"].map((key) =>
-      Number(attributes.get(key) ?? Number.NaN),
-    );
+    const [internal, ahead] = ["staInternal", "staAhead"].map((key) => numberOf(attributes.get(key)));
     if (!Number.isFinite(internal + ahead)) throw this.#refusal("a station equation of it has no numbers");
     const increment = attributes.get("staIncrement") === "decreasing" ? "decreasing" : "increasing";
     const equations = this.alignments[this.alignments.length - 1]?.equations;
@@ -176,23 +175,36 @@ class Reader {
     const other = Math.hypot(end[0] - centre[0], end[1] - centre[1]);
     if (!(Math.abs(radius - other) <= CLOSURE))
       throw this.#refusal("both ends of a Curve have other distances from its centre");
-    const left = element.attributes.get("rot") === "ccw";
+    const hand = this.#hand(element);
     const angle =
       Math.atan2(end[1] - centre[1], end[0] - centre[0]) - Math.atan2(y - centre[1], x - centre[0]);
     const full = 2 * Math.PI;
-    const turn = left ? ((angle % full) + full) % full : -(((-angle % full) + full) % full);
-    line.arcTo(end, centre, turn);
+    const turn = (((hand * angle) % full) + full) % full;
+    const isCircle = numberOf(element.attributes.get("length")) > Math.PI * radius;
+    // Where an arc has no length, its end may lie a gap and a rounding before the line's: that is no whole circle.
+    if (!isCircle && (full - turn) * radius <= 2 * GAP) return;
+    const whole = isCircle && turn * radius <= 2 * GAP ? full : 0;
+    if (turn + whole > 0) line.arcTo(end, centre, hand * (turn + whole));
+  }
+
+  /** 1 for what turns to the left, -1 for what turns to the right. */
+  #hand({ name, attributes }: Element): 1 | -1 {
+    const rot = attributes.get("rot")?.toLowerCase();
+    if (rot === "ccw") return 1;
+    if (rot === "cw") return -1;
+    throw this.#refusal(`a ${name} of it turns neither cw nor ccw`);
   }
 
   #spiral(line: CurveLine, element: Element, end: Place): void {
     const { attributes } = element;
     const type = attributes.get("spiType") ?? "clothoid";
     if (type !== "clothoid") throw this.#refusal(`it has a spiral of type ${type}; clothoids are known`);
-    const bend = attributes.get("rot") === "ccw" ? 1 : -1;
-    const [first, last] = ["radiusStart", "radiusEnd"].map((key) => bend * curvatureOf(attributes.get(key)));
-    const length = Number(attributes.get("length") ?? Number.NaN);
-    const corner = this.#place(element, "PI");
+    const length = numberOf(attributes.get("length"));
     const [x, y] = line.end;
+    if (length === 0 && Math.hypot(end[0] - x, end[1] - y) <= 2 * GAP) return;
+    const hand = this.#hand(element);
+    const [first, last] = ["radiusStart", "radiusEnd"].map((key) => hand * curvatureOf(attributes.get(key)));
+    const corner = this.#place(element, "PI");
     const heading = Math.atan2(corner[1] - y, corner[0] - x);
     const miss = line.clothoidTo(end, heading, length, first, last);
     if (!(miss <= CLOSURE))
@@ -203,7 +215,8 @@ class Reader {
     const [kind, ...words] = text.trim().split(/\s+/);
     const step = kind === "PntList3D" ? 3 : 2;
     for (let at = 0; at + 1 < words.length; at += step) {
-      const place: Place = [Number(words[at + 1]), Number(words[at])];
+      const place = placeOf(`${words[at]} ${words[at + 1]}`);
+      if (!place) throw this.#refusal("an IrregularLine of it has a place without numbers");
       const [x, y] = line.end;
       if (place[0] !== x || place[1] !== y) line.lineTo(place);
     }
@@ -226,6 +239,11 @@ class Reader {
 function placeOf(text: string): Place | undefined {
   const [north, east] = text.trim().split(/\s+/).map(Number);
   return Number.isFinite(north) && Number.isFinite(east) ? [east, north] : undefined;
+}
+
+/** NaN where there is none, or nothing in it. */
+function numberOf(text: string | undefined): number {
+  return text === undefined || text.trim() === "" ? Number.NaN : Number(text);
 }
 
 /** 1 / radius; an infinite radius is straight. */

@@ -75,7 +75,8 @@ export class Profile {
 
   /**
    * @throws PlacementError PLACE_DOMAIN where a vertex has no place in the data set's coordinates, PLACE_ANGLES where
-   * these are angles and their own plane is asked for, PLACE_LINE where the line has no length or the width is none
+   * these are angles and their own plane is asked for, PLACE_LINE where the line has no length, or
+   * reaches too far on the ellipsoid, or the width is none
    */
   constructor(cloud: ProfiledCloud, { line, width, chainage = "grid", start = 0, plane }: ProfileOptions) {
     const { horizontalUnit } = cloud.crs;
@@ -88,7 +89,9 @@ export class Profile {
     }
     this.origin = cloud;
     const onEllipsoid = angular || plane === "ellipsoid";
-    this.#ellipsoid = onEllipsoid ? { ...lineOnEllipsoid(line), geodetic: geodeticOf(cloud) } : undefined;
+    this.#ellipsoid = onEllipsoid
+      ? { ...lineOnEllipsoid(line, cloud.name), geodetic: geodeticOf(cloud) }
+      : undefined;
     this.unit = onEllipsoid ? 1 : horizontalUnit.size;
     const vertices = this.#ellipsoid?.vertices ?? sourceLine(cloud, line, cloud.name);
     try {

@@ -15,9 +15,10 @@ export interface LineOnEllipsoid {
 /**
  * Lays a line into the transverse Mercator plane of WGS 84 about the mean of its vertices.
  * @param line longitude and latitude of each vertex, radians; it takes the shorter way across 180°
+ * @param file for errors
  * @throws PlacementError PLACE_LINE where a vertex lies so far from the middle that lengths in the plane mean little
  */
-export function lineOnEllipsoid(line: readonly (readonly [number, number])[]): LineOnEllipsoid {
+export function lineOnEllipsoid(line: readonly (readonly [number, number])[], file: string): LineOnEllipsoid {
   const first = line[0]?.[0] ?? 0;
   const turned = (longitude: number) =>
     longitude - 2 * Math.PI * Math.round((longitude - first) / (2 * Math.PI));
@@ -30,15 +31,16 @@ export function lineOnEllipsoid(line: readonly (readonly [number, number])[]): L
   const place = new Float64Array(2);
   const vertices = line.map(([longitude, latitude]) => {
     plane.toPlane(longitude, latitude, place);
-    if (!(Math.hypot(place[0], place[1]) <= FARTHEST)) throw tooLong();
+    if (!(Math.hypot(place[0], place[1]) <= FARTHEST)) throw tooLong(file);
     return [place[0], place[1]] as const;
   });
   return { plane, middle, vertices };
 }
 
-function tooLong(): PlacementError {
+function tooLong(file: string): PlacementError {
+  const cause = `the line reaches farther than ${FARTHEST / 1000} km from its middle`;
   return new PlacementError({
-    ...{ code: "PLACE_LINE", file: "line", cause: "it reaches farther than 500 km from its middle" },
-    fix: "Give shorter lines, each with a plane of its own",
+    ...{ code: "PLACE_LINE", file, cause },
+    fix: "give shorter lines, each with a plane of its own",
   });
 }

@@ -3,7 +3,6 @@ import fc from "fast-check";
 import { expect, it } from "vitest";
 import { Corridor } from "../profile/corridor.js";
 import { CrossSections } from "../sections/cross-sections.js";
-import { lineOnEllipsoid } from "./line-on-ellipsoid.js";
 import { CorridorOnEllipsoid, CrossSectionsOnEllipsoid } from "./on-ellipsoid.js";
 
 const DEGREE = Math.PI / 180;
@@ -73,19 +72,4 @@ it("the plane has metres of the ellipsoid, and leads back", () => {
   expect(place[0]).toBeCloseTo((7 + 1 / 3600) * DEGREE, 13);
   plane.toPlane(Number.NaN, 1, place);
   expect([...place]).toEqual([Number.NaN, Number.NaN]);
-});
-
-it("a line that reaches farther than its plane is good for is refused", () => {
-  const along = (degrees: number) => () =>
-    lineOnEllipsoid([
-      [7 * DEGREE, 47 * DEGREE],
-      [7 * DEGREE, (47 + degrees) * DEGREE],
-    ]);
-  expect(along(8)).not.toThrow();
-  expect(along(10)).toThrow(expect.objectContaining({ code: "PLACE_LINE" }));
-  const half = [
-    [7 * DEGREE, 47 * DEGREE],
-    [-173 * DEGREE, 47 * DEGREE],
-  ] as const;
-  expect(() => lineOnEllipsoid(half)).toThrow(expect.objectContaining({ code: "PLACE_LINE" }));
 });

@@ -1,12 +1,17 @@
 import type { BoxRelation, QueryVolume } from "../../query/index.js";
 import { Strip } from "./strip.js";
 
-/** How distances along a line are counted. */
+/** How distances along a line are counted, and what curve it stands for. */
 export interface Stationing {
   /** Lengths of the stretches between the vertices, in any unit. Default: in the plane. */
   readonly lengths?: readonly number[] | undefined;
   /** Chainage at the start of the line, in the same unit. Default: 0. */
   readonly start?: number | undefined;
+  /**
+   * Of each stretch that is the chord of a curve, the directions at its ends: radians from the x axis, counter-clockwise, the second
+   * without a jump of a turn. Default: all are straight.
+   */
+  readonly headings?: readonly (readonly [from: number, to: number] | undefined)[] | undefined;
 }
 
 /** Chainages beyond which float64 no longer tells tenths of a millimetre apart. */
@@ -41,6 +46,8 @@ export class Corridor implements QueryVolume {
   readonly #strip: Strip;
   /** Chainage at the start of each segment, and at the end of the last. */
   readonly #stations: Float64Array;
+  /** Directions of the curves that segments are chords of. */
+  readonly #headings: (readonly [from: number, to: number] | undefined)[] = [];
 
   /**
    * @param line x and y of each vertex, source units; vertices that repeat the one before are passed over
@@ -50,7 +57,7 @@ export class Corridor implements QueryVolume {
   constructor(
     line: readonly (readonly [number, number])[],
     width: number,
-    { lengths, start = 0 }: Stationing = {},
+    { lengths, start = 0, headings }: Stationing = {},
   ) {
     if (!(width > 0 && Number.isFinite(width))) throw new RangeError(`the width cannot be ${width}`);
     if (!(Math.abs(start) <= MOST_START)) throw new RangeError(`chainage cannot start at ${start}`);
@@ -67,6 +74,7 @@ export class Corridor implements QueryVolume {
         continue;
       }
       ends.push(ax, ay, bx, by);
+      this.#headings.push(headings?.[index - 1]);
       stations.push(stations[stations.length - 1] + (lengths?.[index - 1] ?? Math.hypot(bx - ax, by - ay)));
       chainages.push(stations[stations.length - 1]);
     }
@@ -160,8 +168,8 @@ export class Corridor implements QueryVolume {
   }
 
   /**
-   * The place of a chainage on the line, and the direction of the line there: at a corner the one between those of both
-   * segments, of which the earlier one counts where the line turns back.
+   * The place of a chainage on the line, and the direction there of the line, or of the curve that it stands for: at a corner
+   * the one between those of both segments, of which the earlier one counts where the line turns back.
    * @returns x, y and the unit vector of the direction; undefined beyond the ends of the line
    */
   at(chainage: number): LinePlace | undefined {
@@ -173,15 +181,22 @@ export class Corridor implements QueryVolume {
     const [ax, ay, bx, by] = this.#strip.segments.subarray(4 * segment, 4 * segment + 4);
     const share = (chainage - stations[segment]) / (stations[segment + 1] - stations[segment]);
     const [x, y] = share === 1 ? [bx, by] : [ax + share * (bx - ax), ay + share * (by - ay)];
-    const here = this.#direction(segment);
+    const here = this.#direction(segment, share);
     if (share > 0 || segment === 0) return { x, y, direction: here };
-    const before = this.#direction(segment - 1);
+    const before = this.#direction(segment - 1, 1);
     const [dx, dy] = [before[0] + here[0], before[1] + here[1]];
     const length = Math.hypot(dx, dy);
     return { x, y, direction: length < 1e-9 ? before : [dx / length, dy / length] };
   }
 
-  #direction(segment: number): readonly [number, number] {
+  /** The direction at a share of a segment; a curve turns evenly along its chord. */
+  #direction(segment: number, share: number): readonly [number, number] {
+    const headings = this.#headings[segment];
+    if (headings) {
+      const [from, to] = headings;
+      const heading = from + share * (to - from);
+      return [Math.cos(heading), Math.sin(heading)];
+    }
     const [ax, ay, bx, by] = this.#strip.segments.subarray(4 * segment, 4 * segment + 4);
     const length = Math.hypot(bx - ax, by - ay);
     return [(bx - ax) / length, (by - ay) / length];
