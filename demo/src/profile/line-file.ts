@@ -25,9 +25,13 @@ type Places = readonly (readonly [number, number])[];
 /** Distance of the chords that stand for arcs from them, metres: fine for the eye, and few enough to be dragged. */
 const TOLERANCE = 0.01;
 
+/** Each leaves some millionths of the distance. */
+const ROUNDS = 2;
+
 /**
  * Reads the lines of a file: GeoJSON in longitude and latitude; DXF (its polyline) and LandXML (its alignment) in the cloud's own
- * coordinates. Vertices stand at the height of the recorded point that is nearest in the coarsest level.
+ * coordinates. Vertices stand at the height of the recorded point that is nearest in the coarsest level, and their longitudes and
+ * latitudes lead to the very places of the cloud's plane that the file has, as on the command line.
  * @throws FormatError FORMAT_ALIGNMENT; MeasureError MEASURE_FILE; PlacementError
  */
 export async function readLines(file: File, cloud: PointCloud): Promise<FileLine[]> {
@@ -36,12 +40,16 @@ export async function readLines(file: File, cloud: PointCloud): Promise<FileLine
   if (!ending) {
     const lines = linesOfGeoJson(text, cloud, file.name);
     return Promise.all(
-      lines.map(async ({ name, places }) => ({ name, start: 0, vertices: await onPoints(places, cloud) })),
+      lines.map(async ({ name, places }) => ({
+        name,
+        start: 0,
+        vertices: await onPoints(places, cloud, file.name),
+      })),
     );
   }
   const alignment = (ending === "dxf" ? readDxfLine : readLandXml)(text, undefined, file.name);
   const { places, start } = await inCloud(alignment, cloud, file.name);
-  return [{ name: alignment.name || file.name, start, vertices: await onPoints(places, cloud) }];
+  return [{ name: alignment.name || file.name, start, vertices: await onPoints(places, cloud, file.name) }];
 }
 
 function linesOfGeoJson(text: string, cloud: PointCloud, file: string) {
@@ -84,7 +92,7 @@ async function inCloud(alignment: Alignment, { crs }: PointCloud, file: string) 
 }
 
 /** Vertices at places, each as high as the point that is nearest to it. */
-async function onPoints(places: Places, cloud: PointCloud): Promise<Vertex[]> {
+async function onPoints(places: Places, cloud: PointCloud, file: string): Promise<Vertex[]> {
   const heights = new Float64Array(places.length);
   const nearest = new Float64Array(places.length).fill(Number.POSITIVE_INFINITY);
   const pace = new Pace(undefined);
@@ -101,5 +109,21 @@ async function onPoints(places: Places, cloud: PointCloud): Promise<Vertex[]> {
       await pace.rest();
     }
   }
-  return places.map(([x, y], index) => sourceVertex(cloud, [x, y, heights[index]!]));
+  return places.map((place, index) => vertexOver(place, heights[index]!, cloud, file));
+}
+
+/**
+ * The vertex at a height whose longitude and latitude lead to a place of the cloud's plane. Where a datum is shifted they change
+ * with the height, and profiles take them at one: the vertex stands as much beside the place, hundredths of a millimetre for each
+ * metre between both.
+ */
+function vertexOver([x, y]: Places[number], z: number, cloud: PointCloud, file: string): Vertex {
+  let [besideX, besideY] = [x, y];
+  for (let round = 0; round < ROUNDS; round++) {
+    const { longitude, latitude } = sourceVertex(cloud, [besideX, besideY, z]);
+    const [[foundX, foundY]] = sourceLine(cloud, [[longitude, latitude]], file) as [[number, number]];
+    besideX += x - foundX;
+    besideY += y - foundY;
+  }
+  return sourceVertex(cloud, [besideX, besideY, z]);
 }
