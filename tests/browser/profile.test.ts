@@ -280,7 +280,7 @@ async function plotIsMovedAndMeasured(page: Page): Promise<void> {
     /^along [\d.-]+ m, up [\d.-]+ m, slant [\d.]+ m, .*°; a level sight rises 0\.00\d m .*; the ground (lies|stands) .*; ground above/,
   );
   await expect
-    .poll(() => page.locator("#profile-axes .sight").getAttribute("points"))
+    .poll(() => page.locator("#profile-axes .sight").getAttribute("points"), { timeout: 60_000 })
     .toMatch(/^(\S+ ){48}\S+$/);
   await screenshot(page, "profile-measured");
   await page.click("#profile-measure");
