@@ -5,7 +5,6 @@ import {
   boxNumbers,
   classNumbers,
   finite,
-  heightRange,
   notNegative,
   numbers,
   originList,
@@ -16,6 +15,7 @@ import {
   sectionFormats,
   statistic,
   threadCount,
+  valueRange,
 } from "./given/arguments.js";
 import { PROGRESS_KINDS, SAMPLINGS } from "./given/choices.js";
 import type { EngineChoice } from "./place/engine.js";
@@ -236,6 +236,16 @@ const profile = program
   )
   .addOption(new Option("--scale <N>", "draw .svg and .pdf 1:N (what fits onto A3)").argParser(positive))
   .addOption(new Option("--exaggeration <E>", "draw heights stretched by E").argParser(positive).default(1))
+  .option(
+    "--color-by <NAME>",
+    "attribute that .svg and .pdf are coloured by: rgb, elevation, classification, ..., or side (of the line)",
+  )
+  .addOption(
+    new Option(
+      "--color-range <least,greatest>",
+      "its values at the ends of the gradient (of all points)",
+    ).argParser(valueRange),
+  )
   .addOption(
     new Option(
       "--ground <how>",
@@ -260,6 +270,8 @@ const profile = program
     const { sections, interval, at } = options;
     if (sections && interval === undefined && at === undefined)
       command.error("error: --sections requires --interval or --at");
+    if (options.colorRange && options.colorBy === undefined)
+      command.error("error: --color-range requires --color-by");
     if (!sections && (interval ?? at) !== undefined)
       command.error("error: --interval and --at require --sections");
     const asked = (statistic ?? groundInterval ?? groundClasses) !== undefined;
@@ -285,7 +297,7 @@ const clip = program
   )
   .addOption(
     new Option("--heights <low,high>", "a horizontal slice: what lies between these z of the scan").argParser(
-      heightRange,
+      valueRange,
     ),
   )
   .action(async (files: string[], options, command: Command) => {

@@ -2,9 +2,17 @@ import { mkdtempSync, openAsBlob, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { PointCloud } from "@groma/layer";
-import { type ExportedPoints, exportPoints, MemorySink, type PointExportOptions } from "@groma/layer/export";
-import { Clip, ClipSet, Profile } from "@groma/layer/tools";
+import {
+  cutFacts,
+  type ExportedPoints,
+  exportPicture,
+  exportPoints,
+  MemorySink,
+  type PointExportOptions,
+} from "@groma/layer/export";
+import { Clip, ClipSet, Corridor, Profile } from "@groma/layer/tools";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { completeStyle, defaultStyle, OFFSET } from "../../layer/src/effects/index.js";
 import { converted } from "../converted.js";
 import { localExecutor } from "../faults/local-executor.js";
 import { data } from "../project.js";
@@ -126,6 +134,48 @@ describe.skipIf(road.missing ?? coreMissing ?? pythonMissing)("exports of a real
     const options = ["--clips", file, "--range", "elevation=735,762.25", "--range", "userData=0,3"];
     expect(Buffer.compare(commanded(["clip", scan, ...options]), Buffer.from(bytes))).toBe(0);
   });
+
+  it.each(["intensity", "classification", "elevation", "side"])(
+    "are pictures by %s, the same from the command line",
+    async (by) => {
+      const line = [
+        [589_650, 231_380],
+        [589_800, 231_430],
+      ] as const;
+      const strip = new Corridor(line, 8);
+      const range = by === "intensity" ? ([10, 2000] as const) : undefined;
+      const sides = { name: OFFSET, kind: "scalar", range: [-4, 4] } as const;
+      const attributes = [sides, ...cloud.attributes];
+      const base = defaultStyle({ attributes });
+      const color = by === "side" ? OFFSET : by;
+      const style = completeStyle({ color, range }, base, { name: cloud.name, attributes });
+      const paint = { style, attributes, rgbBits: cloud.statistics?.rgbBits ?? undefined };
+      const sink = new MemorySink();
+      const facts = cutFacts("line", cloud.crs);
+      await exportPicture([{ origin: cloud, volume: strip, along: strip }], sink, {
+        facts,
+        format: "svg",
+        paint,
+      });
+      const file = join(folder, "line.geojson");
+      writeFileSync(file, JSON.stringify({ type: "LineString", coordinates: line }));
+      const options = ["--line", file, "--line-crs", "source", "--width", "8", "--color-by", by];
+      const out = join(folder, "picture.svg");
+      const run = groma([
+        "profile",
+        scan,
+        ...options,
+        ...(range ? ["--color-range", range.join()] : []),
+        "--out",
+        out,
+        "--overwrite",
+      ]);
+      expect(run).toMatchObject({ code: 0 });
+      expect(readFileSync(out, "utf8")).toBe(
+        new TextDecoder().decode(sink.bytes()).replace(">file<", ">vol_total.copc.laz<"),
+      );
+    },
+  );
 
   it("are what a filter leaves of a profile, whose last piece is short", async () => {
     const angles = [

@@ -95,7 +95,9 @@ describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: $
       }
   });
 
-  it("are refused in formats and at stations that there are not, before anything is read", () => {
+  it("are refused in formats and at stations that there are not, before anything is read", {
+    timeout: 240_000,
+  }, () => {
     const refusals: [string[], RegExp][] = [
       [["sections.las", "--sections", "--interval", "5"], /OPTION_FORMAT.*cross-sections/s],
       [["sections.zip", "--sections"], /--sections requires --interval or --at/],
@@ -103,6 +105,9 @@ describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: $
       [["sections.zip", "--sections", "--at", "5000"], /OPTION_SECTIONS.*no chainage 5000/s],
       [["sections.zip", "--sections", "--at", "5", "--files", "tiff"], /Expected some of las/],
       [["profile.xml", "--ground", "p101"], /percentile from p0 to p100/],
+      [["profile.xml", "--ground-interval", "1e-6"], /^OPTION_GROUND.*--ground-interval/s],
+      [["profile.svg", "--color-by", "intensities"], /^STYLE_COLOR.*intensit/s],
+      [["profile.svg", "--color-range", "0,9"], /--color-range requires --color-by/],
     ];
     for (const [[out, ...options], message] of refusals) {
       const run = cut(out!, ...options);

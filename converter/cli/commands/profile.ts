@@ -1,12 +1,13 @@
 import { basename, extname } from "node:path";
+import type { PaintedSource } from "@groma/layer/export";
 import { type StationEquation, StationEquations, type StationOptions, stations } from "@groma/layer/tools";
 import type { CutRequest } from "../cut/cut.js";
 import { readGivenLine } from "../cut/line-file.js";
 import { type NarrowingOptions, narrowing } from "../cut/narrowing.js";
 import type { GivenCrs } from "../cut/place.js";
 import { type LaidLine, layLine } from "../cut/profile-line.js";
-import { crossSections } from "../cut/volumes.js";
-import type { CutOptions, WrittenStations } from "../cut/writers.js";
+import { checkGround, crossSections } from "../cut/volumes.js";
+import type { CutOptions, ShownOptions } from "../cut/writers.js";
 import type { ProgressKind } from "../given/choices.js";
 import { tellCut } from "./cut.js";
 
@@ -34,6 +35,10 @@ export interface ProfileCommandOptions extends CutOptions, StationOptions, Narro
   readonly thickness: number;
   /** Distance between points that suffices, source units. Default: every point. */
   readonly spacing?: number;
+  /** Attribute that pictures are coloured by, or `side`. Default: the scan's own colours. */
+  readonly colorBy?: string;
+  /** Its values at both ends of the gradient. */
+  readonly colorRange?: readonly [number, number];
   readonly progress?: ProgressKind;
 }
 
@@ -48,9 +53,12 @@ export async function runProfile(files: readonly string[], options: ProfileComma
   };
   const narrow = await narrowing(options);
   let laid: LaidLine | undefined;
+  let sources: readonly PaintedSource[] = [];
   const select: CutRequest["select"] = async (origin, all) => {
     laid = await layLine(origin, all, choices);
+    sources = all.map((one) => one.source);
     const { strip, unit, ellipsoid } = laid;
+    checkGround(strip, options.ground?.interval);
     const along = ellipsoid?.corridor(strip) ?? strip;
     if (!sections) return narrow({ origin, volume: along, along, spacing });
     const widths = { left: left * unit, right: right * unit, thickness: thickness * unit };
@@ -64,13 +72,31 @@ export async function runProfile(files: readonly string[], options: ProfileComma
     ...(sections && { sections }),
     select,
     facts: (known) => laid?.ellipsoid?.facts(known) ?? known,
-    stationing: () => stationingOf(laid?.equations ?? []),
+    shown: async () => {
+      const paint = await paintOf(options, sources, sections ? undefined : laid?.strip.reach);
+      return { ...stationsOf(laid?.equations ?? []), paint };
+    },
   };
   await tellCut("profile", files, options, request);
 }
 
+/**
+ * How pictures are coloured; undefined: as the scan's points are.
+ * @param reach how far points lie from the line; of sections each has its own, by which none is coloured
+ * @throws StyleError STYLE_COLOR, STYLE_NO_RGB, STYLE_RANGE
+ */
+async function paintOf(
+  { colorBy, colorRange: range }: Pick<ProfileCommandOptions, "colorBy" | "colorRange">,
+  [first, ...others]: readonly PaintedSource[],
+  reach: number | undefined,
+): Promise<ShownOptions["paint"]> {
+  if (colorBy === undefined || !first) return undefined;
+  const { OFFSET, paintBy } = await import("@groma/layer/export");
+  return paintBy({ color: colorBy === "side" ? OFFSET : colorBy, range, reach }, [first, ...others]);
+}
+
 /** What documents say of stations that are counted anew; nothing where none are. */
-function stationingOf(equations: readonly StationEquation[]): WrittenStations {
+function stationsOf(equations: readonly StationEquation[]): ShownOptions {
   if (equations.length === 0) return {};
   const stationing = new StationEquations(equations);
   return { equations, stationOf: (chainage) => stationing.stationOf(chainage).station };

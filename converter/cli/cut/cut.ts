@@ -6,7 +6,7 @@ import { type OpenedPoints, openPoints } from "../files/points.js";
 import { requirePlace } from "../given/output-place.js";
 import { writeWhole } from "./output-file.js";
 import { factsOf, geodeticOf } from "./place.js";
-import { type CutOptions, type CutSelection, type WrittenStations, writerOf } from "./writers.js";
+import { type CutOptions, type CutSelection, type ShownOptions, writerOf } from "./writers.js";
 
 /** No point is where points are asked for. Code: SELECTION_EMPTY. */
 class SelectionError extends GromaError {
@@ -39,8 +39,8 @@ export interface CutRequest {
   ) => Promise<CutSelection>;
   /** What documents say of the coordinates, where that is not what the first file says. */
   readonly facts?: ((known: CutFacts) => CutFacts) | undefined;
-  /** How stations are written, once it is selected. Default: as chainages. */
-  readonly stationing?: (() => WrittenStations) | undefined;
+  /** What documents say and show of what is selected. Default: chainages, the scan's own colours. */
+  readonly shown?: (() => Promise<ShownOptions>) | undefined;
 }
 
 /**
@@ -83,8 +83,8 @@ export async function cut(
         read = progress.read;
         onProgress(progress);
       };
-      const stationing = request.stationing?.();
-      const how = { ...options, ...stationing, facts, signal, onProgress: told };
+      const shown = writer.documents && (await request.shown?.());
+      const how = { ...options, ...shown, facts, signal, onProgress: told };
       points = await writer.write(selections, unfinished, how);
       if (points === 0) throw empty(out);
     });

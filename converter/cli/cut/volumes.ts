@@ -7,6 +7,7 @@ import {
   type SectionWidths,
   SliceVolume,
   type Stationing,
+  terrainStations,
 } from "@groma/layer/tools";
 import { OptionError } from "../given/option-error.js";
 import type { InSource } from "./place.js";
@@ -51,6 +52,18 @@ export function crossSections(
   const { chainages: own } = line;
   const make = () => new CrossSections(line, chainages(own[0]!, own[own.length - 1]!), widths);
   return made(make, "OPTION_SECTIONS", "--sections", "give --interval, or --at with chainages of the line");
+}
+
+/**
+ * Sees to it that the ground along a line has stations, before anything is read.
+ * @param interval undefined: no ground is asked for
+ * @throws OptionError OPTION_GROUND where there are too many, or none
+ */
+export function checkGround({ chainages }: Corridor, interval: number | undefined): void {
+  if (interval === undefined) return;
+  const fix = "give a distance between stations that suits the length of the line";
+  const count = () => terrainStations(chainages[0]!, chainages[chainages.length - 1]!, interval);
+  made(count, "OPTION_GROUND", "--ground-interval", fix);
 }
 
 /** All that stands on a polygon. @throws OptionError OPTION_POLYGON where a ring has no area */

@@ -17,8 +17,9 @@ import { OptionError } from "../given/option-error.js";
 import { BlockFile } from "./block-file.js";
 import { writeFile } from "./output-file.js";
 
-/** Where stations are counted anew, and the stations that follow. */
-export interface WrittenStations {
+/** What documents show of the points and their line. */
+export interface ShownOptions extends Pick<DatedOptions, "paint"> {
+  /** Where stations are counted anew, and the stations that follow. */
   readonly equations?: DatedOptions["equations"];
   readonly stationOf?: ((chainage: number) => number) | undefined;
 }
@@ -40,7 +41,7 @@ export interface CutOptions extends PictureScale {
 /** What is written: points as they are selected, or as they lie in cross-sections of a line. */
 export type CutSelection = PointSelection | (SectionSelection & { readonly line: AlongLine });
 
-interface WriteOptions extends ExportOptions, CutOptions, WrittenStations {
+interface WriteOptions extends ExportOptions, CutOptions, ShownOptions {
   readonly facts: CutFacts;
 }
 

@@ -36,9 +36,9 @@ export function numbers(text: string): number[] {
   return text.split(",").map(finite);
 }
 
-export function heightRange(text: string): number[] {
-  const given = numbers(text);
-  if (given.length === 2) return given;
+export function valueRange(text: string): [number, number] {
+  const [first, second, ...more] = numbers(text);
+  if (first !== undefined && second !== undefined && more.length === 0) return [first, second];
   throw new InvalidArgumentError("Expected two numbers separated by a comma");
 }
 

@@ -1,3 +1,4 @@
+export { OFFSET } from "../effects/index.js";
 export type { LazTask, RecordLayout } from "../laz/index.js";
 export type { PaintOptions } from "./along.js";
 export { type ArchiveEntry, writeArchive } from "./archive.js";
@@ -15,6 +16,7 @@ export type { GroundRuns, LandXmlSection } from "./landxml.js";
 export { exportLas, type LasOptions } from "./las.js";
 export { exportLaz, type LazOptions } from "./laz.js";
 export { type KnownPoints, type Narrowing, narrowed } from "./narrowed.js";
+export { type PaintChoices, type PaintedSource, paintBy } from "./paint-by.js";
 export type { PictureScale } from "./picture/profile-picture.js";
 export { type ExportedPoints, exportPoints, type PointExportOptions, type PointFormat } from "./points.js";
 export {

@@ -96,4 +96,5 @@ export {
   type TerrainOptions,
   type TerrainStation,
   type TerrainStatistic,
+  terrainStations,
 } from "./terrain/terrain-line.js";

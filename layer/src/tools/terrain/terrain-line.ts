@@ -28,6 +28,16 @@ export interface TerrainStation {
 const MOST = 10_000_000;
 
 /**
+ * Number of stations of a terrain line.
+ * @throws RangeError where the interval is none, or too small for the length
+ */
+export function terrainStations(from: number, to: number, interval: number): number {
+  const count = Math.floor((to - from) / interval + 1e-9) + 1;
+  if (interval > 0 && count >= 1 && count <= MOST) return count;
+  throw new RangeError(`the interval of the terrain line cannot be ${interval}`);
+}
+
+/**
  * The ground along a line, station by station, from points in any order. Stations without points are gaps: nothing is
  * drawn between their neighbours.
  */
@@ -50,9 +60,7 @@ export class TerrainLine {
    * @throws RangeError where the interval is none, too small for the length, or the statistic none
    */
   constructor(from: number, to: number, { interval, statistic = 25 }: TerrainOptions) {
-    const count = Math.floor((to - from) / interval + 1e-9) + 1;
-    if (!(interval > 0 && count >= 1 && count <= MOST))
-      throw new RangeError(`the interval of the terrain line cannot be ${interval}`);
+    const count = terrainStations(from, to, interval);
     if (typeof statistic === "number" && !(statistic >= 0 && statistic <= 100))
       throw new RangeError(`there is no percentile ${statistic}`);
     this.interval = interval;
