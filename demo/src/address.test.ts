@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { cloudAddress, readPageOptions } from "./address.js";
+import { cloudAddress, nameClouds, readPageOptions } from "./address.js";
 import { PageError } from "./panel/page-error.js";
 
 const page = "http://localhost:8080/globe/?x=1";
@@ -18,9 +18,12 @@ function codeOf(read: () => unknown): string {
 describe("what is shown", () => {
   it("is the globe, a map beside it or the map alone, in step unless that is not wanted", () => {
     const shown = (query: string) => readPageOptions(`${page}${query}`);
-    expect([shown(""), shown("&map=0&link=1")]).toEqual([{ fly: true }, { fly: true }]);
+    expect([shown(""), shown("&map=0&link=1")]).toEqual([
+      { clouds: [], fly: true },
+      { clouds: [], fly: true },
+    ]);
     expect(shown("&map=1&link=0")).toMatchObject({ shown: "both", linked: false });
-    expect(shown("&map=only")).toEqual({ shown: "map", fly: true });
+    expect(shown("&map=only")).toEqual({ clouds: [], shown: "map", fly: true });
     expect(codeOf(() => shown("&map=2"))).toBe("PAGE_OPTION");
   });
 });
@@ -62,7 +65,7 @@ describe("the options of the page", () => {
   const read = (query: string) => readPageOptions(`http://localhost:8080/?${query}`);
 
   it("are few by default", () => {
-    expect(read("")).toEqual({ fly: true });
+    expect(read("")).toEqual({ clouds: [], fly: true });
   });
 
   it("are read together", () => {
@@ -71,12 +74,16 @@ describe("the options of the page", () => {
         "cloud=/data/s.copc.laz&budget=300000&size=2.5&color=intensity&fly=0&crs=EPSG:2056&georef=s.georef&other=1",
       ),
     ).toEqual({
-      cloud: "http://localhost:8080/data/s.copc.laz",
-      georef: "http://localhost:8080/s.georef",
+      clouds: [
+        {
+          address: "http://localhost:8080/data/s.copc.laz",
+          georef: "http://localhost:8080/s.georef",
+          crs: "EPSG:2056",
+        },
+      ],
       budget: 300_000,
       size: 2.5,
       color: "intensity",
-      crs: "EPSG:2056",
       fly: false,
     });
   });
@@ -95,6 +102,27 @@ describe("the options of the page", () => {
     "fly=yes",
   ])("%s is refused", (query) => {
     expect(codeOf(() => read(query))).toBe("PAGE_OPTION");
+  });
+
+  it("name several clouds, each with what is said of it", () => {
+    const { clouds } = read(
+      "crs=EPSG:2056&cloud=/a.laz&cloud=b.laz&vertical=ellipsoidal&georef=b.georef&cloud=/c.laz",
+    );
+    expect(clouds).toEqual([
+      { address: "http://localhost:8080/a.laz", crs: "EPSG:2056" },
+      {
+        ...{ address: "http://localhost:8080/b.laz", vertical: "ellipsoidal" },
+        georef: "http://localhost:8080/b.georef",
+      },
+      { address: "http://localhost:8080/c.laz" },
+    ]);
+    const page = new URL("http://localhost:8080/?fly=0&cloud=old.laz&crs=EPSG:1");
+    nameClouds(page, [...clouds, { address: "https://example.org/d.laz" }]);
+    expect(readPageOptions(page.href)).toEqual({
+      clouds: [...clouds, { address: "https://example.org/d.laz" }],
+      fly: false,
+    });
+    expect(page.href).not.toContain("localhost%3A");
   });
 
   it("name a terrain, relative to the page or not", () => {

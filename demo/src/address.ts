@@ -1,22 +1,28 @@
 import { i18n } from "./language/i18n.js";
 import { PageError } from "./panel/page-error.js";
 
+/** A cloud as the page's address names it. */
+export interface NamedCloud {
+  /** Absolute, `http:` or `https:`. */
+  readonly address: string;
+  /** Coordinate system, in place of what the file says. */
+  readonly crs?: string | undefined;
+  /** Height reference: `EPSG:5728` or `ellipsoidal`. */
+  readonly vertical?: string | undefined;
+  /** Absolute address of the georeference that `groma georef` made for the cloud. */
+  readonly georef?: string | undefined;
+}
+
 /** What the page's own address asks for. */
 export interface PageOptions {
-  /** Absolute `http:` or `https:` address of the cloud. */
-  readonly cloud?: string;
+  /** In their order; the first is the chosen one. */
+  readonly clouds: readonly NamedCloud[];
   /** Most points drawn at once. */
   readonly budget?: number;
   /** Point size, CSS pixels. */
   readonly size?: number;
   /** What the colours show: `rgb`, `levelOfDetail`, or the name of an attribute. */
   readonly color?: string;
-  /** Coordinate system of the cloud, in place of what the file says. */
-  readonly crs?: string;
-  /** Height reference of the cloud: `EPSG:5728` or `ellipsoidal`. */
-  readonly vertical?: string;
-  /** Absolute address of the georeference that `groma georef` made for the cloud. */
-  readonly georef?: string;
   /** Absolute address of a terrain of Cesium's, the folder with its `layer.json`. */
   readonly terrain?: string;
   /** Whether the camera flies to the cloud rather than being there at once. */
@@ -30,35 +36,68 @@ export interface PageOptions {
 const MOST_POINTS = 100_000_000;
 
 /**
- * Reads the query of the page's address: `cloud`, `budget`, `size`, `color`, `crs`, `vertical`, `georef`, `terrain`,
- * `fly`, `map`, `link`. Others are left alone.
+ * Reads the query of the page's address: `cloud` (each with `crs`, `vertical`, `georef`), `budget`, `size`, `color`,
+ * `terrain`, `fly`, `map`, `link`. Others are left alone.
  * @param page the page's whole address
  * @throws PageError PAGE_ADDRESS, PAGE_OPTION
  */
 export function readPageOptions(page: string): PageOptions {
   const query = new URL(page).searchParams;
-  const cloud = query.get("cloud");
   const budget = number(query, "budget", { least: 1, most: MOST_POINTS, whole: true });
   const size = number(query, "size", { least: 1, most: 64, whole: false });
   const color = query.get("color");
-  const crs = query.get("crs");
-  const vertical = query.get("vertical");
-  const georef = query.get("georef");
   const terrain = query.get("terrain");
   const map = word(query, "map", ["0", "1", "only"]) ?? "0";
   return {
-    ...(cloud !== null && { cloud: cloudAddress(cloud, page) }),
+    clouds: cloudsOf(query, page),
     ...(budget !== undefined && { budget }),
     ...(size !== undefined && { size }),
     ...(color && { color }),
-    ...(crs && { crs }),
-    ...(vertical && { vertical }),
-    ...(georef && { georef: cloudAddress(georef, page) }),
     ...(terrain && { terrain: cloudAddress(terrain, page) }),
     ...(map !== "0" && { shown: map === "1" ? "both" : "map" }),
     ...(word(query, "link", ["0", "1"]) === "0" && { linked: false }),
     fly: word(query, "fly", ["0", "1"]) !== "0",
   };
+}
+
+/** Of the query, what is said of one cloud: of the one that is named before it, else of the first. */
+const OF_A_CLOUD = ["crs", "vertical", "georef"];
+
+function cloudsOf(query: URLSearchParams, page: string): NamedCloud[] {
+  const clouds: Map<string, string>[] = [];
+  const ahead = new Map<string, string>();
+  for (const [name, value] of query) {
+    if (name === "cloud") clouds.push(new Map([...(clouds.length === 0 ? ahead : []), [name, value]]));
+    else if (OF_A_CLOUD.includes(name) && value) (clouds.at(-1) ?? ahead).set(name, value);
+  }
+  return clouds.map((said) => {
+    const [crs, vertical, georef] = OF_A_CLOUD.map((name) => said.get(name));
+    return {
+      address: cloudAddress(said.get("cloud") ?? "", page),
+      ...(crs && { crs }),
+      ...(vertical && { vertical }),
+      ...(georef && { georef: cloudAddress(georef, page) }),
+    };
+  });
+}
+
+/** Has an address of the page name clouds, in place of those that it names. */
+export function nameClouds(page: URL, clouds: readonly NamedCloud[]): void {
+  const { searchParams: query } = page;
+  for (const name of ["cloud", ...OF_A_CLOUD]) query.delete(name);
+  const short = (address: string) => {
+    const { origin, pathname, search } = new URL(address);
+    return origin === page.origin ? pathname + search : address;
+  };
+  for (const { address, crs, vertical, georef } of clouds) {
+    const said = [
+      ["cloud", short(address)],
+      ["crs", crs],
+      ["vertical", vertical],
+      ["georef", georef && short(georef)],
+    ] as const;
+    for (const [name, value] of said) if (value) query.append(name, value);
+  }
 }
 
 /**

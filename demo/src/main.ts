@@ -1,22 +1,31 @@
 import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
 import { CrsError } from "@groma/georef";
-import type { PointCloud, PointCloudLayer, ServerWait, SharedView } from "@groma/layer/cesium";
+import {
+  type PointCloud,
+  type PointCloudLayer,
+  type ServerWait,
+  SharedBudget,
+  type SharedView,
+} from "@groma/layer/cesium";
 import { PointNavigation } from "@groma/layer/navigation";
 import { Cartesian3, type Viewer } from "cesium";
-import { cloudAddress, type PageOptions, readPageOptions } from "./address.js";
+import { cloudAddress, type NamedCloud, nameClouds, type PageOptions, readPageOptions } from "./address.js";
+import { Clouds, type OpenCloud } from "./clouds/clouds.js";
+import type { OpenOptions } from "./clouds/open-layer.js";
 import { i18n } from "./language/i18n.js";
 import { Beside } from "./map/beside.js";
-import { CloudSlot, type OpenOptions } from "./open.js";
 import type { Groma } from "./page-global.js";
 import { Chooser } from "./panel/chooser.js";
 import { Classes } from "./panel/classes.js";
 import { clipGroup } from "./panel/clip-fields.js";
+import { CloudList } from "./panel/cloud-list.js";
 import { Controls } from "./panel/controls.js";
 import { Drawing } from "./panel/drawing.js";
 import { byId } from "./panel/elements.js";
 import { ExportPoints } from "./panel/export-points.js";
-import { showFacts } from "./panel/facts.js";
+import { clearTitle, showFacts } from "./panel/facts.js";
+import { tellFailures } from "./panel/failures.js";
 import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
 import { connectLanguage } from "./panel/language-choice.js";
@@ -24,37 +33,45 @@ import { Ledger } from "./panel/ledger.js";
 import { Measuring } from "./panel/measuring.js";
 import { Message } from "./panel/message.js";
 import { Moving } from "./panel/moving.js";
-import { PageError } from "./panel/page-error.js";
 import { Picked } from "./panel/picked.js";
 import { Progress } from "./panel/progress.js";
 import { Share } from "./panel/share.js";
-import { STYLE_GROUPS } from "./panel/style-fields.js";
+import { COLOUR_BY, STYLE_GROUPS } from "./panel/style-fields.js";
 import { VIEW_GROUPS } from "./panel/view-fields.js";
 import { ProfilePanel } from "./profile/profile-panel.js";
-import { type Flight, goToCloud, goToPlaces } from "./scene/camera.js";
+import { type Aspect, type Flight, goToCloud, goToPlaces } from "./scene/camera.js";
 import { ClipBox } from "./scene/clip-box.js";
 import { Picking } from "./scene/picking.js";
-import { addBaseMap, addTerrain, createViewer } from "./viewer.js";
+import { addBaseMap, addTerrain, createViewer, watchDrawing } from "./viewer.js";
 
 const message = new Message();
 
-/** What the cloud in the scene was opened from. */
-interface Opened {
-  readonly from: string | File;
-  readonly name: string;
-  readonly how: OpenOptions;
-  /** Coordinate system that the reader gave, where it was used. */
-  readonly crs: string | undefined;
-}
-
 /** The page once its globe stands. */
 function start(viewer: Viewer): void {
-  let options: PageOptions = { fly: true };
-  let opened: Opened | undefined;
-  const slot = new CloudSlot(viewer.scene.primitives);
+  let options: PageOptions = { clouds: [], fly: true };
+  /** The cloud that the panel was last told of. */
+  let told: PointCloudLayer | undefined;
+  // Bytes are shared by all clouds; each has points of its own, as the panel says.
+  const budget = new SharedBudget({ points: Number.POSITIVE_INFINITY });
+  const clouds = new Clouds(viewer.scene.primitives, () => follow());
+  const list = new CloudList({
+    choose: (cloud) => {
+      clouds.choose(cloud);
+      followProgress();
+      groma.layer = clouds.layer;
+      rememberClouds(clouds);
+    },
+    goTo: ({ layer }) => void goToCloud(viewer, layer, flight("oblique", way("fly"))),
+    remove: (cloud) => {
+      clouds.remove(cloud);
+      followProgress();
+      groma.layer = clouds.layer;
+      rememberClouds(clouds);
+    },
+  });
   const measuring = new Measuring(
     viewer,
-    () => slot.layer,
+    () => [...new Set([...(clouds.layer ? [clouds.layer] : []), ...clouds.layers])],
     ({ vertices }) => {
       goToPlaces(viewer, vertices, way("fly"));
       // A linked map comes along; moved for itself it would stop the globe's flight.
@@ -73,16 +90,16 @@ function start(viewer: Viewer): void {
   );
   const progress = new Progress(() => beside.statistics);
   const controls = new Controls((aspect) => {
-    if (slot.layer) void goToCloud(viewer, slot.layer, { aspect, free: freeArea(), way: way("fly") });
+    if (clouds.layer) void goToCloud(viewer, clouds.layer, flight(aspect, way("fly")));
   });
   const box = new ClipBox();
   const groups = [...STYLE_GROUPS, ...VIEW_GROUPS, clipGroup(box)];
-  const drawing = new Drawing(groups, (thrown) => message.show(thrown));
+  const drawing = new Drawing(COLOUR_BY, groups, (thrown) => message.show(thrown));
   const classes = new Classes();
   const exporting = new ExportPoints((thrown) => message.show(thrown));
   const ledger = new Ledger(() => beside.ledger);
   const picked = new Picked();
-  const profile = new ProfilePanel(viewer, () => slot.layer, {
+  const profile = new ProfilePanel(viewer, () => clouds.layer, {
     // One tool at a time has the clicks.
     begins: () => measuring.tool.cancel(),
     picked: (cloud, node, record) => {
@@ -97,12 +114,14 @@ function start(viewer: Viewer): void {
   });
   const navigation = new PointNavigation(viewer);
   new Moving(navigation, viewer.canvas, () => measuring.tool.drawing !== undefined || profile.drawing);
-  const groma: Groma = { viewer, navigation, measure: measuring.tool, beside, profile, layer: undefined };
+  const groma: Groma = {
+    ...{ viewer, navigation, clouds, measure: measuring.tool, beside, profile, layer: undefined },
+  };
   window.groma = groma;
   const picking = new Picking(
     viewer,
     // A click that places a vertex shows no record.
-    () => (measuring.tool.drawing || profile.drawing ? undefined : slot.layer),
+    () => (measuring.tool.drawing || profile.drawing ? [] : clouds.layers),
     (hit) => {
       picked.show(hit);
       if (hit) box.moveTo(hit.position);
@@ -111,29 +130,31 @@ function start(viewer: Viewer): void {
   );
   byId("unpick", HTMLButtonElement).addEventListener("click", () => picking.clear());
   const share = new Share(viewer, {
-    ...{ layer: () => slot.layer, box, picking, beside },
-    hasAddress: () => typeof opened?.from === "string",
+    ...{ layer: () => clouds.layer, box, picking, beside },
+    hasAddress: () => typeof clouds.chosen?.from === "string",
   });
   const heights = new Heights(reopen);
   const chooser = new Chooser({
-    file: (file) => void choose(file, file.name),
+    files: (files) => void chooseAll(files),
     address: (text) => {
       try {
-        const address = cloudAddress(text, location.href);
-        void choose(address, address);
+        void chooseAll([cloudAddress(text, location.href)]);
       } catch (thrown) {
         message.show(thrown);
       }
     },
   });
   connectFold();
-  connectLanguage(() => opened?.from instanceof File || measuring.tool.measurements.length > 0);
-  watchDrawing(viewer);
+  connectLanguage(
+    () => clouds.all.some(({ from }) => from instanceof File) || measuring.tool.measurements.length > 0,
+  );
+  watchDrawing(viewer, (thrown) => message.show(thrown));
   addBaseMap(viewer).catch((thrown: unknown) => message.show(thrown));
   try {
     options = readPageOptions(location.href);
   } catch (thrown) {
     message.show(thrown);
+    chooser.alone = true;
     return;
   }
   if (!options.fly) navigation.flight = 0;
@@ -141,28 +162,34 @@ function start(viewer: Viewer): void {
     addTerrain(viewer, options.terrain).catch((thrown: unknown) => message.show(thrown));
   }
   if (options.shown) beside.show(options.shown, options.linked);
-  openNamed();
+  chooser.alone = options.clouds.length === 0;
+  void openNamed(options.clouds);
 
   /** Shows the record of a point that a tool leads to, as if it had been clicked. */
   async function readHit(cloud: PointCloud, node: string, record: number): Promise<void> {
-    const { layer } = slot;
+    const { layer } = clouds;
     if (!layer) return;
     const found = await cloud.readPoint(node, { record });
     const [x, y, z] = cloud.place(...found.source);
     picking.show({ ...found, layer, cloud, position: new Cartesian3(x, y, z) });
   }
 
-  /** Opens the cloud that the page's address names. */
-  function openNamed(): void {
-    const { cloud, color, crs, vertical, georef } = options;
-    if (!cloud) return;
+  /** Opens the clouds that the page's address names; the view that it asks for is one of the first. */
+  async function openNamed([first, ...others]: readonly NamedCloud[]): Promise<void> {
+    if (!first) return;
     chooser.fill(new URL(location.href).searchParams.get("cloud") ?? "");
+    await bringBack(first);
+    for (const cloud of others) await open(cloud.address, howNamed(cloud), "stay");
+  }
+
+  function howNamed({ crs, vertical, georef }: NamedCloud): OpenOptions {
+    const { color } = options;
     const style = { ...lasting().style, ...(color && { color }) };
-    void bringBack(cloud, { ...lasting(), style, crs, vertical, transformation: georef });
+    return { ...lasting(), style, crs, vertical, transformation: georef };
   }
 
   /** Opens a cloud and shows it as the link to the page asks for. */
-  async function bringBack(cloud: string, how: OpenOptions): Promise<void> {
+  async function bringBack(named: NamedCloud): Promise<void> {
     let view: SharedView | undefined;
     let failure: unknown;
     try {
@@ -170,8 +197,8 @@ function start(viewer: Viewer): void {
     } catch (thrown) {
       failure = thrown;
     }
-    const layer = await open(cloud, cloud, how, view?.camera ? "stay" : undefined);
-    if (!layer) return;
+    const opened = await open(named.address, howNamed(named), view?.camera ? "stay" : undefined);
+    if (!opened) return;
     try {
       if (view) await share.show(view);
     } catch (thrown) {
@@ -180,38 +207,38 @@ function start(viewer: Viewer): void {
     chooser.fold();
     foldIfNarrow();
     drawing.refresh();
-    classes.attach(layer);
+    classes.attach(opened.layer);
     // What cannot be brought back is told; the cloud is there all the same.
     if (failure !== undefined) message.show(failure);
   }
 
-  /** Opens the cloud that the reader chose. */
-  async function choose(from: string | File, name: string): Promise<void> {
-    const layer = await open(from, name, { ...lasting(), crsIfMissing: chooser.crs });
-    if (layer && opened) rememberCloud(opened);
+  /** Opens what the reader chose, one after the other; the camera goes to the first. */
+  async function chooseAll(chosen: readonly (string | File)[]): Promise<void> {
+    message.clear();
+    for (const [at, from] of chosen.entries()) {
+      const how = { ...lasting(), crsIfMissing: chooser.crs };
+      const opened = await open(from, how, at > 0 ? "stay" : undefined);
+      if (opened) rememberClouds(clouds);
+    }
   }
 
-  /** Opens the cloud that is there with another height reference, seen from where the camera stands. */
+  /** Opens the chosen cloud with another height reference, seen from where the camera stands. */
   async function reopen(vertical: string | undefined): Promise<boolean> {
-    if (!opened || !slot.layer) return false;
-    const { from, name, how, crs } = opened;
-    const { style, filter, heightOffset, show } = slot.layer;
-    const layer = await open(
-      from,
-      name,
-      { ...how, style, filter, heightOffset, show, crs, vertical },
-      "stay",
-    );
-    if (layer) rememberCloud(opened);
-    return layer !== undefined;
+    const { chosen } = clouds;
+    if (!chosen) return false;
+    message.clear();
+    const { from, how, crs } = chosen;
+    const { style, filter, heightOffset, show } = chosen.layer;
+    const opened = await open(from, { ...how, style, filter, heightOffset, show, crs, vertical }, "stay");
+    if (opened) rememberClouds(clouds);
+    return opened !== undefined;
   }
 
-  /** What holds for every cloud that is opened, not only for the one in the page's address. */
+  /** What holds for every cloud that is opened, not only for those in the page's address. */
   function lasting(): OpenOptions {
-    const { budget, size } = options;
+    const { budget: points = 1_000_000, size } = options;
     return {
-      clips: box.clips,
-      ...(budget !== undefined && { pointBudget: budget }),
+      ...{ clips: box.clips, budget, pointBudget: points },
       // Closed surfaces where nothing else is asked for.
       style: size === undefined ? { size: "adaptive" } : { pointSize: size },
     };
@@ -222,41 +249,74 @@ function start(viewer: Viewer): void {
     return still ? "jump" : wanted;
   }
 
-  /** @returns the layer, unless it cannot be opened, which is told, or another one was opened meanwhile */
+  function flight(aspect: Aspect, by: Flight["way"]): Flight {
+    return { aspect, free: freeArea(), way: by };
+  }
+
+  /**
+   * Opens a cloud beside the others.
+   * @param wanted how the camera goes there; "stay": it does not, nor is the cloud chosen where another one is
+   * @returns undefined where it cannot be opened, which is told, or was given up
+   */
   async function open(
     from: string | File,
-    name: string,
     how: OpenOptions,
-    wanted: Flight["way"] | "stay" = slot.layer ? "fly" : "descend",
-  ): Promise<PointCloudLayer | undefined> {
-    message.clear();
+    wanted: Flight["way"] | "stay" = clouds.layer ? "fly" : "descend",
+  ): Promise<OpenCloud | undefined> {
+    const name = typeof from === "string" ? from : from.name;
     progress.opening(name);
     try {
-      const onWait = (wait: ServerWait | undefined) => progress.openingWaits(name, wait);
-      const layer = await slot.open(from, how, onWait);
-      if (layer) {
-        const { crs, crsIfMissing, vertical } = how;
-        // A system for clouds without one was taken where nothing else could have been given.
-        const taken = vertical === undefined && layer.cloud.basis === "given" ? crsIfMissing : undefined;
-        opened = { from, name, how, crs: crs ?? taken };
-        await show(layer, opened, wanted);
+      const opened = await clouds.open(from, how, (wait?: ServerWait) => progress.openingWaits(name, wait));
+      if (opened) {
+        tellFailures(opened.layer, message);
+        if (wanted !== "stay") await goTo(opened, wanted);
       }
-      return slot.layer === layer ? layer : undefined;
+      return opened;
     } catch (thrown) {
-      if (slot.layer) progress.follow(slot.layer);
-      else progress.rest();
       const give = { label: i18n.t("Give it here"), run: () => chooser.askForCrs() };
       message.show(thrown, thrown instanceof CrsError ? give : undefined);
       return undefined;
+    } finally {
+      followProgress();
+      groma.layer = clouds.layer;
     }
   }
 
-  async function show(
-    layer: PointCloudLayer,
-    { how, crs }: Opened,
-    wanted: Flight["way"] | "stay",
-  ): Promise<void> {
-    groma.layer = undefined;
+  /** Chooses a cloud and takes the camera there. */
+  async function goTo(cloud: OpenCloud, by: Flight["way"]): Promise<void> {
+    clouds.choose(cloud);
+    followProgress();
+    chooser.fold();
+    foldIfNarrow();
+    await goToCloud(viewer, cloud.layer, flight(beside.alone ? "above" : "oblique", way(by)));
+  }
+
+  function followProgress(): void {
+    const { layer } = clouds;
+    if (layer) progress.follow(layer);
+    else progress.rest();
+  }
+
+  /** Has the page speak of the chosen cloud. */
+  function follow(): void {
+    list.show(clouds);
+    const { chosen } = clouds;
+    chooser.alone = clouds.all.length + clouds.openings.length === 0;
+    // What another cloud brings is told when it is there.
+    if (chosen?.layer !== told) {
+      told = chosen?.layer;
+      groma.layer = undefined;
+      picking.clear();
+      if (chosen) attach(chosen);
+      else leave();
+    }
+    measuring.attach();
+    beside.attach(clouds.layers, told);
+    profile.comparison.offer(clouds.layers.filter((layer) => layer !== told).map(({ cloud }) => cloud));
+  }
+
+  function attach({ layer, how, crs }: OpenCloud): void {
+    byId("of-cloud", HTMLDivElement).hidden = false;
     showFacts(layer, { given: crs !== undefined });
     heights.attach(layer.cloud, how.vertical);
     controls.attach(layer);
@@ -265,67 +325,31 @@ function start(viewer: Viewer): void {
     classes.attach(layer);
     exporting.attach(layer);
     ledger.attach(layer);
-    picking.clear();
-    measuring.attach();
-    beside.attach(layer);
     profile.open(layer);
-    progress.follow(layer);
-    tellFailures(layer);
-    if (wanted !== "stay") {
-      chooser.fold();
-      foldIfNarrow();
-      const aspect = beside.alone ? "above" : "oblique";
-      await goToCloud(viewer, layer, { aspect, free: freeArea(), way: way(wanted) });
-    }
-    if (slot.layer === layer) groma.layer = layer;
+  }
+
+  /** No cloud is there any more. */
+  function leave(): void {
+    byId("of-cloud", HTMLDivElement).hidden = true;
+    clearTitle();
+    profile.leave();
+    progress.rest();
   }
 }
 
-/** Tells the first of the nodes that fail; how many did is told with the progress. */
-function tellFailures(layer: PointCloudLayer): void {
-  let told = false;
-  layer.nodeFailed.addEventListener((_node, thrown) => {
-    if (told) return;
-    told = true;
-    const again = () => {
-      told = false;
-      layer.retryFailed();
-    };
-    message.show(thrown, { label: i18n.t("Try again"), run: again });
-  });
-}
-
-/** Keeps the page's address in step with what it shows, so that it can be reloaded and passed on. */
-function rememberCloud({ from, how: { vertical, transformation }, crs }: Opened): void {
+/** Keeps the page's address in step with what it shows, so that it can be reloaded and passed on: the chosen cloud first. */
+function rememberClouds({ all, chosen }: Clouds): void {
   const page = new URL(location.href);
-  if (transformation === undefined) page.searchParams.delete("georef");
-  for (const name of ["cloud", "crs", "vertical"]) page.searchParams.delete(name);
+  const order = [...(chosen ? [chosen] : []), ...all.filter((one) => one !== chosen)];
+  // A file of the reader's disk has no address.
+  const named = order.flatMap(({ from, crs, how: { vertical, transformation } }): NamedCloud[] => {
+    const georef = typeof transformation === "string" ? transformation : undefined;
+    return typeof from === "string" ? [{ address: from, crs, vertical, georef }] : [];
+  });
+  nameClouds(page, named);
   // A link to a view is one of the cloud that it was made for.
   page.hash = "";
-  if (typeof from === "string") {
-    const { origin, pathname, search } = new URL(from);
-    page.searchParams.set("cloud", origin === location.origin ? pathname + search : from);
-    if (crs) page.searchParams.set("crs", crs);
-    if (vertical) page.searchParams.set("vertical", vertical);
-  }
   history.replaceState(null, "", page);
-}
-
-/** Tells when the globe can no longer be drawn. */
-function watchDrawing({ scene, canvas }: Viewer): void {
-  const stopped = (cause: string) =>
-    message.show(
-      new PageError({
-        code: "PAGE_DRAWING",
-        file: i18n.t("the globe"),
-        cause: i18n.t("drawing stopped: {cause}", { cause }),
-        fix: i18n.t("Reload the page; if it happens again, draw fewer points with ?budget=300000"),
-      }),
-    );
-  scene.renderError.addEventListener((_scene: unknown, thrown: unknown) =>
-    stopped(thrown instanceof Error ? thrown.message : String(thrown)),
-  );
-  canvas.addEventListener("webglcontextlost", () => stopped(i18n.t("the browser lost the graphics context")));
 }
 
 try {

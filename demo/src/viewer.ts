@@ -101,3 +101,20 @@ export async function addTerrain(viewer: Viewer, address: string): Promise<void>
     });
   }
 }
+
+/** Tells when the globe can no longer be drawn: PageError PAGE_DRAWING. */
+export function watchDrawing({ scene, canvas }: Viewer, failed: (thrown: unknown) => void): void {
+  const stopped = (cause: string) =>
+    failed(
+      new PageError({
+        code: "PAGE_DRAWING",
+        file: i18n.t("the globe"),
+        cause: i18n.t("drawing stopped: {cause}", { cause }),
+        fix: i18n.t("Reload the page; if it happens again, draw fewer points with ?budget=300000"),
+      }),
+    );
+  scene.renderError.addEventListener((_scene: unknown, thrown: unknown) =>
+    stopped(thrown instanceof Error ? thrown.message : String(thrown)),
+  );
+  canvas.addEventListener("webglcontextlost", () => stopped(i18n.t("the browser lost the graphics context")));
+}

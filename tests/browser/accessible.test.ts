@@ -145,6 +145,21 @@ it("asks before another language loses what was measured", { timeout: 60_000 }, 
   await page.waitForFunction(() => document.documentElement.lang === "en");
 });
 
+it("the first screen asks for a scan, and opens its own sample", { timeout: 180_000 }, async () => {
+  await page.setViewportSize({ width: 1000, height: 700 });
+  await page.goto(new URL("/", server.address).href);
+  await page.waitForSelector("body.empty");
+  expect(await violations()).toEqual([]);
+  const box = await page.locator("#panel").boundingBox();
+  expect(box!.x + box!.width / 2).toBeCloseTo(500, 0);
+  await screenshot(page, "first-screen");
+  await page.click("#sample");
+  await page.waitForFunction(() => window.groma?.layer?.settled, undefined, { timeout: 120_000 });
+  expect(await page.textContent("#title")).toBe("sample.copc.laz");
+  expect(await page.isVisible("#welcome")).toBe(false);
+  await screenshot(page, "first-sample");
+});
+
 it("so has the page that says what went wrong", { timeout: 60_000 }, async () => {
   await page.goto(new URL("?cloud=none.copc.laz", server.address).href);
   await page.waitForSelector("#message:not(:empty)", { timeout: 50_000 });

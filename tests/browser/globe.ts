@@ -15,6 +15,7 @@ export interface Groma {
     readonly view: Promise<{ readonly map: OlMap; readonly measured: ViewAdapter }> | undefined;
   };
   readonly layer: PointCloudLayer;
+  readonly clouds: { readonly layers: readonly PointCloudLayer[] };
   readonly measure: MeasureTool;
   /** The panel of demo/src/profile. */
   readonly profile: {

@@ -147,6 +147,7 @@ describe.skipIf(pythonMissing)(
       const before = { told: await told(page), seen: await rowOfCloud(page, "heights-in-place") };
       expect(before.seen.pixels).toBeGreaterThan(500);
 
+      await page.click("#about summary");
       await page.fill("#lift", "40");
       await settle(page);
       expect(await page.textContent("#lift-note")).toContain("40 m above its position, display only");

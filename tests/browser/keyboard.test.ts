@@ -145,6 +145,8 @@ it("moves about the globe by keyboard alone, with a sheet of the keys", { timeou
   // The globe has the keyboard again.
   expect(await page.evaluate(() => document.activeElement?.matches("canvas[role=application]"))).toBe(true);
   // A question mark that is written is none of the page's.
+  await tabTo(page, "#about summary");
+  await page.keyboard.press("Enter");
   await tabTo(page, "#lift");
   await page.keyboard.press("?");
   expect(await page.locator("#keys[open]").count()).toBe(0);

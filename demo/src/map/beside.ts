@@ -29,7 +29,8 @@ export class Beside {
   #view: Promise<MapView> | undefined;
   /** The same once it is there. */
   #shown: MapView | undefined;
-  #layer: PointCloudLayer | undefined;
+  #layers: readonly PointCloudLayer[] = [];
+  #chosen: PointCloudLayer | undefined;
   /** The frame of the page in which a covered globe is looked at next. */
   #next = 0;
 
@@ -98,9 +99,9 @@ export class Beside {
     else void this.#follow();
   }
 
-  /** Shows a cloud on the map, now or when it is shown. */
-  attach(layer: PointCloudLayer): void {
-    this.#layer = layer;
+  /** Shows the clouds of the globe on the map, now or when it is shown. @param chosen the one that the panel speaks of */
+  attach(layers: readonly PointCloudLayer[], chosen: PointCloudLayer | undefined): void {
+    [this.#layers, this.#chosen] = [layers, chosen];
     if (this.#choice.value !== "globe") void this.#attach();
   }
 
@@ -114,7 +115,7 @@ export class Beside {
       });
       const view = await this.#view;
       await this.#follow();
-      if (this.#layer) view.attach(this.#layer);
+      view.attach(this.#layers, this.#chosen);
     } catch (thrown) {
       this.#failed(thrown);
     }

@@ -2,13 +2,7 @@ import "ol/ol.css";
 import { ecefToGeodetic } from "@groma/georef";
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import { type Link, synchronize } from "@groma/layer/link";
-import {
-  type LayerStatistics,
-  type LedgerRow,
-  PointCloudLayer as MapLayer,
-  measureView,
-  PointCloudSource,
-} from "@groma/layer/openlayers";
+import { type LayerStatistics, type LedgerRow, measureView } from "@groma/layer/openlayers";
 import type { ViewAdapter } from "@groma/layer/tools";
 import { buildModuleUrl, type Viewer } from "cesium";
 import { defaults } from "ol/control/defaults.js";
@@ -23,6 +17,7 @@ import View from "ol/View.js";
 import { i18n } from "../language/i18n.js";
 import { textElement } from "../panel/elements.js";
 import { freeArea } from "../panel/fold.js";
+import { MapCloud } from "./map-cloud.js";
 
 /** Levels of the Natural Earth map that comes with Cesium, degrees per pixel. */
 const RESOLUTIONS = [180 / 256, 90 / 256, 45 / 256];
@@ -32,7 +27,7 @@ const AROUND = [80, 80, 80, 80];
 /** Of one point its surroundings are shown: units of the projection per pixel. */
 const FINEST = 0.05;
 
-/** A map beside the globe that shows the same cloud from above, drawn as the layer on the globe is. */
+/** A map beside the globe that shows the same clouds from above, drawn as the layers on the globe are. */
 export class MapView {
   readonly map: OlMap;
   readonly #viewer: Viewer;
@@ -46,11 +41,9 @@ export class MapView {
   #link: Link | undefined;
   /** What of it was asked for last. */
   #marks: boolean | undefined;
-  #layer: MapLayer | undefined;
-  #source: PointCloudSource | undefined;
-  #shown: PointCloudLayer | undefined;
-  /** What of the layer on the globe the map has taken over. */
-  #followed: readonly unknown[] = [];
+  #clouds: readonly MapCloud[] = [];
+  /** The layer on the globe that the panel speaks of. */
+  #chosen: PointCloudLayer | undefined;
 
   /** @param failed told of what the map cannot draw */
   constructor(target: HTMLElement, viewer: Viewer, failed: (thrown: unknown) => void) {
@@ -71,32 +64,33 @@ export class MapView {
     viewer.scene.postRender.addEventListener(() => this.#takeOver());
   }
 
-  /** What of the cloud the map draws; undefined where there is none. */
+  /** What of the chosen cloud the map draws; undefined where there is none. */
   get statistics(): LayerStatistics | undefined {
-    return this.#layer?.statistics;
+    return this.#ofChosen?.statistics;
   }
 
-  /** The effects of what it draws. */
+  /** The effects of what it draws of the chosen cloud. */
   get ledger(): readonly LedgerRow[] | undefined {
-    return this.#layer?.ledger;
+    return this.#ofChosen?.ledger;
   }
 
-  /** Shows a cloud in place of the one that is there. */
-  attach(layer: PointCloudLayer): void {
+  get #ofChosen(): MapCloud["layer"] | undefined {
+    return this.#clouds.find(({ globe }) => globe === this.#chosen)?.layer;
+  }
+
+  /** Shows the clouds of the globe, and no others. @param chosen one of them: the map goes there when it comes */
+  attach(layers: readonly PointCloudLayer[], chosen: PointCloudLayer | undefined): void {
     this.map.updateSize();
-    if (layer === this.#shown) return;
-    this.#leave();
-    const source = new PointCloudSource({ cloud: layer.cloud });
-    const { style, filter, clips, maximumScreenSpaceError, pointBudget } = layer;
-    const shown = new MapLayer({ source, style, filter, clips, maximumScreenSpaceError, pointBudget });
-    shown.addEventListener("error", (event) => this.#failed((event as unknown as { error: Error }).error));
-    this.#layer = shown;
-    this.#source = source;
-    this.#shown = layer;
-    this.#followed = partsOf(layer);
-    this.map.addLayer(shown);
+    const gone = this.#clouds.filter(({ globe }) => !layers.includes(globe));
+    for (const cloud of gone) cloud.leave(this.map);
+    this.#clouds = layers.map((globe) => {
+      const there = this.#clouds.find((cloud) => cloud.globe === globe);
+      return there ?? new MapCloud(this.map, globe, this.#failed);
+    });
+    if (chosen === this.#chosen) return;
+    this.#chosen = chosen;
     // A map in step shows what the globe does.
-    const extent = this.#link ? undefined : source.getExtent();
+    const extent = this.#link ? undefined : this.#clouds.find(({ globe }) => globe === chosen)?.extent;
     if (extent && this.map.getSize()) this.map.getView().fit(extent, { padding: [24, 24, 24, 24] });
   }
 
@@ -126,24 +120,14 @@ export class MapView {
     this.#takeOver();
   }
 
-  /** Takes over what has changed of the layer on the globe. */
+  /** Takes over what has changed of the layers on the globe. */
   #takeOver(): void {
-    const [map, globe] = [this.#layer, this.#shown];
-    if (!map || !globe || globe.isDestroyed()) return;
-    const parts = partsOf(globe);
-    if (parts.every((part, at) => part === this.#followed[at])) return;
-    this.#followed = parts;
-    map.style = globe.style;
-    map.filter = globe.filter;
-    map.clips = globe.clips;
-    map.maximumScreenSpaceError = globe.maximumScreenSpaceError;
-    map.pointBudget = globe.pointBudget;
-    map.setVisible(globe.show);
+    for (const cloud of this.#clouds) cloud.follow();
   }
 
   /** The map, for measuring on it. */
   get measured(): ViewAdapter {
-    return measureView(this.map, () => [this.#layer].flatMap((layer) => layer ?? []));
+    return measureView(this.map, () => this.#clouds.map(({ layer }) => layer));
   }
 
   /** Marks a place; undefined: none. @param place ECEF, metres */
@@ -170,25 +154,12 @@ export class MapView {
     const extent = boundingExtent(degrees.map((one) => fromLonLat(one, view.getProjection())));
     if (extent.every(Number.isFinite)) view.fit(extent, { padding: AROUND, minResolution: FINEST });
   }
-
-  #leave(): void {
-    if (this.#layer) this.map.removeLayer(this.#layer);
-    this.#layer?.dispose();
-    this.#source?.dispose();
-    this.#layer = undefined;
-    this.#source = undefined;
-  }
 }
 
 /** The middle of what the panel leaves of the globe. */
 function middle(): { x: number; y: number } {
   const { left, right, top, bottom } = freeArea();
   return { x: (left + right) / 2, y: (top + bottom) / 2 };
-}
-
-function partsOf(layer: PointCloudLayer): unknown[] {
-  const { style, filter, clips, maximumScreenSpaceError, pointBudget, show } = layer;
-  return [style, filter, clips, maximumScreenSpaceError, pointBudget, show];
 }
 
 /** The Natural Earth map that comes with Cesium, whose rows are counted from the south. */

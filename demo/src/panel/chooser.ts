@@ -1,8 +1,11 @@
 import { byId } from "./elements.js";
 
-/** Ways of choosing a cloud: a file by button or by dropping it, and an address. */
+/** A small scan that comes with the page. */
+const SAMPLE = "sample.copc.laz";
+
+/** Ways of choosing clouds: files by button or by dropping them, and an address. */
 export interface Chosen {
-  file(file: File): void;
+  files(files: readonly File[]): void;
   address(text: string): void;
 }
 
@@ -15,15 +18,16 @@ export class Chooser {
   constructor(chosen: Chosen) {
     const file = byId("file", HTMLInputElement);
     file.addEventListener("change", () => {
-      const [first] = file.files ?? [];
+      const files = [...(file.files ?? [])];
       // Without this the same file could not be chosen a second time, say after it was converted anew.
       file.value = "";
-      if (first) chosen.file(first);
+      if (files.length > 0) chosen.files(files);
     });
     byId("by-address", HTMLFormElement).addEventListener("submit", (event) => {
       event.preventDefault();
       chosen.address(this.#address.value);
     });
+    byId("sample", HTMLButtonElement).addEventListener("click", () => chosen.address(SAMPLE));
     acceptDrops(chosen);
   }
 
@@ -41,6 +45,12 @@ export class Chooser {
   askForCrs(): void {
     this.#details.open = true;
     this.#crs.focus();
+  }
+
+  /** Whether the page has no cloud: it then begins with this, in the middle. */
+  set alone(alone: boolean) {
+    document.body.classList.toggle("empty", alone);
+    if (alone) this.#details.open = true;
   }
 
   fold(): void {
@@ -65,7 +75,7 @@ function acceptDrops(chosen: Chosen): void {
     if (!hasFiles(event)) return;
     // Or the browser leaves the page to show the file.
     event.preventDefault();
-    const [first] = event.dataTransfer?.files ?? [];
-    if (first) chosen.file(first);
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length > 0) chosen.files(files);
   });
 }

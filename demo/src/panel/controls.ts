@@ -3,18 +3,16 @@ import type { Aspect } from "../scene/camera.js";
 import { byId, setText } from "./elements.js";
 import { liftWords } from "./words.js";
 
-/** The switches for whether a cloud is drawn, how high, and from where it is seen. */
+/** The switches for how high a cloud is drawn, and from where it is seen. */
 export class Controls {
-  readonly #form = byId("controls", HTMLFormElement);
   readonly #lift = byId("lift", HTMLInputElement);
   readonly #liftNote = byId("lift-note", HTMLParagraphElement);
-  readonly #show = byId("show", HTMLInputElement);
   #layer: PointCloudLayer | undefined;
 
   /** @param look called when the reader wants to see the whole cloud */
   constructor(look: (aspect: Aspect) => void) {
-    this.#form.addEventListener("submit", (event) => event.preventDefault());
-    this.#form.addEventListener("input", () => this.#apply());
+    byId("controls", HTMLFormElement).addEventListener("submit", (event) => event.preventDefault());
+    this.#lift.addEventListener("input", () => this.#apply());
     byId("fit", HTMLButtonElement).addEventListener("click", () => look("oblique"));
     byId("above", HTMLButtonElement).addEventListener("click", () => look("above"));
   }
@@ -23,9 +21,7 @@ export class Controls {
   attach(layer: PointCloudLayer): void {
     this.#layer = layer;
     this.#lift.value = String(layer.heightOffset);
-    this.#show.checked = layer.show;
     this.#writeLift(layer);
-    this.#form.hidden = false;
   }
 
   #apply(): void {
@@ -33,7 +29,6 @@ export class Controls {
     if (!layer || layer.isDestroyed()) return;
     // Half a number, as while it is being typed, changes nothing yet.
     if (this.#lift.validity.valid && this.#lift.value !== "") layer.heightOffset = this.#lift.valueAsNumber;
-    layer.show = this.#show.checked;
     this.#writeLift(layer);
   }
 

@@ -6,18 +6,20 @@ import { viewOf } from "./field-views.js";
 /** Fields that belong together, under a heading that folds them. */
 export interface FieldGroup {
   readonly title: string;
-  readonly open?: boolean;
   readonly fields: readonly Field[];
 }
 
-/** Every way to draw a cloud, live. */
+/** Every way to draw a cloud, live: what is shown by colour first, the rest folded. */
 export class Drawing {
   readonly #place = byId("drawing", HTMLFormElement);
   readonly #views: readonly FieldView[];
   #layer: PointCloudLayer | undefined;
 
-  /** @param told hears of what a field could not be set to */
-  constructor(groups: readonly FieldGroup[], told: (thrown: unknown) => void) {
+  /**
+   * @param lead stands before the groups
+   * @param told hears of what a field could not be set to
+   */
+  constructor(lead: Field, groups: readonly FieldGroup[], told: (thrown: unknown) => void) {
     const apply = (change: (layer: PointCloudLayer) => void) => {
       const layer = this.#layer;
       if (!layer || layer.isDestroyed()) return;
@@ -28,11 +30,12 @@ export class Drawing {
       }
       this.refresh();
     };
-    const views: FieldView[] = [];
-    for (const { title, open = false, fields } of groups) {
+    const first = viewOf(lead, apply);
+    const views: FieldView[] = [first];
+    this.#place.append(first.element);
+    for (const { title, fields } of groups) {
       const details = document.createElement("details");
       details.className = "group";
-      details.open = open;
       details.append(textElement("summary", title));
       for (const field of fields) {
         const view = viewOf(field, apply);
@@ -49,7 +52,6 @@ export class Drawing {
   attach(layer: PointCloudLayer): void {
     this.#layer = layer;
     this.refresh();
-    this.#place.hidden = false;
   }
 
   /** Shows anew how the layer is drawn. */

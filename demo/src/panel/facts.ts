@@ -1,6 +1,6 @@
 import type { AccuracyPart, OperationReport } from "@groma/georef";
 import { printable } from "@groma/georef/printable";
-import type { PointCloudLayer, SourceWarning } from "@groma/layer/cesium";
+import type { PointCloud, PointCloudLayer, SourceWarning } from "@groma/layer/cesium";
 import { i18n } from "../language/i18n.js";
 import { libraryWords } from "../language/library-words.js";
 import { type Note, noteWords } from "../language/note-words.js";
@@ -49,7 +49,23 @@ export function showFacts({ cloud, nodeLoaded }: PointCloudLayer, { given }: { g
     ),
     ...fact(i18n.t("Accuracy"), accuracyWords(accuracy), partsOf(accuracy.parts)),
   );
-  facts.hidden = false;
+  setText(byId("about-words", HTMLSpanElement), aboutWords(cloud));
+  // What a file is refuted of is not folded away.
+  byId("about", HTMLDetailsElement).open = cloud.warnings.length > 0;
+}
+
+/** The page's title while no cloud is there. */
+export function clearTitle(): void {
+  setText(byId("title", HTMLHeadingElement), "Groma");
+  document.title = "Groma";
+}
+
+/** In short, what a cloud is and what its place is worth. */
+function aboutWords({ pointCount, accuracy }: PointCloud): string {
+  return i18n.t("{count, plural, one {# point} other {# points}}, accuracy {accuracy}", {
+    count: pointCount,
+    accuracy: accuracyWords(accuracy).text,
+  });
 }
 
 /** Writes what a data set says of itself and does not hold. */

@@ -1,4 +1,4 @@
-import type { PointCloudLayer } from "@groma/layer/cesium";
+import type { PointCloud, PointCloudLayer } from "@groma/layer/cesium";
 import { measureView, terrainOf } from "@groma/layer/cesium";
 import {
   MeasureControl,
@@ -56,7 +56,7 @@ const HINT = i18n.t(
 /** The tool bar of measuring, and the list of what was measured. */
 export class Measuring {
   readonly tool: MeasureTool;
-  readonly #layer: () => PointCloudLayer | undefined;
+  readonly #layers: () => readonly PointCloudLayer[];
   readonly #told: (thrown: unknown) => void;
   readonly #list: MeasurementList;
   readonly #compared: Compared;
@@ -65,21 +65,20 @@ export class Measuring {
   readonly #notes = byId("measure-notes", HTMLParagraphElement);
 
   /**
-   * @param layer what is measured
+   * @param layers what is measured, the chosen one first
    * @param fly takes the camera to a measurement
    * @param told hears of what could not be read
    * @param address of a cloud, by what the reader typed; throws where that is none
    */
   constructor(
     viewer: Viewer,
-    layer: () => PointCloudLayer | undefined,
+    layers: () => readonly PointCloudLayer[],
     fly: (measurement: Measurement) => void,
     told: (thrown: unknown) => void,
     address: (text: string) => string,
   ) {
-    this.#layer = layer;
+    this.#layers = layers;
     this.#told = told;
-    const layers = () => [layer()].flatMap((one) => one ?? []);
     this.tool = new MeasureTool(measureView(viewer.scene, layers), {
       units: unitsOf([]),
       words: MEASURE_WORDS,
@@ -88,7 +87,7 @@ export class Measuring {
       covering: () => COVERING.map((id) => byId(id, HTMLElement)),
     });
     this.#compared = new Compared(address, () => this.attach(), told);
-    this.#list = new MeasurementList(this.tool, () => this.#compared.clouds, fly);
+    this.#list = new MeasurementList(this.tool, () => this.#others, fly);
     this.tool.onChange(() => this.#show());
     byId("measure-tools", HTMLDivElement).append(new MeasureControl(this.tool).element);
     this.#connectFields();
@@ -96,10 +95,18 @@ export class Measuring {
     this.#show();
   }
 
-  /** Puts vertices on the cloud that is shown, and lets volumes be measured against those opened beside it. */
+  /** Puts vertices on the clouds that are shown, and lets volumes be measured against them and those opened beside them. */
   attach(): void {
-    const shown = this.#layer()?.cloud;
-    this.tool.attach([...(shown ? [shown] : []), ...this.#compared.clouds]);
+    this.tool.attach(this.#clouds);
+  }
+
+  get #clouds(): readonly PointCloud[] {
+    return [...this.#layers().map(({ cloud }) => cloud), ...this.#compared.clouds];
+  }
+
+  /** What volumes can be measured against: all but the chosen cloud. */
+  get #others(): readonly PointCloud[] {
+    return this.#clouds.filter(({ identity }) => identity !== this.#layers()[0]?.cloud.identity);
   }
 
   #connectFields(): void {
@@ -148,9 +155,7 @@ export class Measuring {
   }
 
   async #open(file: File): Promise<void> {
-    const shown = this.#layer()?.cloud;
-    const clouds = [...(shown ? [shown] : []), ...this.#compared.clouds];
-    const { measurements, notes } = readMeasurements(await file.text(), clouds, file.name);
+    const { measurements, notes } = readMeasurements(await file.text(), this.#clouds, file.name);
     this.tool.add(measurements);
     setText(
       this.#notes,

@@ -64,7 +64,7 @@ export class Share {
     if (camera) attempt(() => showCameraView(this.#viewer.camera, camera));
     if (style) attempt(() => Object.assign(layer, { style }));
     if (filter) attempt(() => Object.assign(layer, { filter }));
-    if (selected) await picking.select(selected).catch((thrown: unknown) => failures.push(thrown));
+    if (selected) await picking.select(layer, selected).catch((thrown: unknown) => failures.push(thrown));
     // The box moves to what is selected: where it was comes after.
     if (clips) attempt(() => box.take(clips));
     if (failures.length > 0) throw failures[0];
@@ -82,8 +82,11 @@ export class Share {
     const page = new URL(location.href);
     beside.writeTo(page);
     const camera = cameraView(this.#viewer.camera);
+    const { hit } = picking;
+    // A link brings back a record of the cloud whose style it has.
+    const selected = hit?.layer === layer ? { node: hit.node, index: hit.index } : undefined;
     try {
-      page.hash = `view=${writePermalink({ camera, ...layerView(layer), selected: picking.selected })}`;
+      page.hash = `view=${writePermalink({ camera, ...layerView(layer), selected })}`;
     } catch (thrown) {
       setText(note, shortlyOf(thrown));
       return;

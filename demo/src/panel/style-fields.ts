@@ -30,21 +30,22 @@ const STYLE_WORDS: ReadonlyMap<string, string> = new Map([
   ["terrain", i18n.t("terrain")],
 ]);
 
-/** The switches for everything in a style. */
+/** What the points show by their colour. */
+export const COLOUR_BY: ChoiceField = {
+  kind: "choice",
+  id: "color",
+  label: i18n.t("Colour by"),
+  options: colourings,
+  read: ({ style }) => style.color,
+  // A range given for one attribute says nothing of another.
+  write: (layer, color) => style(layer, { color, range: undefined }),
+};
+
+/** The switches for everything else in a style. */
 export const STYLE_GROUPS: readonly FieldGroup[] = [
   {
     title: i18n.t("Colour"),
-    open: true,
     fields: [
-      {
-        kind: "choice",
-        id: "color",
-        label: i18n.t("Show"),
-        options: colourings,
-        read: ({ style }) => style.color,
-        // A range given for one attribute says nothing of another.
-        write: (layer, color) => style(layer, { color, range: undefined }),
-      },
       {
         ...words("gradient", "gradient", i18n.t("Gradient"), ["auto", ...Object.keys(GRADIENTS)]),
         when: scalar,

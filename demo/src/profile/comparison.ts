@@ -10,13 +10,15 @@ import {
 import { i18n } from "../language/i18n.js";
 import { libraryWords } from "../language/library-words.js";
 import { fixed } from "../language/numbers.js";
-import { byId, setText } from "../panel/elements.js";
+import { byId, optionElement, setText } from "../panel/elements.js";
 
 /** A second cloud along the same line, another survey of the place say: its points, and the areas between both grounds. */
 export class Comparison {
   readonly #changed: () => void;
   readonly #words = byId("profile-compared", HTMLElement);
   readonly #end = byId("profile-alone", HTMLButtonElement);
+  readonly #choice = byId("profile-with", HTMLSelectElement);
+  #offered: readonly PointCloud[] = [];
   #cloud: PointCloud | undefined;
   #parts: ProfilePoints[] = [];
 
@@ -32,6 +34,7 @@ export class Comparison {
       file.value = "";
       if (chosen) this.#open(chosen).catch(failed);
     });
+    this.#choice.addEventListener("change", () => this.#take(this.#offered[Number(this.#choice.value)]));
     this.#end.addEventListener("click", () => {
       this.clear();
       changed();
@@ -47,10 +50,25 @@ export class Comparison {
     return this.#parts;
   }
 
+  /** Lets clouds of the scene be compared with; one of them that is gone is compared with no longer. */
+  offer(clouds: readonly PointCloud[]): void {
+    const lost = this.#cloud && this.#offered.includes(this.#cloud) && !clouds.includes(this.#cloud);
+    this.#offered = clouds;
+    const others = clouds.map(({ name }, at) => optionElement({ value: String(at), label: name }));
+    this.#choice.replaceChildren(optionElement({ value: "", label: i18n.t("compare with…") }), ...others);
+    this.#choice.hidden = clouds.length === 0;
+    if (this.#cloud && !lost) this.#choice.value = String(clouds.indexOf(this.#cloud));
+    if (!lost) return;
+    this.clear();
+    this.#changed();
+  }
+
   /** Forgets the second cloud. */
   clear(): void {
-    this.#cloud?.destroy();
+    // One of the scene goes on there.
+    if (this.#cloud && !this.#offered.includes(this.#cloud)) this.#cloud.destroy();
     this.#cloud = undefined;
+    this.#choice.value = "";
     this.#parts = [];
     this.#end.hidden = true;
     setText(this.#words, "");
@@ -93,10 +111,14 @@ export class Comparison {
   }
 
   async #open(file: File): Promise<void> {
-    const cloud = await PointCloud.fromUrl(file);
+    this.#take(await PointCloud.fromUrl(file));
+  }
+
+  #take(cloud: PointCloud | undefined): void {
     this.clear();
     this.#cloud = cloud;
-    this.#end.hidden = false;
+    this.#end.hidden = cloud === undefined;
+    if (cloud && this.#offered.includes(cloud)) this.#choice.value = String(this.#offered.indexOf(cloud));
     this.#changed();
   }
 }

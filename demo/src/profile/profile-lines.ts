@@ -93,7 +93,7 @@ export class ProfileLines {
       this.tool.attach([cloud]);
       return;
     }
-    this.#clear();
+    this.leave();
     this.#cloud = cloud.identity;
     this.#keeps = true;
     try {
@@ -156,7 +156,7 @@ export class ProfileLines {
   }
 
   /** Takes all lines off the views; those that are kept stay where they are. */
-  #clear(): void {
+  leave(): void {
     this.#cloud = undefined;
     this.choose(undefined);
     for (const { id } of [...this.all]) this.tool.remove(id);

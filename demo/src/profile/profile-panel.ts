@@ -50,7 +50,7 @@ export interface ProfileEvents {
 export class ProfilePanel {
   readonly lines: ProfileLines;
   readonly #lineTools: LineTools;
-  readonly #comparison: Comparison;
+  readonly comparison: Comparison;
   readonly #cut: CutClips;
   readonly #clearance: ClearanceWords;
   readonly #layer: () => PointCloudLayer | undefined;
@@ -85,7 +85,7 @@ export class ProfilePanel {
     this.#events = events;
     this.lines = new ProfileLines(viewer, layer, () => this.#follow(), events.failed);
     this.#lineTools = new LineTools(this.lines, () => void this.#read(), events.failed);
-    this.#comparison = new Comparison(() => void this.#read(), events.failed);
+    this.comparison = new Comparison(() => void this.#read(), events.failed);
     this.#cut = new CutClips(layer);
     this.#clearance = new ClearanceWords(() => void this.#groundAnew());
     this.#mark = new PlaceMark(viewer);
@@ -134,12 +134,19 @@ export class ProfilePanel {
   /** Forgets what is shown, and takes over the lines that were kept of a cloud. */
   open(layer: PointCloudLayer): void {
     this.#close();
-    this.#comparison.clear();
+    this.comparison.clear();
     try {
       this.lines.attach(layer);
     } catch (thrown) {
       this.#events.failed(thrown);
     }
+  }
+
+  /** No cloud is there any more. */
+  leave(): void {
+    this.#close();
+    this.comparison.clear();
+    this.lines.leave();
   }
 
   /** Ends the line that is being drawn, if any. */
@@ -252,7 +259,7 @@ export class ProfilePanel {
     this.#work = new AbortController();
     const { signal } = this.#work;
     try {
-      const plane = this.#comparison.planeWith(layer.cloud);
+      const plane = this.comparison.planeWith(layer.cloud);
       const cut = { line, width: this.#width.valueAsNumber, start, plane };
       const profile = new Profile(layer.cloud, cut);
       this.#profile = profile;
@@ -270,7 +277,7 @@ export class ProfilePanel {
         if (!complete) break;
       }
       tell(complete ? i18n.t("complete") : i18n.t("the coarser levels; the export has all points"));
-      await this.#comparison.read(
+      await this.comparison.read(
         cut,
         (points, cloud) => plot.addSecond(points, cloud, this.#style.ofSecond(layer)),
         signal,
@@ -294,16 +301,16 @@ export class ProfilePanel {
     if (!profile || !plot) return;
     this.#grounding = new AbortController();
     const { signal } = this.#grounding;
-    const wanted = this.#groundBy.value !== "" || this.#tableShown.checked || this.#comparison.active;
+    const wanted = this.#groundBy.value !== "" || this.#tableShown.checked || this.comparison.active;
     const choice = this.#groundChoice();
     const statistic = this.#groundBy.value === "" ? 50 : choice.statistic;
     try {
       const found = await groundOf(profile, wanted ? plot.parts : [], { ...choice, statistic }, signal);
       this.#ground = found;
-      plot.ground = this.#groundBy.value === "" && !this.#comparison.active ? [] : found;
-      const second = await groundOf(profile, this.#comparison.parts, { ...choice, statistic }, signal);
-      plot.secondGround = this.#comparison.active ? second : [];
-      this.#comparison.tell(found, second, profile.origin as PointCloud);
+      plot.ground = this.#groundBy.value === "" && !this.comparison.active ? [] : found;
+      const second = await groundOf(profile, this.comparison.parts, { ...choice, statistic }, signal);
+      plot.secondGround = this.comparison.active ? second : [];
+      this.comparison.tell(found, second, profile.origin as PointCloud);
       this.#showTable(statistic);
       await this.#clearance.tell(profile, plot.parts, choice.classification, signal);
     } catch (thrown) {

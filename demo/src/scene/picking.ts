@@ -17,29 +17,30 @@ const REACH = 7;
 /** Finds the point under a click, and marks it in the scene. */
 export class Picking {
   readonly #viewer: Viewer;
-  readonly #layer: () => PointCloudLayer | undefined;
-  readonly #found: (hit: Hit | undefined) => void;
+  readonly #layers: () => readonly PointCloudLayer[];
+  readonly #told: (hit: Hit | undefined) => void;
   #picking: AbortController | undefined;
   #mark: Entity | undefined;
-  #selected: { readonly node: string; readonly index: number } | undefined;
+  #found: Hit | undefined;
 
   /**
+   * @param layers those whose points are found
    * @param found hears of each point that was clicked, and of clicks beside all points
    * @param failed hears why a point's record could not be read
    */
   constructor(
     viewer: Viewer,
-    layer: () => PointCloudLayer | undefined,
+    layers: () => readonly PointCloudLayer[],
     found: (hit: Hit | undefined) => void,
     failed: (thrown: unknown) => void,
   ) {
     this.#viewer = viewer;
-    this.#layer = layer;
-    this.#found = found;
+    this.#layers = layers;
+    this.#told = found;
     let begun = false;
     // A tap that ends a figure is the figure's, though the click comes when nothing is drawn any more.
     const press = () => {
-      begun = layer() !== undefined;
+      begun = layers().length > 0;
     };
     viewer.canvas.addEventListener("pointerdown", press, { capture: true });
     const handler = new ScreenSpaceEventHandler(viewer.canvas);
@@ -49,42 +50,47 @@ export class Picking {
   }
 
   /** The record that was found last. */
-  get selected(): { readonly node: string; readonly index: number } | undefined {
-    return this.#selected;
+  get hit(): Hit | undefined {
+    return this.#found;
   }
 
-  /** Shows a record as if it had been clicked. @throws FormatError FORMAT_NODE where there is no such record */
-  async select({ node, index }: { readonly node: string; readonly index: number }): Promise<void> {
-    const layer = this.#layer();
-    if (!layer) return;
+  /** Shows a record of a layer as if it had been clicked. @throws FormatError FORMAT_NODE where there is no such record */
+  async select(
+    layer: PointCloudLayer,
+    { node, index }: { readonly node: string; readonly index: number },
+  ): Promise<void> {
     const signal = this.#begin();
-    const record = await layer.cloud.readPoint(node, { record: index }, { signal });
-    const [x, y, z] = layer.cloud.place(...record.source);
-    this.show({ ...record, layer, cloud: layer.cloud, position: new Cartesian3(x, y, z) });
+    const { cloud } = layer;
+    const record = await cloud.readPoint(node, { record: index }, { signal });
+    const [x, y, z] = cloud.place(...record.source);
+    this.show({ ...record, layer, cloud, position: new Cartesian3(x, y, z) });
   }
 
   /** Forgets the point that was found. */
   clear(): void {
     this.#picking?.abort();
-    this.#selected = undefined;
+    this.#found = undefined;
     if (this.#mark) this.#viewer.entities.remove(this.#mark);
     this.#mark = undefined;
-    this.#found(undefined);
+    this.#told(undefined);
   }
 
   async #pick(position: ScreenSpaceEventHandler.PositionedEvent["position"]): Promise<void> {
-    const layer = this.#layer();
-    if (!layer) return;
     const signal = this.#begin();
-    let hit: Hit | undefined;
+    let hits: (Hit | undefined)[];
     try {
-      hit = await layer.pick(position, { window: REACH, signal });
+      hits = await Promise.all(
+        this.#layers().map((layer) => layer.pick(position, { window: REACH, signal })),
+      );
     } catch (thrown) {
       if (signal.aborted) return;
       throw thrown;
     }
     if (signal.aborted) return;
-    this.show(hit);
+    const eye = this.#viewer.scene.camera.positionWC;
+    const away = (hit: Hit) => Cartesian3.distance(eye, hit.position);
+    const [nearest] = hits.filter((hit) => hit !== undefined).sort((a, b) => away(a) - away(b));
+    this.show(nearest);
   }
 
   /** One point is looked for at a time. */
@@ -98,7 +104,7 @@ export class Picking {
   show(hit: Hit | undefined): void {
     this.clear();
     if (!hit) return;
-    this.#selected = { node: hit.node, index: hit.index };
+    this.#found = hit;
     this.#mark = this.#viewer.entities.add({
       position: hit.position,
       point: {
@@ -109,6 +115,6 @@ export class Picking {
         disableDepthTestDistance: Number.POSITIVE_INFINITY,
       },
     });
-    this.#found(hit);
+    this.#told(hit);
   }
 }
