@@ -39,7 +39,7 @@ import { Share } from "./panel/share.js";
 import { COLOUR_BY, STYLE_GROUPS } from "./panel/style-fields.js";
 import { VIEW_GROUPS } from "./panel/view-fields.js";
 import { ProfilePanel } from "./profile/profile-panel.js";
-import { type Aspect, type Flight, goToCloud, goToPlaces } from "./scene/camera.js";
+import { type Aspect, type Flight, goToCloud, goToPlaces, goToView } from "./scene/camera.js";
 import { ClipBox } from "./scene/clip-box.js";
 import { Picking } from "./scene/picking.js";
 import { addBaseMap, addTerrain, createViewer, watchDrawing } from "./viewer.js";
@@ -72,8 +72,9 @@ function start(viewer: Viewer): void {
   const measuring = new Measuring(
     viewer,
     () => [...new Set([...(clouds.layer ? [clouds.layer] : []), ...clouds.layers])],
-    ({ vertices }) => {
-      goToPlaces(viewer, vertices, way("fly"));
+    ({ vertices, note }) => {
+      if (note?.camera) goToView(viewer, note.camera, way("fly"));
+      else goToPlaces(viewer, vertices, way("fly"));
       // A linked map comes along; moved for itself it would stop the globe's flight.
       if (!beside.linked) void beside.view?.then((view) => view.goTo(vertices));
     },

@@ -13,6 +13,7 @@ const WORDS: ReadonlySet<string> = new Set([
   /*i18n*/ "Plane",
   /*i18n*/ "Volume",
   /*i18n*/ "Above ground",
+  /*i18n*/ "Annotation",
   // Values of measurements
   /*i18n*/ "height above the ellipsoid",
   /*i18n*/ "longitude",

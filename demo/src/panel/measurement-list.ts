@@ -75,7 +75,8 @@ export class MeasurementList {
   /** Shows what the tool has. Entries of what is the same are kept, and with them the reader's focus. */
   show(): void {
     const kept = new Map(this.#entries.map((entry) => [entry.measurement.id, entry]));
-    this.#entries = this.#tool.measurements.map((measurement) => {
+    const measured = this.#tool.measurements.filter(({ kind }) => kind !== "annotation");
+    this.#entries = measured.map((measurement) => {
       const there = kept.get(measurement.id);
       const entry: Entry = there ? { ...there, measurement } : this.#entry(measurement);
       entry.settings?.offer(this.#others());

@@ -1,8 +1,10 @@
 import type { PointCloud, PointCloudLayer } from "@groma/layer/cesium";
-import { measureView, terrainOf } from "@groma/layer/cesium";
+import { cameraView, measureView, terrainOf } from "@groma/layer/cesium";
 import {
+  MEASUREMENT_KINDS,
   MeasureControl,
   type Measurement,
+  type MeasurementKind,
   MeasureTool,
   type MeasureUnitsOptions,
   measurementsToGeoJson,
@@ -12,6 +14,7 @@ import {
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
 import { i18n } from "../language/i18n.js";
+import { AnnotationList } from "./annotation-list.js";
 import { Compared } from "./compared.js";
 import { byId, optionElement, setText } from "./elements.js";
 import { MEASURE_WORDS, unitsOf } from "./measure-words.js";
@@ -53,14 +56,20 @@ const HINT = i18n.t(
   "Click points, or move the crosshair with the arrow keys and press Enter. Twice in one place ends; Escape gives up.",
 );
 
-/** The tool bar of measuring, and the list of what was measured. */
+const PLACE_HINT = i18n.t(
+  "Click the point that it belongs to, or move the crosshair with the arrow keys and press Enter.",
+);
+
+/** The tool bar of measuring, and the lists of what was measured and said. */
 export class Measuring {
   readonly tool: MeasureTool;
   readonly #layers: () => readonly PointCloudLayer[];
   readonly #told: (thrown: unknown) => void;
   readonly #list: MeasurementList;
+  readonly #annotations: AnnotationList;
   readonly #compared: Compared;
   readonly #hint = byId("measure-hint", HTMLParagraphElement);
+  readonly #place = byId("annotate-hint", HTMLParagraphElement);
   /** What has to be known of the file that was opened last. */
   readonly #notes = byId("measure-notes", HTMLParagraphElement);
 
@@ -88,8 +97,12 @@ export class Measuring {
     });
     this.#compared = new Compared(address, () => this.attach(), told);
     this.#list = new MeasurementList(this.tool, () => this.#others, fly);
+    this.#annotations = new AnnotationList(this.tool, fly, () => cameraView(viewer.camera));
     this.tool.onChange(() => this.#show());
-    byId("measure-tools", HTMLDivElement).append(new MeasureControl(this.tool).element);
+    const kinds = (Object.keys(MEASUREMENT_KINDS) as MeasurementKind[]).filter(
+      (kind) => kind !== "annotation",
+    );
+    byId("measure-tools", HTMLDivElement).append(new MeasureControl(this.tool, { kinds }).element);
     this.#connectFields();
     this.#connectFiles();
     this.#show();
@@ -171,8 +184,11 @@ export class Measuring {
 
   #show(): void {
     const { tool } = this;
-    setText(this.#hint, tool.drawing ? HINT : "");
+    const places = tool.drawing === "annotation";
+    setText(this.#hint, tool.drawing && !places ? HINT : "");
+    setText(this.#place, places ? PLACE_HINT : "");
     this.#list.show();
+    this.#annotations.show();
   }
 }
 

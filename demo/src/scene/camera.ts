@@ -1,5 +1,5 @@
 import { eastNorthUp, PlacementError } from "@groma/georef";
-import type { PointCloudLayer } from "@groma/layer/cesium";
+import type { CameraView, PointCloudLayer } from "@groma/layer/cesium";
 import { BoundingSphere, Cartesian3, HeadingPitchRange, PerspectiveFrustum, type Viewer } from "cesium";
 import { fitView, type ScreenRectangle, viewWindow } from "./framing.js";
 
@@ -53,6 +53,16 @@ export function goToPlaces(
   sphere.radius = Math.max(sphere.radius, LEAST_RADIUS);
   const offset = new HeadingPitchRange(camera.heading, Math.min(camera.pitch, -0.3), 4 * sphere.radius);
   camera.flyToBoundingSphere(sphere, { duration: way === "jump" ? 0 : FLIGHT, offset });
+}
+
+/** Takes the camera to where one stood, which looked as that one did. */
+export function goToView({ camera }: Viewer, view: CameraView, way: Flight["way"]): void {
+  const { longitude, latitude, height, heading, pitch, roll } = view;
+  camera.flyTo({
+    destination: Cartesian3.fromRadians(longitude, latitude, height),
+    orientation: { heading, pitch, roll },
+    duration: way === "jump" ? 0 : FLIGHT,
+  });
 }
 
 /** Metres around a place that are shown with it. */

@@ -46,6 +46,7 @@ export function figuresOf({ measurements, draft }: Drawn, showing: Showing): Sho
     // A vertex on its way changes what would be read.
     const reading = vertices === placed ? showing.readingOf(measurement) : undefined;
     const label =
+      (kind === "annotation" ? { label: name, wrong: false } : undefined) ??
       (reading && readingLabel(reading, showing)) ??
       labelOf(kind, vertices, showing, () =>
         vertices === placed ? showing.valuesOf(measurement) : valuesOf({ kind, vertices }, showing.worth),

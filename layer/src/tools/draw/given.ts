@@ -8,6 +8,7 @@ import {
   type ReadingOptions,
   type WorthOptions,
 } from "../measure/index.js";
+import { noteOf } from "../measure/measurement/note.js";
 import { volumeSettingsOf } from "../measure/measurement/volume-settings.js";
 import type { MeasurementChange } from "./history.js";
 import type { MeasureWords } from "./words.js";
@@ -32,11 +33,11 @@ export function checkKind(kind: MeasurementKind): void {
 /**
  * @param name for messages
  * @throws MeasureError MEASURE_VERTICES where they are not as many as the kind needs, MEASURE_OPTION for settings of a volume
- *   that are none
+ *   or a note that are none
  */
 export function checkChange(
   kind: MeasurementKind,
-  { vertices, volume }: MeasurementChange,
+  { vertices, volume, note }: MeasurementChange,
   name: string,
 ): void {
   const { least, most } = MEASUREMENT_KINDS[kind];
@@ -53,6 +54,12 @@ export function checkChange(
       cause: `it cannot have ${vertices.length} vertices`,
       fix: `give ${needed}`,
     });
+  }
+  if (note !== undefined && !noteOf(note)) {
+    throw refused(
+      `the note of ${name} is none`,
+      "give { text, camera } with a text of at most 20,000 characters",
+    );
   }
   if (volume !== undefined && !volumeSettingsOf(volume)) {
     throw refused(

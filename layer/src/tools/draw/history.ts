@@ -88,7 +88,7 @@ export class History {
 }
 
 /** What of a measurement may become another. */
-export type MeasurementChange = Partial<Pick<Measurement, "name" | "vertices" | "volume">>;
+export type MeasurementChange = Partial<Pick<Measurement, "name" | "vertices" | "volume" | "note">>;
 
 /**
  * The vertices of a figure with a further one, and whether that ends it: once more in one place, or back at the beginning of

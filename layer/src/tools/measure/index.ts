@@ -21,6 +21,7 @@ export {
   valuesOf,
   wordsOf,
 } from "./measurement/measurement.js";
+export type { Note, NoteCamera } from "./measurement/note.js";
 export { type ReadValuesOptions, readsPoints, readValues } from "./measurement/read-values.js";
 export { type Reading, type ReadingOptions, Readings } from "./measurement/reading.js";
 export type { VolumeBaseSetting, VolumeSettings } from "./measurement/volume-settings.js";

@@ -13,6 +13,7 @@ import { axesAt } from "../vertex/axes.js";
 import type { Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity } from "../worth/quantity.js";
+import type { Note } from "./note.js";
 import type { VolumeSettings } from "./volume-settings.js";
 
 /** What can be measured by placing vertices. */
@@ -26,7 +27,8 @@ export type MeasurementKind =
   | "circle"
   | "plane"
   | "volume"
-  | "aboveGround";
+  | "aboveGround"
+  | "annotation";
 
 /** Vertices, and what is measured of them. Values are derived anew whenever they are asked for. */
 export interface Measurement {
@@ -38,6 +40,8 @@ export interface Measurement {
   readonly vertices: readonly Vertex[];
   /** Of a volume: how it is measured. */
   readonly volume?: VolumeSettings | undefined;
+  /** Of an annotation: what is said there; its title is the name. */
+  readonly note?: Note | undefined;
 }
 
 /** One value of a measurement. */
@@ -209,6 +213,10 @@ export const MEASUREMENT_KINDS: Readonly<Record<MeasurementKind, KindOfMeasureme
   },
   aboveGround: {
     ...{ title: "Above ground", least: 1, most: 1, shape: "points" },
+    values: () => [],
+  },
+  annotation: {
+    ...{ title: "Annotation", least: 1, most: 1, shape: "points" },
     values: () => [],
   },
 };

@@ -1,5 +1,6 @@
 import type { Crs } from "@groma/georef";
 import type { MeasurementKind } from "../measurement/measurement.js";
+import type { Note } from "../measurement/note.js";
 import type { VolumeSettings } from "../measurement/volume-settings.js";
 import type { UncertaintyPart } from "../worth/quantity.js";
 import type { Geometry, Position } from "./geometry.js";
@@ -60,6 +61,8 @@ export interface MeasurementFeature {
     readonly kind: MeasurementKind;
     /** How a volume is measured. */
     readonly volume?: VolumeSettings;
+    /** What an annotation says. */
+    readonly note?: Note;
     readonly vertices: readonly SavedVertex[];
     readonly values: readonly SavedValue[];
   };

@@ -1,5 +1,6 @@
 import { MeasureError } from "../../../errors/index.js";
 import { MEASUREMENT_KINDS, type Measurement, type MeasurementKind } from "../measurement/measurement.js";
+import { noteOf } from "../measurement/note.js";
 import { isObject, volumeSettingsOf } from "../measurement/volume-settings.js";
 import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
 import { FORMAT, VERSION } from "./document.js";
@@ -121,7 +122,7 @@ class Reader {
 
   #own(
     feature: Readonly<Record<string, unknown>>,
-    { kind, vertices, volume: settings }: Readonly<Record<string, unknown>>,
+    { kind, vertices, volume: settings, note: said }: Readonly<Record<string, unknown>>,
     at: number,
   ): readonly Measurement[] | string {
     if (!isKind(kind)) return `it is of a kind that is not known here: ${JSON.stringify(kind)?.slice(0, 40)}`;
@@ -135,8 +136,12 @@ class Reader {
         `feature ${at + 1}: what its volume is measured against is not known here; its lowest vertex is taken`,
       );
     }
+    const note = said === undefined ? undefined : noteOf(said);
+    if (said !== undefined && !note)
+      this.#notes.add(`feature ${at + 1}: its note is no text and is left out`);
     const name = nameOf(feature) ?? `${title} ${at + 1}`;
-    return [{ id: idOf(feature, at), kind, vertices: found, name, ...(volume && { volume }) }];
+    const id = idOf(feature, at);
+    return [{ id, kind, vertices: found, name, ...(volume && { volume }), ...(note && { note }) }];
   }
 
   #foreign(feature: Readonly<Record<string, unknown>>, at: number): readonly Measurement[] | string {

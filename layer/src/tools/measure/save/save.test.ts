@@ -94,6 +94,24 @@ describe("measurements saved and read again", () => {
     );
   });
 
+  it("keep what an annotation says, as plain text, and from where it was seen", () => {
+    const camera = { longitude: 0.15, latitude: 0.8, height: 700, heading: 1, pitch: -0.5, roll: 0 };
+    const note = { text: "<img src=x onerror=alert(1)>\nsecond line", camera };
+    const before = { ...one("annotation", [cloud.vertex(500000, 5300000, 1)], "Crack <b>"), note };
+    const text = saved([before]);
+    expect(readMeasurements(text, [cloud])).toEqual({ measurements: [before], notes: [] });
+    const [feature] = JSON.parse(text).features;
+    expect(feature.properties).toEqual({ name: "Crack <b>", kind: "annotation", text: note.text });
+    // A camera that is none does not take the text with it; a text that is none is told.
+    const odd = readMeasurements(text.replace('"height":700', '"height":null'), [cloud]);
+    expect(odd.measurements).toEqual([{ ...before, note: { text: note.text } }]);
+    const none = readMeasurements(text.replace(JSON.stringify({ note }).slice(1, -1), '"note":7'), [cloud]);
+    expect([none.measurements[0]!.note, none.notes]).toEqual([
+      undefined,
+      ["feature 1: its note is no text and is left out"],
+    ]);
+  });
+
   it("stand at their places where the scan is not open, and keep their records", () => {
     const vertices = [cloud.vertex(500000, 5300000, 1), cloud.vertex(500010, 5300000, 1)];
     const { measurements, notes } = readMeasurements(saved([one("distance", vertices)]));
@@ -311,7 +329,9 @@ describe("every value of every kind", () => {
     [12, 8, 4],
     [1, 9, 6],
   ].map(([x, y, z]) => heights.vertex(500000 + x, 5300000 + y, z));
-  const kinds = Object.entries(MEASUREMENT_KINDS).filter(([kind]) => kind !== "aboveGround");
+  const kinds = Object.entries(MEASUREMENT_KINDS).filter(
+    ([kind]) => !["aboveGround", "annotation"].includes(kind),
+  );
 
   it.each(kinds)("%s: has an uncertainty, known as soon as the precision is", (kind, { most }) => {
     const measurement = one(kind as MeasurementKind, four.slice(0, Math.min(4, most)));

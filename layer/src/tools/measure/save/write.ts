@@ -45,7 +45,7 @@ export function measurementsToGeoJson(
 }
 
 function featureOf(measurement: Measurement, options: SaveOptions): MeasurementFeature {
-  const { id, kind, name, vertices, volume } = measurement;
+  const { id, kind, name, vertices, volume, note } = measurement;
   const values = knownValues(measurement, options);
   const columns = values.flatMap(({ name: title, quantity: { value, unit, uncertainty } }) => [
     [`${title}_${ASCII[unit]}`, value],
@@ -55,10 +55,11 @@ function featureOf(measurement: Measurement, options: SaveOptions): MeasurementF
     type: "Feature",
     id,
     geometry: geometryOf(vertices, MEASUREMENT_KINDS[kind].shape),
-    properties: { name, kind, ...Object.fromEntries(columns) },
+    properties: { name, kind, ...(note && { text: note.text }), ...Object.fromEntries(columns) },
     groma: {
       kind,
       ...(volume && { volume }),
+      ...(note && { note }),
       vertices: vertices.map(savedVertex),
       values: values.map(
         ({ name: title, quantity: { value, unit, uncertainty, atLeast, coverage, parts } }) => ({
