@@ -30,6 +30,7 @@ import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
 import { connectLanguage } from "./panel/language-choice.js";
 import { Ledger } from "./panel/ledger.js";
+import { connectLook } from "./panel/look.js";
 import { Measuring } from "./panel/measuring.js";
 import { Message } from "./panel/message.js";
 import { Moving } from "./panel/moving.js";
@@ -146,6 +147,7 @@ function start(viewer: Viewer): void {
     },
   });
   connectFold();
+  connectLook();
   connectLanguage(
     () => clouds.all.some(({ from }) => from instanceof File) || measuring.tool.measurements.length > 0,
   );

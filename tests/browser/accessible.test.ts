@@ -51,7 +51,15 @@ it("the page with globe and map has nothing that axe objects to", { timeout: 180
   await page.evaluate(() => {
     for (const part of Array.from(document.querySelectorAll("details"))) part.open = true;
   });
-  expect(await violations()).toEqual([]);
+  const text = () => page.evaluate(() => getComputedStyle(document.querySelector("#panel")!).color);
+  const looks: string[] = [];
+  for (const look of ["dark", "light"]) {
+    await page.selectOption("#look", look);
+    expect([look, ...(await violations())]).toEqual([look]);
+    looks.push(await text());
+    await screenshot(page, `accessible-${look}`);
+  }
+  expect(looks[0]).not.toBe(looks[1]);
   await page.click("#keys-open");
   expect(await violations()).toEqual([]);
   await page.keyboard.press("Escape");
@@ -149,6 +157,8 @@ it("the first screen asks for a scan, and opens its own sample", { timeout: 180_
   await page.setViewportSize({ width: 1000, height: 700 });
   await page.goto(new URL("/", server.address).href);
   await page.waitForSelector("body.empty");
+  // The look that was chosen before is kept.
+  expect(await page.inputValue("#look")).toBe("light");
   expect(await violations()).toEqual([]);
   const box = await page.locator("#panel").boundingBox();
   expect(box!.x + box!.width / 2).toBeCloseTo(500, 0);
