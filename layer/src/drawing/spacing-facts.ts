@@ -9,6 +9,9 @@ type Extents = Readonly<Record<keyof Pick<NodeVertices, "box" | "toCube">, Array
 /** What is known of a node's points once they are here; undefined until then. */
 export type VerticesOf = (node: OctreeNode) => (Extents & Pick<NodeVertices, "frame" | "bound">) | undefined;
 
+/** Of a node whose points are not here. */
+const NO_BOX: readonly number[] = [];
+
 /** How far apart the points lie where nothing finer is drawn over them. */
 export function spacingFacts(
   { view, width }: FrameCamera,
@@ -18,7 +21,9 @@ export function spacingFacts(
   const picture = width * view.height;
   const inView = (bounds: NodeBounds) => !outsideFrustum(view, bounds);
   const wanted = new Set(nodes);
-  const here = new Set(nodes.filter((node) => verticesOf(node)));
+  const drawn = nodes.filter((node) => verticesOf(node));
+  const all = drawn.length === nodes.length;
+  const here = all ? wanted : new Set(drawn);
   const spacing = new Extent();
   const level = new Extent();
   const ground = new Extent();
@@ -29,13 +34,20 @@ export function spacingFacts(
     if (!bounds) return;
     const vertices = verticesOf(node);
     const leaf = !children?.some((child) => child !== undefined);
-    const parts = { key, points: pointCount, count: counts[index], spacing: bounds.spacing };
-    // What is not here yet is expected to be as its level says.
-    const density = vertices ? { leaf, box: vertices.box } : { leaf: false, box: [] };
-    const apart = drawnSpacing({ ...parts, ...density });
+    // No objects spread into another: for a thousand nodes in each frame they would take a millisecond.
+    const apart = drawnSpacing({
+      key,
+      points: pointCount,
+      count: counts[index],
+      spacing: bounds.spacing,
+      // What is not here yet is expected to be as its level says.
+      leaf: vertices !== undefined && leaf,
+      box: vertices?.box ?? NO_BOX,
+    });
     const pixelsPerMetre = spacings[index] / bounds.spacing;
     const octants = vertices ? octantsUnder(vertices) : 1;
-    if (shareInSight(node, octants, wanted, inView) > 0) {
+    const bare = shareInSight(node, octants, wanted, inView);
+    if (bare > 0) {
       level.add(key.depth);
       ground.add(apart);
       if (Number.isFinite(pixelsPerMetre)) {
@@ -44,8 +56,9 @@ export function spacingFacts(
       }
     }
     // Sizes are for what is drawn now.
-    const share = vertices ? shareInSight(node, octants, here, inView) : 0;
-    if (!vertices || share === 0) return;
+    if (!vertices) return;
+    const share = all ? bare : shareInSight(node, octants, here, inView);
+    if (share === 0) return;
     const pixels = Math.min(picture, footprint(vertices.box, bounds.spacing) * pixelsPerMetre ** 2);
     patches.push({ spacing: apart, pixels: share * pixels });
   });
@@ -69,17 +82,23 @@ function shareInSight(
   drawn: ReadonlySet<OctreeNode>,
   inView: (bounds: NodeBounds) => boolean,
 ): number {
-  const all = children.filter((child) => child !== undefined);
-  const bare = Math.max(0, octants - all.length);
-  const open = all.filter((child) => !drawn.has(child) && (!child.bounds || inView(child.bounds)));
-  return (bare + open.length) / (bare + all.length);
+  let [all, open] = [0, 0];
+  for (let octant = 0; octant < children.length; octant++) {
+    const child = children[octant];
+    if (!child) continue;
+    all++;
+    if (!drawn.has(child) && (!child.bounds || inView(child.bounds))) open++;
+  }
+  const bare = Math.max(0, octants - all);
+  return (bare + open) / (bare + all);
 }
 
 /** Octants of its cube that a surface passes which is as long and as wide as a node's points: 1, 2 or 4. */
 function octantsUnder({ box, toCube }: Extents): number {
-  const edge = 1 / Math.hypot(toCube[0], toCube[1], toCube[2]);
-  const halves = [0, 1, 2].map((axis) => (box[axis + 3] - box[axis] > edge / 2 ? 2 : 1));
-  return Math.min(4, halves[0] * halves[1] * halves[2]);
+  const half = 0.5 / Math.sqrt(toCube[0] ** 2 + toCube[1] ** 2 + toCube[2] ** 2);
+  let octants = 1;
+  for (let axis = 0; axis < 3; axis++) if (box[axis + 3] - box[axis] > half) octants *= 2;
+  return Math.min(4, octants);
 }
 
 /** Least and greatest of what was added; 0 and 0 where nothing was. */
