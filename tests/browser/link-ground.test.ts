@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { LinkedPage, missing, unless } from "./linked.js";
+import { LinkedPage, MIDDLE, missing, unless } from "./linked.js";
 import { serveTerrain } from "./quantized-mesh.js";
 
 describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
@@ -87,6 +87,33 @@ describe.skipIf(missing)(`the ground that map and globe share${unless}`, () => {
     expect(seen.shown.resolution).toBeCloseTo((0.9996 * 1200) / 400, 3);
     expect(seen.nearer.width).toBeCloseTo(600, 3);
     expect(apart(seen.nearer.place, seen.wanted)).toBeLessThan(0.01);
+  });
+
+  it("is that of the map's points as soon as they are there, however late they come", {
+    timeout: 120_000,
+  }, async () => {
+    const { height, later } = await linked.page.evaluate(async (middle) => {
+      const { stage, synchronize } = window.linked;
+      const { globe } = stage;
+      const map = stage.addMap({ projection: "EPSG:32632", center: [...middle], resolution: 0.05 });
+      const heightOf = () => globe.scene.camera.positionCartographic.height;
+      globe.look({ at: [middle[0]!, middle[1]!, 0], heading: 0, pitch: -60, range: 40 });
+      globe.layer.show = false;
+      map.layer.setVisible(false);
+      window.linked.link = synchronize({ viewer: globe.widget, map: map.map, view: "to-globe" });
+      map.map.getView().adjustCenter([1, 1]);
+      // Longer than the link waits before it reads what the map shows in the middle.
+      await new Promise((done) => setTimeout(done, 400));
+      const height = heightOf();
+      map.layer.setVisible(true);
+      for (let wait = 0; wait < 1000 && heightOf() < height + 400; wait++) {
+        await new Promise((done) => setTimeout(done, 10));
+      }
+      globe.layer.show = true;
+      return { height, later: heightOf() };
+    }, MIDDLE);
+    expect(later - height).toBeGreaterThan(499);
+    expect(later - height).toBeLessThan(502);
   });
 
   it("is the terrain where the globe has one, as soon as that is there", { timeout: 180_000 }, async () => {

@@ -25,17 +25,28 @@ export class MapSide {
   #view: View | undefined;
   #viewKey: Parameters<typeof unByKey>[0] | undefined;
   #plane: { readonly code: string; readonly plane: Plane } | undefined;
+  /** Whether points were still on their way when the last frame was drawn. */
+  #loading = false;
 
-  /** @param moved called when the view may be another than the one known */
-  constructor(map: OlMap, moved: () => void) {
+  /**
+   * @param moved called when the view may be another than the one known
+   * @param grew called after a frame that may show more points than the one before
+   */
+  constructor(map: OlMap, { moved, grew }: Readonly<Record<"moved" | "grew", () => void>>) {
     this.map = map;
     this.#moved = moved;
-    this.#keys = map.on("change:view", () => {
+    const follow = () => {
       this.#wanted = undefined;
       this.#apart = false;
       this.#follow();
       moved();
-    });
+    };
+    const drawn = () => {
+      const loading = this.#layers.some((layer) => layer.hasRenderer() && !layer.getRenderer()?.ready);
+      if (loading || this.#loading) grew();
+      this.#loading = loading;
+    };
+    this.#keys = [map.on("change:view", follow), map.on("postrender", drawn)];
     this.#follow();
     this.know();
   }
@@ -147,10 +158,7 @@ export class MapSide {
    * @throws SourceError, DecodeError where the record cannot be read again; the signal's reason when aborted
    */
   async pick(pixel: readonly [number, number], signal: AbortSignal): Promise<Vector | undefined> {
-    const layers = this.map
-      .getAllLayers()
-      .filter((layer): layer is PointCloudLayer => layer instanceof PointCloudLayer && layer.getVisible());
-    const hits = await Promise.all(layers.map((layer) => layer.pick(pixel, { signal })));
+    const hits = await Promise.all(this.#layers.map((layer) => layer.pick(pixel, { signal })));
     const places = hits.flatMap((hit): Vector[] => {
       if (!hit) return [];
       const [x, y, z] = hit.cloud.place(...hit.source);
@@ -187,6 +195,13 @@ export class MapSide {
   dispose(): void {
     unByKey(this.#keys);
     if (this.#viewKey) unByKey(this.#viewKey);
+  }
+
+  /** Layers of points that are shown. */
+  get #layers(): PointCloudLayer[] {
+    return this.map
+      .getAllLayers()
+      .filter((layer): layer is PointCloudLayer => layer instanceof PointCloudLayer && layer.getVisible());
   }
 
   #follow(): void {

@@ -140,10 +140,13 @@ export class Link {
     };
     const globe = new GlobeSide(given.viewer.scene, given.middle, {
       moved: () => this.#views.globeMoved(),
-      grew: () => this.#views.globeGrew(),
+      grew: () => this.#views.grew(),
       gone: () => this.dispose(),
     });
-    const map = new MapSide(given.map, () => this.#views.mapMoved());
+    const map = new MapSide(given.map, {
+      moved: () => this.#views.mapMoved(),
+      grew: () => this.#views.grew(),
+    });
     const views = new ViewLink(globe, map, { mode, northUp }, (move) => this.#told(move), onError);
     [this.#globe, this.#map, this.#views] = [globe, map, views];
     if (given.footprint) this.#footprint = new FootprintLayer(globe, map);

@@ -17,7 +17,7 @@ export interface Move {
   readonly target: "globe" | "map";
 }
 
-/** What is done when nothing moves. @param grew whether more of the globe is there than the time before */
+/** What is done when nothing moves. @param grew whether more of terrain or points is there than the time before */
 type RestWork = (grew: boolean) => Promise<void>;
 
 /** Milliseconds without a move after which the height of what is looked at is read from the points. */
@@ -45,9 +45,9 @@ export class ViewLink {
   #frame: number | undefined;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #looking: AbortController | undefined;
-  /** What is done at rest, and again once more of the globe is there. */
+  /** What is done at rest, and again once more of terrain and points is there. */
   #work: RestWork = (grew) => this.#readAhead(grew);
-  /** Whether more of the globe is there than when that was done last. */
+  /** Whether more of them is there than when that was done last. */
   #grown = false;
 
   /**
@@ -77,8 +77,8 @@ export class ViewLink {
     this.#atRest((grew) => this.#readAhead(grew));
   }
 
-  /** There is more of the globe's terrain or points to see than before. */
-  globeGrew(): void {
+  /** There is more of the globe's terrain, or of the points on either side, to see than before. */
+  grew(): void {
     this.#grown = true;
     if (this.#timer === undefined && !this.#looking) this.#atRest(this.#work);
   }
@@ -215,7 +215,7 @@ export class ViewLink {
       const grew = this.#grown;
       this.#grown = false;
       await work(grew);
-      if (this.#grown) this.globeGrew();
+      if (this.#grown) this.grew();
     }, REST);
   }
 
