@@ -328,8 +328,20 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
     expect(kept[index]![0]).toBeCloseTo(vertex[0]!, 12);
     expect(kept[index]![1]).toBeCloseTo(vertex[1]!, 12);
   }
+  // A width that is none changes nothing but the field.
+  await page.fill("#profile-width", "");
+  await page.press("#profile-width", "Enter");
+  expect(await page.locator("#profile-width:invalid").count()).toBe(1);
+  expect(await page.textContent("#profile-status")).toMatch(/complete$/);
+  await page.fill("#profile-width", "4.4");
+  await page.press("#profile-width", "Enter");
+  await complete();
   await page.click("#profile-remove");
   await expect.poll(line).toEqual([]);
+  // Of a line that is gone no picture stays, nor what could be exported of it.
+  expect(await page.evaluate(() => window.groma.profile.shown)).toBe(0);
+  expect(await page.textContent("#profile-status")).toBe("");
+  expect(await page.isDisabled("#profile-export")).toBe(true);
   expect(await page.isVisible("#profile-list")).toBe(false);
 
   // An alignment of the scan's own coordinates: its stations, as the command line has them.

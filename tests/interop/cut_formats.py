@@ -27,12 +27,13 @@ xyz = np.array([las.x, las.y, las.z]).T
 transformer = pyproj.Transformer.from_crs(las.header.parse_crs(), "EPSG:4326", always_xy=True)
 angles = np.array([feature["geometry"]["coordinates"][:2] for feature in features])
 expected = np.array(transformer.transform(xyz[:, 0], xyz[:, 1])).T
-vlr_users = [vlr.user_id for vlr in laz.header.vlrs]
+records = {(vlr.user_id, vlr.record_id) for vlr in [*las.header.vlrs, *(las.evlrs or [])]}
 print(
     json.dumps(
         {
             "count": len(las),
             "laz": bool(np.array_equal(las.points.array, laz.points.array)),
+            "groma": sorted(number for user, number in records if user == "groma"),
             "compressed": bool(laz.header.are_points_compressed),
             "crs": las.header.parse_crs() == laz.header.parse_crs() and las.header.parse_crs() is not None,
             "csv": bool(

@@ -37,26 +37,28 @@ export async function writeWhole(
 ): Promise<void> {
   await withScratch(dirname(output), async (folder) => {
     const unfinished = join(folder, "output");
-    await fill(unfinished);
-    // That it is none of the files that are read was found before the work.
-    requirePlace(output, overwrite, []);
-    await rename(unfinished, output);
+    try {
+      await fill(unfinished);
+      // That it is none of the files that are read was found before the work.
+      requirePlace(output, overwrite, []);
+      await rename(unfinished, output);
+    } catch (error) {
+      if (!(error instanceof Error && "syscall" in error)) throw error;
+      throw new OutputError({
+        ...{ code: "OUTPUT_WRITE", file: output, cause: `it cannot be written (${error.message})` },
+        fix: "free some space, or name another output",
+      });
+    }
   });
 }
 
-/** Has a file written through a sink and made durable. @throws OutputError OUTPUT_WRITE; what `fill` throws */
+/** Has a file written through a sink and made durable. @throws errors of the system; what `fill` throws */
 export async function writeFile<T>(path: string, fill: (sink: ByteSink) => Promise<T>): Promise<T> {
   const file = await open(path, "wx+");
   try {
     const result = await fill(new FileSink(file));
     await file.sync();
     return result;
-  } catch (error) {
-    if (!(error instanceof Error && "syscall" in error)) throw error;
-    throw new OutputError({
-      ...{ code: "OUTPUT_WRITE", file: path, cause: `it cannot be written (${error.message})` },
-      fix: "free some space, or name another output",
-    });
   } finally {
     await file.close();
   }

@@ -158,7 +158,10 @@ export class ProfilePanel {
     const on = (element: HTMLElement, event: string, work: () => void) =>
       element.addEventListener(event, work);
     on(this.#start, "click", () => (this.drawing ? this.finish() : this.#begin()));
-    on(this.#width, "change", () => void this.#read());
+    on(this.#width, "change", () => {
+      // A width that is none is told at the field, in the browser's words.
+      if (this.#width.reportValidity()) void this.#read();
+    });
     on(byId("profile-close", HTMLButtonElement), "click", () => this.#close());
     on(byId("profile-fit", HTMLButtonElement), "click", () => this.#plot?.fit());
     on(byId("profile-true", HTMLButtonElement), "click", () => this.#plot?.stretch(1));
@@ -186,15 +189,24 @@ export class ProfilePanel {
   }
 
   #close(): void {
-    this.#work?.abort();
     this.#job.cancel();
     this.lines.tool.cancel();
-    this.#profile = undefined;
     this.lines.choose(undefined);
-    this.#outline.show(undefined, []);
-    this.#cut.show(undefined);
-    this.#point(undefined);
+    this.#forget();
     this.#panel.hidden = true;
+  }
+
+  /** There is no profile any more. */
+  #forget(): void {
+    this.#work?.abort();
+    if (this.#profile) {
+      this.#profile = undefined;
+      this.#outline.show(undefined, []);
+      this.#cut.show(undefined);
+      this.#point(undefined);
+      this.#clearPicture(0, 1);
+      setText(this.#status, "");
+    }
     this.#tellState();
   }
 
@@ -205,10 +217,7 @@ export class ProfilePanel {
     if (chosen) this.#panel.hidden = false;
     this.#tellState();
     if (this.lines.line.length > 1) void this.#read();
-    else if (!chosen && !this.drawing) {
-      this.#outline.show(undefined, []);
-      this.#cut.show(undefined);
-    }
+    else if (!chosen && !this.drawing) this.#forget();
   }
 
   #tellState(): void {

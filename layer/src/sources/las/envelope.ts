@@ -4,13 +4,13 @@ import type { LasHeader } from "./las-header.js";
 import { EVLR_HEADER, readVlr, VLR_HEADER, type VlrEntry, walkEvlrs, walkVlrs } from "./vlrs.js";
 
 /**
- * Records that do not go with a part of the points: how LAZ and COPC store them, and Groma's statistics (2) and
- * checksums (4) of all of them (docs/record.md).
+ * Records that do not go with a part of the points: how LAZ and COPC store them, and Groma's statistics (2),
+ * checksums (4) and first page of the octree (5) of all of them (docs/record.md).
  */
 const OF_THE_WHOLE: readonly (readonly [userId: string, recordIds: readonly number[] | "all"])[] = [
   ["laszip encoded", "all"],
   ["copc", "all"],
-  ["groma", [2, 4]],
+  ["groma", [2, 4, 5]],
 ];
 
 /**
