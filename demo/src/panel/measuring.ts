@@ -119,7 +119,8 @@ export class Measuring {
 
   /** What volumes can be measured against: all but the chosen cloud. */
   get #others(): readonly PointCloud[] {
-    return this.#clouds.filter(({ identity }) => identity !== this.#layers()[0]?.cloud.identity);
+    const [, ...besides] = this.#layers();
+    return [...besides.map(({ cloud }) => cloud), ...this.#compared.clouds];
   }
 
   #connectFields(): void {
