@@ -1,6 +1,6 @@
 import { byId } from "./elements.js";
 
-/** A small scan that comes with the page. */
+/** A small scan that comes with the page, in `demo/public`: of the kind that `demo/sample` makes, converted. */
 const SAMPLE = "sample.copc.laz";
 
 /** Ways of choosing clouds: files by button or by dropping them, and an address. */
