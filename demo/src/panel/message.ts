@@ -13,8 +13,9 @@ export interface Action {
 export class Message {
   readonly #place = byId("message", HTMLDivElement);
 
-  /** Tells a fault: where it is, what it is and what to do about it. */
+  /** Tells a fault: where it is, what it is and what to do about it. What was given up, or closed meanwhile, is none. */
   show(thrown: unknown, action?: Action): void {
+    if (thrown instanceof Error && thrown.name === "AbortError") return;
     const { code, file, cause, fix } = faultOf(thrown);
     const buttons = document.createElement("p");
     buttons.className = "row";

@@ -92,10 +92,11 @@ export class ProfilePanel {
     this.#style = new PlotStyle(viewer, layer, (drawing) => {
       if (this.#plot && !this.#panel.hidden) this.#plot.drawing = drawing;
     });
-    this.#outline = new StripOutline(viewer, layer, (width) => {
+    const widened = (width: number) => {
       this.#width.value = String(Number(width.toPrecision(3)));
       void this.#read();
-    });
+    };
+    this.#outline = new StripOutline(viewer, layer, widened, events.failed);
     this.#job = new ExportJob(this.#export, this.#status, () => void this.#save(), events.failed);
     for (const [value, { label }] of FORMATS) this.#format.append(optionElement({ value, label }));
     this.#connect();

@@ -30,8 +30,16 @@ export class StripOutline {
   #profile: Profile | undefined;
   #grip: Cartesian3 | undefined;
 
-  /** @param widened hears of another width, metres */
-  constructor(viewer: Viewer, layer: () => PointCloudLayer | undefined, widened: (width: number) => void) {
+  /**
+   * @param widened hears of another width, metres
+   * @param failed hears what kept the point under the pointer from being read
+   */
+  constructor(
+    viewer: Viewer,
+    layer: () => PointCloudLayer | undefined,
+    widened: (width: number) => void,
+    failed: (thrown: unknown) => void,
+  ) {
     this.#viewer = viewer;
     this.#layer = layer;
     this.#widened = widened;
@@ -43,7 +51,9 @@ export class StripOutline {
     viewer.container.append(this.#handle);
     viewer.scene.postRender.addEventListener(() => this.#put());
     this.#handle.addEventListener("pointerdown", (event) => this.#handle.setPointerCapture(event.pointerId));
-    this.#handle.addEventListener("pointerup", (event) => void this.#drop(event));
+    this.#handle.addEventListener("pointerup", (event) => {
+      this.#drop(event).catch(failed);
+    });
     this.#handle.addEventListener("keydown", (event) => this.#key(event));
   }
 

@@ -1,0 +1,32 @@
+import { GromaError } from "@groma/georef";
+import { parseHTML } from "linkedom";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { Message } from "./message.js";
+
+describe("the place where faults are told", () => {
+  let place: HTMLElement;
+  beforeEach(() => {
+    const { document } = parseHTML('<div id="message"></div>');
+    place = document.querySelector<HTMLElement>("#message")!;
+    vi.stubGlobal("document", document);
+    vi.stubGlobal("HTMLDivElement", place.constructor);
+  });
+  afterEach(() => vi.unstubAllGlobals());
+
+  it("has code, file, cause and fix", () => {
+    const fault = { code: "PLACE_LINE", file: "a.laz", cause: "it has one vertex", fix: "give two" };
+    new Message().show(new GromaError(fault));
+    for (const part of ["PLACE_LINE", "a.laz", "it has one vertex", "Give two"]) {
+      expect(place.textContent).toContain(part);
+    }
+  });
+
+  it("tells nothing of what was given up, and keeps what it told", () => {
+    const message = new Message();
+    message.show(new Error("broken"));
+    const told = place.textContent;
+    message.show(new DOMException("the cloud is closed", "AbortError"));
+    expect(told).toContain("broken");
+    expect(place.textContent).toBe(told);
+  });
+});
