@@ -8,7 +8,10 @@ import { parseArgs } from "node:util";
 import { root, setup } from "../../.ci/setup/main.mjs";
 import { forTest } from "../../.ci/setup/steps.mjs";
 
-const benches = ["placing", "profiles", "converters", "page", "frames", "gpu", "map", "streaming", "soak"];
+const benches = [
+  ...["placing", "decoding", "profiles", "converters", "page"],
+  ...["frames", "gpu", "map", "streaming", "soak"],
+];
 
 await setup(forTest);
 const { positionals: asked, values } = parseArgs({

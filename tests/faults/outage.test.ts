@@ -131,11 +131,11 @@ describe.skipIf(scan.missing)(
     it("tells of silence soon, long before it gives up a request", async () => {
       const { until } = await watched(
         during(100, () => undefined),
-        { timeout: 600 },
+        { timeout: 2000 },
       );
       const start = performance.now();
       const { waiting } = await until((progress) => progress.waiting !== undefined);
-      expect(performance.now() - start).toBeLessThan(500);
+      expect(performance.now() - start).toBeLessThan(1500);
       expect(waiting).toMatchObject({ outage: "silent", code: "SOURCE_TIMEOUT", until: undefined });
       await until(isComplete);
     });
@@ -148,7 +148,7 @@ describe.skipIf(scan.missing)(
       const retry = { attempts: 100, backoff: 10, patience: 300 };
       const opening = open(server.url, { retry, onWait, timeout: 150 });
       await expect(opening).rejects.toMatchObject({ code: "SOURCE_TIMEOUT" });
-      expect(performance.now() - start).toBeLessThan(1500);
+      expect(performance.now() - start).toBeLessThan(10_000);
       expect(told[0]).toMatchObject({ outage: "silent" });
     });
 
