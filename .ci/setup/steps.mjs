@@ -53,27 +53,33 @@ const core = {
   },
 };
 
-const WASM = "wasm32-unknown-unknown";
+/** Builds a crate of the project as WebAssembly. */
+async function buildWasm(root, crate, target) {
+  const args = ["build", "--release", "--locked", "--quiet", "--target", target, "--manifest-path"];
+  const build = () => attempt("cargo", [...args, join(root, crate, "Cargo.toml")]);
+  let { code, said } = await build();
+  // Rust of a system has no rustup, and may have the target all the same.
+  if (code !== 0 && (await available("rustup"))) {
+    await attempt("rustup", ["target", "add", target]);
+    ({ code, said } = await build());
+  }
+  if (code !== 0)
+    throw new SetupError(
+      `Rust cannot build for ${target} (${said}). Run rustup target add ${target}, or install your system's package of it (libstd-rust-dev-wasm32).`,
+    );
+  return "built";
+}
 
 /** LAZ of the page and of the command, as WebAssembly. @type {Step} */
 const laz = {
   name: "LAZ as WebAssembly",
-  async run(root) {
-    const manifest = ["--manifest-path", join(root, "converter/wasm/Cargo.toml")];
-    const build = () =>
-      attempt("cargo", ["build", "--release", "--locked", "--quiet", "--target", WASM, ...manifest]);
-    let { code, said } = await build();
-    // Rust of a system has no rustup, and may have the target all the same.
-    if (code !== 0 && (await available("rustup"))) {
-      await attempt("rustup", ["target", "add", WASM]);
-      ({ code, said } = await build());
-    }
-    if (code !== 0)
-      throw new SetupError(
-        `Rust cannot build for ${WASM} (${said}). Run rustup target add ${WASM}, or install your system's package of it (libstd-rust-dev-wasm32).`,
-      );
-    return "built";
-  },
+  run: (root) => buildWasm(root, "converter/wasm", "wasm32-unknown-unknown"),
+};
+
+/** The core for the page, which indexes scans in it. It needs files, and so a system: WASI. @type {Step} */
+const pageCore = {
+  name: "core as WebAssembly",
+  run: (root) => buildWasm(root, "converter", "wasm32-wasip1"),
 };
 
 /** @type {Step} */
@@ -85,6 +91,8 @@ const typescript = {
       "georef",
       "layer",
       "converter/cli",
+      "converter/src",
+      "converter/Cargo.lock",
       "converter/wasm/src",
       "converter/wasm/Cargo.lock",
       "demo",
@@ -170,7 +178,7 @@ const pdal = {
 };
 
 /** What `npm start` needs: the libraries, the converter, the page, and PROJ where it can be had. */
-export const forStart = [node, packages, core, laz, typescript, proj];
+export const forStart = [node, packages, core, laz, pageCore, typescript, proj];
 
 /** What `npm test` needs besides: a browser, and readers of LAS and COPC that nobody here wrote. */
 export const forTest = [...forStart, browser, referees, pdal];

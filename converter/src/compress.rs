@@ -4,6 +4,7 @@ use crate::copc::chunk;
 use crate::error::{Error, Result};
 use crate::scan::Scan;
 use crate::scan::variable_record::{HEADER, VariableRecord};
+use crate::threads;
 use laz::laszip::{ChunkTable, ChunkTableEntry};
 use laz::{LazVlr, LazVlrBuilder};
 use serde::Serialize;
@@ -90,7 +91,7 @@ fn write_points(
     let failed = |e: io::Error| Error::output_write(output, e);
     let points_at = out.stream_position().map_err(failed)?;
     out.write_all(&[0; ChunkTable::OFFSET_SIZE]).map_err(failed)?;
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads::available();
     let mut table = ChunkTable::with_capacity(scan.points.div_ceil(CHUNK.into()) as usize);
     let mut left = scan.points;
     while left > 0 {

@@ -19,4 +19,5 @@ pub mod sampling;
 pub mod scan;
 pub mod statistics;
 pub mod temporary;
+pub mod threads;
 pub mod verify;

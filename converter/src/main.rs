@@ -6,7 +6,7 @@ use groma_core::compress::compress;
 use groma_core::copc::checksums::{self, Stored};
 use groma_core::error::{Error, Result, Wire};
 use groma_core::input::Source;
-use groma_core::input::contain::is_contained;
+use groma_core::input::contain;
 use groma_core::memory;
 use groma_core::pipeline::options::Options;
 use groma_core::pipeline::{Pipeline, Summary};
@@ -14,6 +14,7 @@ use groma_core::progress::JsonLines;
 use groma_core::sampling::Strategy;
 use groma_core::scan::Scan;
 use groma_core::scan::describe::Description;
+#[cfg(not(target_family = "wasm"))]
 use groma_core::temporary::folder;
 use groma_core::verify;
 use serde::Serialize;
@@ -102,10 +103,10 @@ struct Done {
 
 fn main() -> ExitCode {
     let panic = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |info| {
-        if !is_contained() {
-            panic(info);
-        }
+    std::panic::set_hook(Box::new(move |info| match contain::meaning_of_panic() {
+        None => panic(info),
+        Some(error) if cfg!(panic = "abort") => JsonLines::print(&error.wire()),
+        Some(_) => {}
     }));
     let outcome = match Cli::try_parse() {
         Ok(Cli { command: Command::Scan { file } }) => scan(&file),
@@ -209,6 +210,7 @@ fn options(arguments: Convert) -> Result<Options> {
 }
 
 /// On SIGINT, SIGTERM and SIGHUP: nothing is left behind, and the exit status says what happened.
+#[cfg(not(target_family = "wasm"))]
 fn stop_cleanly(output: PathBuf) {
     let handler = move || {
         let _held = folder::abandon_all();
@@ -220,6 +222,10 @@ fn stop_cleanly(output: PathBuf) {
         eprintln!("signals are not handled: {error}");
     }
 }
+
+/// In a page nothing is sent: the worker is ended, and all files with it.
+#[cfg(target_family = "wasm")]
+fn stop_cleanly(_output: PathBuf) {}
 
 /// A command line that clap refuses, as an error like all others.
 fn usage(error: &clap::Error) -> Error {

@@ -1,7 +1,10 @@
 //! How much memory a run may take, and who gets it.
 
 use crate::error::{Error, Result};
-use mimalloc::MiMalloc;
+#[cfg(not(target_family = "wasm"))]
+use mimalloc::MiMalloc as SmallBlocks;
+#[cfg(target_family = "wasm")]
+use std::alloc::System as SmallBlocks;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::fs;
 
@@ -27,12 +30,12 @@ const SMALL: usize = 2 << 10;
 ///
 /// Compressing a node makes some three thousand tables of up to 1 KiB and frees them again. glibc looks for each of them
 /// among the holes that points have left, which of 100 million points in 256 MiB took a tenth of the processor time; and
-/// mimalloc, given the points too, keeps more memory than a run may have.
+/// mimalloc, given the points too, keeps more memory than a run may have. In WebAssembly there is one allocator for all.
 pub struct Allocator;
 
 impl Allocator {
     fn of(size: usize) -> &'static dyn GlobalAlloc {
-        if size <= SMALL { &MiMalloc } else { &System }
+        if size <= SMALL { &SmallBlocks } else { &System }
     }
 }
 

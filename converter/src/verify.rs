@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::input::{Pieces, Source};
+use crate::threads;
 use serde::Serialize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -43,11 +44,7 @@ pub fn verify(source: Source) -> Result<Verified> {
             }
         }
     };
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from).min(parts) {
-            scope.spawn(work);
-        }
-    });
+    threads::on_each(threads::available().min(parts), work);
     let mut faults = faults.into_inner().unwrap_or_else(PoisonError::into_inner);
     faults.sort_by_key(|(part, _)| *part);
     let Some((_, first)) = faults.first() else {

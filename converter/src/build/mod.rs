@@ -33,6 +33,7 @@ use crate::octree::cube::Cube;
 use crate::octree::limits::Limits;
 use crate::progress::Meter;
 use crate::temporary::store::Store;
+use crate::threads;
 use context::{Buffers, Context};
 use laz::LazVlr;
 use plan::Job;
@@ -98,11 +99,7 @@ pub fn build(
             }
         }
     };
-    std::thread::scope(|scope| {
-        for _ in 0..force.workers {
-            scope.spawn(work);
-        }
-    });
+    threads::on_each(force.workers, work);
     let nodes = context.into_nodes();
     scheduler.outcome()?;
     Ok(nodes)

@@ -9,6 +9,7 @@ use crate::octree::cube::Cube;
 use crate::octree::key::{BITS, Key};
 use crate::octree::limits::Limits;
 use crate::temporary::store::Store;
+use crate::threads;
 use std::sync::{Mutex, PoisonError};
 
 /// Divides until no cell has more points than the limit, but for those whose points all have one code.
@@ -49,11 +50,7 @@ pub fn divide(
                 }
             }
         };
-        std::thread::scope(|scope| {
-            for _ in 0..workers {
-                scope.spawn(work);
-            }
-        });
+        threads::on_each(workers, work);
         let (_, failure) = open.into_inner().unwrap_or_else(PoisonError::into_inner);
         if let Some(error) = failure {
             return Err(error);

@@ -11,6 +11,7 @@ use crate::octree::place::Extent;
 use crate::progress::Meter;
 use crate::statistics::Tally;
 use crate::temporary::store::Store;
+use crate::threads;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Pieces that wait for their turn, per worker.
@@ -110,11 +111,7 @@ pub fn read(
             }
         }
     };
-    std::thread::scope(|scope| {
-        for _ in 0..workers.min(parts.len()) {
-            scope.spawn(work);
-        }
-    });
+    threads::on_each(workers.min(parts.len()), work);
     ordered_parts.finish().map(drop)?;
     found.placed = placed.into_inner();
     Ok(found)

@@ -1,38 +1,51 @@
 //! Decoders on data that may be garbage: their panics are errors of the input.
 
+use crate::error::{Error, Result};
 use laz::LasZipError;
+use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 thread_local! {
-    static CONTAINED: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+    static CONTAINED: RefCell<Option<Error>> = const { RefCell::new(None) };
 }
 
-/// Whether the current thread runs a decoder whose panic will be caught and reported as an error of the input.
-pub fn is_contained() -> bool {
-    CONTAINED.get()
+/// What a panic of the decoder that the current thread runs means; none where it runs no decoder. For the panic hook: such a
+/// panic is caught and reported as an error of the input, or, where a program cannot catch panics (WebAssembly), has to
+/// be reported by the hook.
+pub fn meaning_of_panic() -> Option<Error> {
+    CONTAINED.with_borrow(Clone::clone)
 }
 
-/// Runs a decoder on data that may be garbage: its error or panic becomes a cause in words.
+/// Runs a decoder on data that may be garbage. `fail` makes the error of the input from what the decoder says.
 pub fn contained<T>(
+    fail: impl Fn(String) -> Error,
     work: impl FnOnce() -> std::result::Result<T, LasZipError>,
-) -> std::result::Result<T, String> {
-    CONTAINED.set(true);
+) -> Result<T> {
+    let given_up = fail("the decoder gave up".to_string());
+    CONTAINED.set(Some(given_up.clone()));
     let result = catch_unwind(AssertUnwindSafe(work));
-    CONTAINED.set(false);
+    CONTAINED.set(None);
     match result {
-        Ok(result) => result.map_err(|e| e.to_string()),
-        Err(_) => Err("the decoder gave up".to_string()),
+        Ok(result) => result.map_err(|e| fail(e.to_string())),
+        Err(_) => Err(given_up),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
     #[test]
-    fn a_panic_becomes_a_cause() {
-        let cause = contained(|| -> std::result::Result<(), LasZipError> { panic!("index out of bounds") });
-        assert_eq!(cause, Err("the decoder gave up".to_string()));
-        assert!(!is_contained());
+    fn a_panic_becomes_an_error_of_the_input() {
+        let fail = |cause| Error::corrupt(Path::new("a.laz"), cause);
+        let mut told = None;
+        let result = contained(fail, || -> std::result::Result<(), LasZipError> {
+            told = meaning_of_panic();
+            panic!("index out of bounds")
+        });
+        assert_eq!(result, Err(fail("the decoder gave up".to_string())));
+        assert_eq!(told, result.err());
+        assert_eq!(meaning_of_panic(), None);
     }
 }

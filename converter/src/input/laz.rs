@@ -24,8 +24,8 @@ pub fn parameters(scan: &Scan) -> Result<LazVlr> {
     let record = record.ok_or_else(|| {
         Error::corrupt(path, "the points are compressed, but the LASzip record is not there")
     })?;
-    let vlr = contained(|| LazVlr::from_buffer(&record.data))
-        .map_err(|e| Error::corrupt(path, format!("LASzip record: {e}")))?;
+    let fail = |cause| Error::corrupt(path, format!("LASzip record: {cause}"));
+    let vlr = contained(fail, || LazVlr::from_buffer(&record.data))?;
     let types = |items: &[laz::LazItem]| items.iter().map(|i| (i.item_type(), i.size())).collect::<Vec<_>>();
     let extra = scan.header.point_data_record_length - crate::record::LENGTHS[usize::from(scan.point_format)];
     let expected = LazItemRecordBuilder::default_for_point_format_id(scan.point_format, extra);
@@ -253,8 +253,9 @@ fn read_table(
         return Err(Error::corrupt(path, format!("{announced} chunks are announced, {room} have room")));
     }
     file.seek(SeekFrom::Start(table_at)).map_err(|e| Error::reading(path, &e))?;
-    let table = contained(|| Ok(ChunkTable::read(file, vlr.uses_variable_size_chunks())?));
-    table.map(|t| t.as_ref().to_vec()).map_err(|e| Error::corrupt(path, format!("chunk table: {e}")))
+    let fail = |cause| Error::corrupt(path, format!("chunk table: {cause}"));
+    let table = contained(fail, || Ok(ChunkTable::read(file, vlr.uses_variable_size_chunks())?))?;
+    Ok(table.as_ref().to_vec())
 }
 
 /// Whether the chunks are those of LASzip 3, whose layers must be in memory as a whole.
@@ -288,8 +289,8 @@ fn decode<R>(
     sink: &mut Sink,
     fail: impl Fn(String) -> Error,
 ) -> Result<()> {
-    contained(|| decoder.set_fields_from(vlr.items())).map_err(&fail)?;
-    sink.fill(points, |raw| contained(|| Ok(decoder.decompress_many(raw)?)).map_err(&fail))
+    contained(&fail, || decoder.set_fields_from(vlr.items()))?;
+    sink.fill(points, |raw| contained(&fail, || Ok(decoder.decompress_many(raw)?)))
 }
 
 /// How a layered chunk (LASzip 3) begins: one plain record, the number of points (u32), the size of each layer (u32).
@@ -358,21 +359,21 @@ pub fn stream(scan: &Scan, vlr: &LazVlr, sink: &mut Sink) -> Result<()> {
     let mut file = File::open(path).map(BufReader::new).map_err(|e| Error::reading(path, &e))?;
     file.seek(SeekFrom::Start(scan.header.offset_to_point_data.into()))
         .map_err(|e| Error::reading(path, &e))?;
-    let decoder = contained(|| LasZipDecompressor::new(Forward(file), vlr.clone()));
-    let mut decoder = decoder.map_err(|cause| Error::corrupt(path, cause))?;
+    let fail = |cause| Error::corrupt(path, cause);
+    let mut decoder = contained(fail, || LasZipDecompressor::new(Forward(file), vlr.clone()))?;
     sink.fill(scan.points, |raw| {
         let mut early = false;
-        let decoded = contained(|| {
+        let decoded = contained(fail, || {
             decoder.decompress_many(raw).map_err(|e| {
                 early = e.kind() == std::io::ErrorKind::UnexpectedEof;
                 e.into()
             })
         });
-        match decoded {
-            Err(_) if early => Err(Error::truncated(path, "the compressed points end early")),
-            Err(cause) => Err(Error::corrupt(path, cause)),
-            Ok(()) => Ok(()),
-        }
+        decoded.map_err(
+            |error| {
+                if early { Error::truncated(path, "the compressed points end early") } else { error }
+            },
+        )
     })
 }
 
@@ -409,11 +410,13 @@ mod tests {
         let mut source = Cursor::new(bytes);
         let block = Block { at: 0, bytes: bytes.len() as u64, points: out.len() as u64 / 36, expected: None };
         check_head(&mut source, &block, vlr)?;
-        contained(|| {
+        let fail = |cause| Error::corrupt(Path::new("a.laz"), cause);
+        let decoded = contained(fail, || {
             let mut decoder = LayeredPointRecordDecompressor::new(source);
             decoder.set_fields_from(vlr.items())?;
             Ok(decoder.decompress_many(out)?)
-        })
+        });
+        decoded.map_err(|error| error.cause().to_string())
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use crate::build::Rules;
 use crate::copc::records::Additions;
 use crate::error::{Error, Result};
+use crate::threads;
 use std::path::{Path, PathBuf};
 
 /// Longest data of a variable length record.
@@ -56,7 +57,7 @@ impl Options {
 
     /// Threads to work with.
     pub fn workers(&self) -> usize {
-        self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+        self.threads.unwrap_or_else(threads::available)
     }
 
     /// Reads the files that the options name. Errors: `OPTION_RECORD`, `OPTION_TRANSFORMATION`, `OPTION_WKT`.

@@ -111,9 +111,15 @@ pub fn check_space(folder: &Path, needed: u64) -> Result<()> {
     }
 }
 
-/// Bytes that are free in a folder.
+/// Bytes that are free in a folder, where the system tells.
+#[cfg(not(target_family = "wasm"))]
 pub fn free(folder: &Path) -> Option<u64> {
     fs4::available_space(folder).ok()
+}
+
+#[cfg(target_family = "wasm")]
+pub fn free(_folder: &Path) -> Option<u64> {
+    None
 }
 
 /// The plan of a conversion.

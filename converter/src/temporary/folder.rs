@@ -42,6 +42,11 @@ pub fn abandon_all() -> impl Drop {
     folders
 }
 
+/// The number of this process. One in a page has a folder of its own, and no number.
+fn process() -> u32 {
+    if cfg!(target_family = "wasm") { 0 } else { std::process::id() }
+}
+
 /// A folder that is removed when this is dropped.
 #[derive(Debug)]
 pub struct TempFolder {
@@ -57,7 +62,7 @@ impl TempFolder {
         let mut refused = None;
         for attempt in 0..ATTEMPTS {
             let more = if attempt == 0 { String::new() } else { format!("-{attempt}") };
-            let path = parent.join(format!("{PREFIX}{name}-{}{more}", std::process::id()));
+            let path = parent.join(format!("{PREFIX}{name}-{}{more}", process()));
             match Self::at(path) {
                 Ok(folder) => return Ok(folder),
                 // Taken, or swept away by another run before it had its lock.
