@@ -22,7 +22,13 @@ for (const [folder, name] of [
   [laz, "laz.worker.js"],
 ]) {
   const bundle = await rolldown({ input: join(folder, "entry.js"), platform: "browser" });
-  await bundle.write({ file: join(folder, name), format: "es", sourcemap: true, codeSplitting: false });
+  await bundle.write({
+    file: join(folder, name),
+    format: "es",
+    minify: true,
+    sourcemap: true,
+    codeSplitting: false,
+  });
   await bundle.close();
 }
 

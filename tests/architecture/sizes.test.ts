@@ -6,12 +6,11 @@ import { describe, expect, it } from "vitest";
 import { projectRoot } from "../project.js";
 
 const dist = join(projectRoot, "layer/dist");
-/** What an application pays for an entry, by the table of docs/releases.md: own code, and all but Cesium and OpenLayers, kB. */
-const table = [
-  ...readFileSync(join(projectRoot, "docs/releases.md"), "utf8").matchAll(
-    /^\| `(@groma\/layer[/a-z]*)` +\| +(\d+) kB +\| +(\d+) kB +\|$/gm,
-  ),
-].map(([, name, own, all]) => [name!, Number(own), Number(all)] as const);
+const releases = readFileSync(join(projectRoot, "docs/releases.md"), "utf8");
+/** What an application pays for an entry, by the table of that page: own code, and all but Cesium and OpenLayers, kB. */
+const table = [...releases.matchAll(/^\| `(@groma\/layer[/a-z]*)` +\| +(\d+) kB +\| +(\d+) kB +\|$/gm)].map(
+  ([, name, own, all]) => [name!, Number(own), Number(all)] as const,
+);
 
 /** What is neither a path nor a package of the project. */
 const OTHERS = /^(?![./\\]|@groma)(?![A-Z]:)/;
@@ -61,4 +60,9 @@ describe("what an entry weighs", () => {
       }
     },
   );
+
+  it.each(["node.worker.js", "groma-laz.wasm"])("%s, a file of its own", (name) => {
+    const stated = Number(new RegExp(`\\(\`${name}\`, (\\d+) kB\\)`).exec(releases)![1]);
+    expect(gzipSync(readFileSync(join(dist, "workers", name))).length / 1000).toBeCloseTo(stated, -1);
+  });
 });
