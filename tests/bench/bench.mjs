@@ -10,7 +10,7 @@ import { forTest } from "../../.ci/setup/steps.mjs";
 
 const benches = [
   ...["placing", "decoding", "profiles", "converters", "page"],
-  ...["frames", "gpu", "map", "streaming", "soak"],
+  ...["frames", "first-sight", "gpu", "map", "streaming", "soak"],
 ];
 
 await setup(forTest);

@@ -63,12 +63,12 @@ export async function openScanPage(root, source, file, folder, graphics = "softw
 }
 
 /** Its launch of Chromium is that of the tests. */
-async function harness(root) {
+export async function harness(root) {
   const options = { root, configFile: false, logLevel: "error" };
   return (await runnerImport(join(root, "tests/browser/harness.ts"), options)).module;
 }
 
-function cesium(root) {
+export function cesium(root) {
   const manifest = createRequire(join(root, "layer/package.json")).resolve("cesium/package.json");
   return {
     folder: join(dirname(manifest), "Build/Cesium"),
