@@ -13,6 +13,7 @@ const docs = (folder) =>
 const tasks = [
   "globe",
   "on-a-map",
+  "page",
   "heights",
   "feet",
   "no-crs",

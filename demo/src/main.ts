@@ -43,6 +43,7 @@ import { ProfilePanel } from "./profile/profile-panel.js";
 import { type Aspect, type Flight, goToCloud, goToPlaces, goToView } from "./scene/camera.js";
 import { ClipBox } from "./scene/clip-box.js";
 import { Picking } from "./scene/picking.js";
+import { Screenshot } from "./screenshot/screenshot.js";
 import { addBaseMap, addTerrain, createViewer, watchDrawing } from "./viewer.js";
 
 const message = new Message();
@@ -135,6 +136,7 @@ function start(viewer: Viewer): void {
     ...{ layer: () => clouds.layer, box, picking, beside },
     hasAddress: () => typeof clouds.chosen?.from === "string",
   });
+  new Screenshot({ viewer, clouds, beside, tool: measuring.tool }, (thrown) => message.show(thrown));
   const heights = new Heights(reopen);
   const chooser = new Chooser({
     files: (files) => void chooseAll(files),

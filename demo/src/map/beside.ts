@@ -2,6 +2,7 @@ import type { PointCloudLayer } from "@groma/layer/cesium";
 import type { LayerStatistics, LedgerRow } from "@groma/layer/openlayers";
 import type { Viewer } from "cesium";
 import { byId } from "../panel/elements.js";
+import type { ViewShot } from "../screenshot/view-shot.js";
 import type { MapView } from "./map-view.js";
 
 /** Least and greatest share of the page that the globe has beside the map. */
@@ -74,6 +75,14 @@ export class Beside {
   /** The effects of what the map draws, where it is in the place of the globe. */
   get ledger(): readonly LedgerRow[] | undefined {
     return this.alone ? this.#shown?.ledger : undefined;
+  }
+
+  /** A picture of the map, where it is shown, and what that says of its sources. @throws the signal's reason */
+  async shoot(
+    signal: AbortSignal,
+  ): Promise<{ readonly shot: ViewShot; readonly credits: readonly string[] } | undefined> {
+    if (this.#choice.value === "globe") return undefined;
+    return (await this.#view)?.shoot(signal);
   }
 
   /** Has an address of the page ask for what is shown. */

@@ -17,7 +17,9 @@ import View from "ol/View.js";
 import { i18n } from "../language/i18n.js";
 import { textElement } from "../panel/elements.js";
 import { freeArea } from "../panel/fold.js";
+import type { ViewShot } from "../screenshot/view-shot.js";
 import { MapCloud } from "./map-cloud.js";
+import { creditsOf, shootMap } from "./map-shot.js";
 
 /** Levels of the Natural Earth map that comes with Cesium, degrees per pixel. */
 const RESOLUTIONS = [180 / 256, 90 / 256, 45 / 256];
@@ -128,6 +130,13 @@ export class MapView {
   /** The map, for measuring on it. */
   get measured(): ViewAdapter {
     return measureView(this.map, () => this.#clouds.map(({ layer }) => layer));
+  }
+
+  /** A picture of the map once it is complete, and what it says of its sources. @throws the signal's reason */
+  async shoot(
+    signal: AbortSignal,
+  ): Promise<{ readonly shot: ViewShot; readonly credits: readonly string[] }> {
+    return { shot: await shootMap(this.map, signal), credits: creditsOf(this.map) };
   }
 
   /** Marks a place; undefined: none. @param place ECEF, metres */

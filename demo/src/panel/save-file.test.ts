@@ -47,6 +47,13 @@ describe("saveFile", () => {
     expect(given.up).toBe(true);
   });
 
+  it("offers a name that file systems take", async () => {
+    const showSaveFilePicker = vi.fn(() => Promise.reject(new DOMException("", "AbortError")));
+    vi.stubGlobal("window", { showSaveFilePicker });
+    await saveFile('a/b\\c:"<d>|?*\u202e.png', () => Promise.resolve());
+    expect(showSaveFilePicker).toHaveBeenCalledWith({ suggestedName: "a_b_c___d_____u{202e}.png" });
+  });
+
   it("is false where no place is chosen", async () => {
     const showSaveFilePicker = () => Promise.reject(new DOMException("", "AbortError"));
     vi.stubGlobal("window", { showSaveFilePicker });

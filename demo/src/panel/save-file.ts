@@ -1,3 +1,4 @@
+import { printable } from "@groma/georef/printable";
 import { type ByteSink, MemorySink } from "@groma/layer/export";
 import { i18n } from "../language/i18n.js";
 import { PageError } from "./page-error.js";
@@ -33,15 +34,16 @@ class StreamSink implements ByteSink {
  */
 export async function saveFile(name: string, fill: (sink: ByteSink) => Promise<unknown>): Promise<boolean> {
   const { showSaveFilePicker } = window as SavePicker;
+  const offered = fileName(name);
   if (!showSaveFilePicker) {
     const sink = new MemorySink();
     await fill(sink);
-    download(name, sink.blob());
+    download(offered, sink.blob());
     return true;
   }
   let handle: FileSystemFileHandle;
   try {
-    handle = await showSaveFilePicker.call(window, { suggestedName: name });
+    handle = await showSaveFilePicker.call(window, { suggestedName: offered });
   } catch (thrown) {
     if (thrown instanceof Error && thrown.name === "AbortError") return false;
     throw thrown;
@@ -59,6 +61,11 @@ export async function saveFile(name: string, fill: (sink: ByteSink) => Promise<u
     throw unsaved(name, thrown);
   }
   return true;
+}
+
+/** A name as file systems take it: what comes from the name of a cloud may have signs that browsers refuse. */
+function fileName(name: string): string {
+  return printable(name).replace(/[\\/:*?"<>|]/g, "_");
 }
 
 /** What the browser says of a file that it cannot write, in words; anything else as it is. */
