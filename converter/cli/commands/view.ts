@@ -21,6 +21,22 @@ import { createProgress, defaultProgress } from "../terminal/progress.js";
 export interface ViewOptions extends ConvertOptions, ServingOptions {}
 
 /**
+ * What the page may do: run scripts and workers of its own, none made of text; read scans and terrains from wherever it is
+ * told to. Cesium and OpenLayers set styles from scripts.
+ */
+const PAGE_POLICY = [
+  "default-src 'self'",
+  "script-src 'self' 'wasm-unsafe-eval'",
+  "worker-src 'self'",
+  "style-src 'self' 'unsafe-inline'",
+  "img-src 'self' data: blob:",
+  "connect-src 'self' data: blob: http: https:",
+  "object-src 'none'",
+  "base-uri 'none'",
+  "form-action 'self'",
+].join("; ");
+
+/**
  * The `view` command: converts the file if it is no COPC, serves it with the page, prints the address and goes on
  * serving until the process is stopped.
  *
@@ -45,7 +61,8 @@ export async function runView(file: string, options: ViewOptions): Promise<void>
     const { crs, geoids } = await placed(shown);
     tell(file, shown, crsInWords(crs), heightInWords(crs, geoids));
   }
-  const { address } = await serve([mountFile("/data/", copc), { path: "/", folder: page }], options);
+  const mounts = [mountFile("/data/", copc), { path: "/", folder: page, policy: PAGE_POLICY }];
+  const { address } = await serve(mounts, options);
   print([`globe    ${address}?cloud=${encodeURIComponent(`/data/${basename(copc)}`)}`]);
 }
 

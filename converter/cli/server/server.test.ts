@@ -97,6 +97,22 @@ describe("the server", () => {
     expect([head.status, head.headers["content-length"]]).toEqual([200, "100"]);
   });
 
+  it("has browsers guess no types and tell nobody where readers come from; a policy comes with its mount", async () => {
+    const policy = "script-src 'self'";
+    const { server: strict } = await serve([mountFile("/one/", secret), { path: "/", folder, policy }], {
+      port: 0,
+    });
+    servers.push(strict);
+    for (const path of ["/data.bin", "/none"]) {
+      const { headers } = await raw(path, { of: strict });
+      expect(headers["x-content-type-options"]).toBe("nosniff");
+      expect(headers["referrer-policy"]).toBe("no-referrer");
+      expect(headers["content-security-policy"]).toBe(policy);
+    }
+    expect((await raw("/one/secret.txt", { of: strict })).headers["content-security-policy"]).toBeUndefined();
+    expect((await raw("/data.bin")).headers["content-security-policy"]).toBeUndefined();
+  });
+
   it("answers several ranges with their parts", async () => {
     const { status, headers, body } = await range("bytes=0-1, 50-52,-1");
     expect(status).toBe(206);
