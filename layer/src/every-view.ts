@@ -1,5 +1,6 @@
 // What the entry of each view exports, besides its own layer.
 export type { Vector } from "@groma/georef";
+export type { CameraView } from "./camera/index.js";
 export type { DrawingOptions, PickOptions } from "./drawing/drawing-options.js";
 export type { GpuCounts, GpuKind } from "./drawing/gpu.js";
 export {
@@ -27,7 +28,6 @@ export {
 } from "./effects/index.js";
 export * from "./index.js";
 export {
-  type CameraView,
   layerView,
   readPermalink,
   type SharedView,

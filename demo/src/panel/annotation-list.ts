@@ -1,4 +1,4 @@
-import type { Measurement, MeasureTool, Note, NoteCamera } from "@groma/layer/tools";
+import type { CameraView, Measurement, MeasureTool, Note } from "@groma/layer/tools";
 import { i18n } from "../language/i18n.js";
 import { byId, setText, textElement } from "./elements.js";
 import { iconButton } from "./icons.js";
@@ -17,7 +17,7 @@ interface Entry {
 export class AnnotationList {
   readonly #tool: MeasureTool;
   readonly #fly: (annotation: Measurement) => void;
-  readonly #camera: () => NoteCamera;
+  readonly #camera: () => CameraView;
   readonly #place = byId("annotations", HTMLDetailsElement);
   readonly #list = byId("annotation-list", HTMLOListElement);
   readonly #add = byId("annotate", HTMLButtonElement);
@@ -29,7 +29,7 @@ export class AnnotationList {
    * @param fly takes the views to an annotation
    * @param camera where the globe's camera stands
    */
-  constructor(tool: MeasureTool, fly: (annotation: Measurement) => void, camera: () => NoteCamera) {
+  constructor(tool: MeasureTool, fly: (annotation: Measurement) => void, camera: () => CameraView) {
     [this.#tool, this.#fly, this.#camera] = [tool, fly, camera];
     this.#add.addEventListener("click", () => void this.#write());
   }
@@ -140,6 +140,7 @@ export class AnnotationList {
 
 function field(label: string, input: HTMLElement): HTMLLabelElement {
   const element = document.createElement("label");
+  element.className = "stacked";
   element.append(textElement("span", label), input);
   return element;
 }

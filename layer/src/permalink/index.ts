@@ -1,5 +1,4 @@
 export {
-  type CameraView,
   layerView,
   readPermalink,
   type SharedView,

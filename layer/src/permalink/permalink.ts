@@ -1,21 +1,8 @@
+import { CAMERA_VIEW, type CameraView } from "../camera/index.js";
 import { type Clip, checkClip } from "../clips/index.js";
 import { defaultStyle, type PointCloudStyle, type PointFilter, type StyleParts } from "../effects/index.js";
 import { LinkError } from "../errors/index.js";
 import { asText, fromText } from "./json-text.js";
-
-/** From where a globe is looked at. Angles are radians. */
-export interface CameraView {
-  /** Of WGS 84. */
-  readonly longitude: number;
-  readonly latitude: number;
-  /** Above the ellipsoid, metres. */
-  readonly height: number;
-  /** Clockwise from north. */
-  readonly heading: number;
-  /** Above the horizon. */
-  readonly pitch: number;
-  readonly roll: number;
-}
 
 /** What a link keeps of a view; all of it may be left out. */
 export interface SharedView {
@@ -36,7 +23,6 @@ const BETWEEN = "~";
 const LONGEST = 100_000;
 
 const DEGREE = Math.PI / 180;
-const CAMERA = ["longitude", "latitude", "height", "heading", "pitch", "roll"] as const;
 /** Decimals of a camera's numbers, degrees and metres: a centimetre and a hundredth of a degree. */
 const DECIMALS = [7, 7, 2, 2, 2, 2] as const;
 
@@ -154,7 +140,7 @@ function read(name: keyof SharedView, text: string): SharedView[keyof SharedView
 }
 
 function cameraText(camera: CameraView): string {
-  return CAMERA.map((name, at) => {
+  return CAMERA_VIEW.map((name, at) => {
     const number = name === "height" ? camera[name] : camera[name] / DEGREE;
     return String(Number(number.toFixed(DECIMALS[at])));
   }).join("_");
@@ -162,8 +148,8 @@ function cameraText(camera: CameraView): string {
 
 function cameraOf(text: string): CameraView {
   const numbers = text.split("_").map((part) => (part === "" ? Number.NaN : Number(part)));
-  if (numbers.length !== CAMERA.length || !numbers.every(Number.isFinite) || Math.abs(numbers[1]) > 90) {
-    throw broken("camera", `it is not the six numbers ${CAMERA.join(", ")}`);
+  if (numbers.length !== CAMERA_VIEW.length || !numbers.every(Number.isFinite) || Math.abs(numbers[1]) > 90) {
+    throw broken("camera", `it is not the six numbers ${CAMERA_VIEW.join(", ")}`);
   }
   const [longitude, latitude, height, heading, pitch, roll] = numbers;
   return {

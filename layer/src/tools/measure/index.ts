@@ -1,3 +1,4 @@
+export type { CameraView } from "../../camera/index.js";
 export { type Angle, measureAngle } from "./figures/angle.js";
 export { type Area, measureArea } from "./figures/area.js";
 export { type Circle, measureCircle } from "./figures/circle.js";
@@ -21,7 +22,7 @@ export {
   valuesOf,
   wordsOf,
 } from "./measurement/measurement.js";
-export type { Note, NoteCamera } from "./measurement/note.js";
+export type { Note } from "./measurement/note.js";
 export { type ReadValuesOptions, readsPoints, readValues } from "./measurement/read-values.js";
 export { type Reading, type ReadingOptions, Readings } from "./measurement/reading.js";
 export type { VolumeBaseSetting, VolumeSettings } from "./measurement/volume-settings.js";
