@@ -62,9 +62,10 @@ module.exports = {
     onlyTo("demo-language", "demo/src/language", []),
     onlyTo("demo-scene", "demo/src/scene", ["demo/src/language", "layer", "georef"]),
     onlyTo("demo-profile", "demo/src/profile", ["demo/src/language", "demo/src/panel", "layer", "georef"]),
-    onlyTo("demo-clouds", "demo/src/clouds", ["layer", "georef"]),
+    onlyTo("demo-indexing", "demo/src/indexing", ["georef"]),
+    onlyTo("demo-clouds", "demo/src/clouds", ["demo/src/indexing", "layer", "georef"]),
     onlyTo("demo-panel", "demo/src/panel", [
-      ...["demo/src/language", "demo/src/clouds", "demo/src/scene"],
+      ...["demo/src/language", "demo/src/clouds", "demo/src/indexing", "demo/src/scene"],
       ...["layer", "georef"],
     ]),
     onlyTo("cli-knows-view-independent-rooms", "converter/cli", [

@@ -7,4 +7,5 @@ export interface Notice {
 }
 export function npmNotices(root: string, from: { workspaces?: string[]; packages?: string[] }): Notice[];
 export function noticesText(what: string, notices: readonly Notice[]): string;
+export function pageCargoNotices(root: string): Notice[];
 export function cargoNotices(root: string, of?: { crate?: string; platform?: string }): Notice[];

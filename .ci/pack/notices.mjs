@@ -107,6 +107,20 @@ export function cargoNotices(root, { crate = "converter", platform } = {}) {
 }
 
 /**
+ * Every crate in the WebAssembly of the page: LAZ, and the core that indexes scans.
+ *
+ * @param {string} root the project's folder
+ * @returns {Notice[]} in order of names, each once
+ */
+export function pageCargoNotices(root) {
+  const all = [
+    ...cargoNotices(root, { crate: "converter/wasm", platform: "wasm32-unknown-unknown" }),
+    ...cargoNotices(root, { crate: "converter", platform: "wasm32-wasip1" }),
+  ];
+  return inOrder([...new Map(all.map((notice) => [notice.purl, notice])).values()]);
+}
+
+/**
  * What is linked into the PROJ of `converter/scripts/build-proj`.
  *
  * @param {string} folder that it was built into

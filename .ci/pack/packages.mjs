@@ -13,7 +13,7 @@ import {
 } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join, relative } from "node:path";
-import { cargoNotices, noticesText, npmNotices, projNotices } from "./notices.mjs";
+import { cargoNotices, noticesText, npmNotices, pageCargoNotices, projNotices } from "./notices.mjs";
 
 /** Files of a built folder that no source of the same name is behind. */
 const MADE = {
@@ -110,7 +110,7 @@ function command(root, stage) {
   description.optionalDependencies = Object.fromEntries(cores);
   const notices = [
     ...npmNotices(root, { workspaces: ["converter", "demo"], packages: CARRIED }),
-    ...inLaz(root),
+    ...pageCargoNotices(root),
   ];
   return complete(root, folder, description, readFileSync(join(from, "README.md"), "utf8"), notices);
 }

@@ -1,13 +1,7 @@
 import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
 import { CrsError } from "@groma/georef";
-import {
-  type PointCloud,
-  type PointCloudLayer,
-  type ServerWait,
-  SharedBudget,
-  type SharedView,
-} from "@groma/layer/cesium";
+import { type PointCloud, type PointCloudLayer, SharedBudget, type SharedView } from "@groma/layer/cesium";
 import { PointNavigation } from "@groma/layer/navigation";
 import { Cartesian3, type Viewer } from "cesium";
 import { cloudAddress, type NamedCloud, nameClouds, type PageOptions, readPageOptions } from "./address.js";
@@ -31,6 +25,7 @@ import { Heights } from "./panel/heights.js";
 import { connectLanguage } from "./panel/language-choice.js";
 import { Ledger } from "./panel/ledger.js";
 import { connectLook } from "./panel/look.js";
+import { madeOctree } from "./panel/made-octree.js";
 import { Measuring } from "./panel/measuring.js";
 import { Message } from "./panel/message.js";
 import { Moving } from "./panel/moving.js";
@@ -271,7 +266,10 @@ function start(viewer: Viewer): void {
     const name = typeof from === "string" ? from : from.name;
     progress.opening(name);
     try {
-      const opened = await clouds.open(from, how, (wait?: ServerWait) => progress.openingWaits(name, wait));
+      const opened = await clouds.open(from, how, {
+        waits: (wait) => progress.openingWaits(name, wait),
+        indexing: (done) => progress.indexing(name, done),
+      });
       if (opened) {
         tellFailures(opened.layer, message);
         if (wanted !== "stay") await goTo(opened, wanted);
@@ -320,9 +318,10 @@ function start(viewer: Viewer): void {
     profile.comparison.offer(clouds.layers.filter((layer) => layer !== told).map(({ cloud }) => cloud));
   }
 
-  function attach({ layer, how, crs }: OpenCloud): void {
+  function attach({ layer, how, crs, indexed }: OpenCloud): void {
     byId("of-cloud", HTMLDivElement).hidden = false;
-    showFacts(layer, { given: crs !== undefined });
+    const octree = indexed && madeOctree(indexed, (thrown) => message.show(thrown));
+    showFacts(layer, { given: crs !== undefined, octree });
     heights.attach(layer.cloud, how.vertical);
     controls.attach(layer);
     box.attach(layer);

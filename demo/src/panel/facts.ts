@@ -17,11 +17,16 @@ import {
   warningsOf,
 } from "./words.js";
 
-/**
- * Writes what a cloud is, where it is and what that is worth.
- * @param given whether the reader gave its coordinate system
- */
-export function showFacts({ cloud, nodeLoaded }: PointCloudLayer, { given }: { given: boolean }): void {
+/** What the page itself did for a cloud. */
+export interface Own {
+  /** Whether the reader gave its coordinate system. */
+  readonly given: boolean;
+  /** Tells of the octree that was made here, where it was. */
+  readonly octree: HTMLElement | undefined;
+}
+
+/** Writes what a cloud is, where it is and what that is worth. */
+export function showFacts({ cloud, nodeLoaded }: PointCloudLayer, { given, octree }: Own): void {
   const { name, pointCount, crs, geoids, operation, accuracy } = cloud;
   setText(byId("title", HTMLHeadingElement), name);
   document.title = `${printable(name)} · Groma`;
@@ -37,7 +42,7 @@ export function showFacts({ cloud, nodeLoaded }: PointCloudLayer, { given }: { g
   });
   const facts = byId("facts", HTMLDListElement);
   facts.replaceChildren(
-    ...fact(i18n.t("Points"), { text: countWords(pointCount) }, doubts),
+    ...fact(i18n.t("Points"), { text: countWords(pointCount) }, doubts, ...(octree ? [octree] : [])),
     ...named(i18n.t("Coordinate system"), crsWords(crs, { given })),
     ...fact(i18n.t("Height"), heightWords(crs, { geoids, remark })),
     ...fact(

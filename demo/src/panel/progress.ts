@@ -1,4 +1,5 @@
 import type { PointCloudLayer, ServerWait, StreamProgress } from "@groma/layer/cesium";
+import type { IndexProgress } from "../indexing/index-file.js";
 import { i18n } from "../language/i18n.js";
 import { byId, setText } from "./elements.js";
 import { againWords, outageWords } from "./wait-words.js";
@@ -49,6 +50,20 @@ export class Progress {
     count();
     const timer = setInterval(count, INTERVAL);
     this.#unfollow = () => clearInterval(timer);
+  }
+
+  /** A cloud that has no octree is given one. */
+  indexing(name: string, { stage, done, total }: IndexProgress): void {
+    this.rest();
+    this.#place.hidden = false;
+    setText(this.#stage, indexingWords(name, stage));
+    this.#bar.max = Math.max(total, 1);
+    this.#bar.value = done;
+    this.#bar.hidden = false;
+    setText(
+      this.#count,
+      i18n.t("{done} of {total, plural, one {# point} other {# points}}", { done: countWords(done), total }),
+    );
   }
 
   /** Shows what a layer loads, until another call. */
@@ -108,6 +123,12 @@ export class Progress {
     const again = waits && waiting ? `${againWords(waiting, Date.now())} · ` : "";
     setText(this.#count, `${again}${nodes} · ${points}`);
   }
+}
+
+function indexingWords(name: string, stage: IndexProgress["stage"]): string {
+  if (stage === "read") return i18n.t("Indexing {name}, 1 of 3: reading the points…", { name });
+  if (stage === "build") return i18n.t("Indexing {name}, 2 of 3: building the octree…", { name });
+  return i18n.t("Indexing {name}, 3 of 3: writing it…", { name });
 }
 
 function progressOf({

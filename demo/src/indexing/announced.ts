@@ -1,0 +1,32 @@
+import { IndexError } from "./index-error.js";
+
+/** Most points of a scan that the page indexes. */
+const MOST_POINTS = 10_000_000;
+
+/** Most bytes that its records may have in all, uncompressed: they are in memory while they get their nodes. */
+const MOST_BYTES = 1 << 30;
+
+/** Length of the header of LAS 1.4 (R15, 2.4), bytes. */
+const HEADER = 375;
+
+/**
+ * Refuses a scan that is too large for the page, by what its header announces. Nothing else of it is read.
+ * @throws IndexError INDEX_POINTS
+ */
+export async function checkAnnounced(scan: File): Promise<void> {
+  const header = new DataView(await scan.slice(0, HEADER).arrayBuffer());
+  const text = (at: number, bytes: number) => header.byteLength >= at + bytes;
+  // What is too short for a header is the core's to refuse.
+  if (!text(107, 4)) return;
+  const recordLength = header.getUint16(105, true);
+  const legacy = BigInt(header.getUint32(107, true));
+  const isLong = header.getUint8(24) === 1 && header.getUint8(25) >= 4 && text(247, 8);
+  const points = (isLong && header.getBigUint64(247, true)) || legacy;
+  if (points <= MOST_POINTS && points * BigInt(recordLength) <= MOST_BYTES) return;
+  throw new IndexError({
+    code: "INDEX_POINTS",
+    file: scan.name,
+    cause: `it has no octree, and ${points} points of ${recordLength} bytes; the page itself indexes up to ${MOST_POINTS} points and ${MOST_BYTES} bytes`,
+    fix: "Convert it: groma convert IN OUT.copc.laz",
+  });
+}
