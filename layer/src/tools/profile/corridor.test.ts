@@ -77,6 +77,39 @@ describe("a corridor along a line", () => {
     expect(differing).toBeGreaterThan(0);
   });
 
+  it.each([1, 30, 90, 150, 179])("has one side at the outer side of a corner of %d°", (angle) => {
+    const turn = Math.PI - (angle * Math.PI) / 180;
+    for (const side of [1, -1]) {
+      const end: Vertex = [100 * Math.cos(turn), side * 100 * Math.sin(turn)];
+      const corridor = new Corridor([[-100, 0], [0, 0], end], 40);
+      // From the end of the first segment's strip to the beginning of the second one's, and the way straight on between.
+      for (const share of [0.01, 0.25, 0.5, 0.75, 0.99]) {
+        const heading = -side * (Math.PI / 2 - share * turn);
+        const found = located(corridor, 15 * Math.cos(heading), 15 * Math.sin(heading));
+        expect(found.chainage).toBeCloseTo(100, 9);
+        expect(found.offset).toBeCloseTo(-15 * side, 9);
+      }
+      if (turn >= Math.PI / 2) expect(located(corridor, 15, 0).offset).toBe(-15 * side);
+    }
+  });
+
+  it("keeps the side of points beside a segment that begins or ends at a corner", () => {
+    // The middle segment is so short that points on its inner side are nearest to its neighbours.
+    const corridor = new Corridor(
+      [
+        [0, 0],
+        [10, 0],
+        [10, 0.001],
+        [10, 10],
+      ],
+      8,
+    );
+    expect(located(corridor, 8, 0.001).offset).toBe(0.001);
+    expect(located(corridor, 8, 3).offset).toBeCloseTo(2, 12);
+    expect(located(corridor, 13, 0.001).offset).toBe(-3);
+    expect(located(corridor, 10, -3).offset).toBe(-3);
+  });
+
   it("gives a point at a corner of 1° or 179° to one segment, the nearest", () => {
     for (const degrees of [1, 179]) {
       const turn = (degrees * Math.PI) / 180;

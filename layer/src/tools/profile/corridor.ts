@@ -33,8 +33,9 @@ export interface LinePlace {
  * one.
  *
  * Each point belongs to the part of the line that is nearest to it, the earlier one where two are as near: so no point is
- * taken twice or lost, whatever the angles are and wherever the line crosses itself. Whether a point lies in the strip is
- * decided without any rounding, on the float64 coordinates of the point and of the line.
+ * taken twice or lost, whatever the angles are and wherever the line crosses itself. What is nearest to a corner alone lies to the
+ * right of a turn to the left. Whether a point lies in the strip is decided without any rounding, on the float64 coordinates of
+ * the point and of the line.
  */
 export class Corridor implements QueryVolume {
   /** x and y of the line's vertices, source units, as they were given. */
@@ -136,9 +137,24 @@ export class Corridor implements QueryVolume {
       [found, nearest] = [segment, distance];
       const length = this.#stations[segment + 1] - this.#stations[segment];
       out[0] = this.#stations[segment] + foot * length;
-      out[1] = ux * vy - uy * vx < 0 ? -distance : distance;
+      const across = this.#turnPast(segment, share) || ux * vy - uy * vx;
+      out[1] = across < 0 ? -distance : distance;
     }
     return found;
+  }
+
+  /**
+   * On which side a point lies that is nearest to a joint, and beside neither of its segments: the outer one, however sharply the
+   * line turns there.
+   * @param share foot of the point on the segment
+   * @returns above 0 on the left; 0 for points beside the segment, and where the line turns back
+   */
+  #turnPast(segment: number, share: number): number {
+    const slack = this.#slack(segment);
+    if (share >= -slack && share <= 1 + slack) return 0;
+    const from = 4 * (share < 0 ? segment - 1 : segment);
+    const [ax, ay, bx, by, , , cx, cy] = this.#strip.segments.subarray(from, from + 8);
+    return (by - ay) * (cx - bx) - (bx - ax) * (cy - by);
   }
 
   /**
