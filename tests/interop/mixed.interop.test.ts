@@ -59,8 +59,60 @@ describe.skipIf(REFUSED)(
       const found = compared("merged.csv", "degrees.csv");
       expect(found).toMatchObject({ names: true, z: 0 });
       expect(Math.max(found.chainage, found.offset)).toBeLessThan(3e-4);
-      const sections = ["--sections", "--interval", "20", "--files", "csv"];
-      expect(cut("sections.zip", ["one", "two", "three"], ...sections)).toMatchObject({ code: 0 });
+    });
+
+    it("has sections whose points lie where those of one merged file do, each in the coordinates of its own file", () => {
+      // Widths at whose edges no coordinate of a tenth of a millimetre lies.
+      const widths = "--left 20.00003 --right 20.00003 --thickness 29.97703".split(" ");
+      const sections = ["--sections", "--interval", "20", ...widths];
+      const rowsOf = (out: string, ...cutting: [readonly string[], ...string[]]) => {
+        const [names, ...options] = cutting;
+        expect(cut(out, names, ...sections, "--files", "csv", ...options)).toMatchObject({ code: 0 });
+        // Files of an archive are stored as they are: sections first, the list of them behind.
+        const tables = readFileSync(at(out), "latin1")
+          .split("section,station,")[0]!
+          .split(/x,y,z,chainage,offset/);
+        return tables.slice(1).map((table) => {
+          const [columns, ...rows] = table.split("\r\n").filter((row) => row.includes(","));
+          const back = columns!.split(",").includes("crs") ? 5 : undefined;
+          const places = rows.map((row) => row.split(","));
+          return {
+            systems: new Set(places.map((row) => back && row[back])),
+            chainages: places.map((row) => Number.parseFloat(row[3]!)).sort((a, b) => a - b),
+            offsets: places.map((row) => Number.parseFloat(row[4]!)).sort((a, b) => a - b),
+          };
+        });
+      };
+      const merged = rowsOf("merged.zip", ["merged"], "--plane", "ellipsoid");
+      const parts = rowsOf("parts.zip", ["one", "two", "three"]);
+      expect(parts.map(({ chainages }) => chainages.length)).toEqual(
+        merged.map(({ chainages }) => chainages.length),
+      );
+      for (const [index, part] of parts.entries()) {
+        for (const axis of ["chainages", "offsets"] as const)
+          for (const [at, value] of part[axis].entries())
+            expect(Math.abs(value - merged[index]![axis][at]!)).toBeLessThan(3e-4);
+      }
+      expect(new Set(parts.flatMap(({ systems }) => [...systems]))).toEqual(
+        new Set(["WGS 84 / UTM zone 32N", "WGS 84 / UTM zone 31N"]),
+      );
+      expect([...merged[0]!.systems]).toEqual([undefined]);
+    });
+
+    it("has its points and its line in one plane in DXF, and refuses what has none in common", () => {
+      expect(cut("parts.dxf", ["one", "two", "three"])).toMatchObject({ code: 0 });
+      const text = readFileSync(at("parts.dxf"), "utf8");
+      const easts = [...text.matchAll(/\n8\nPOINTS\n10\n(.*)\n20\n(.*)\n/g)].map(([, x]) => Number(x));
+      const ends = [...text.matchAll(/VERTEX\n8\nLINE\n10\n(.*)\n20\n/g)].map(([, x]) => Number(x));
+      expect(easts.length).toBeGreaterThan(200);
+      expect(Math.min(...easts)).toBeGreaterThan(Math.min(...ends) - 5);
+      expect(Math.max(...easts)).toBeLessThan(Math.max(...ends) + 5);
+      const clip = (out: string, ...where: string[]) =>
+        groma(["clip", copc("one"), copc("two"), ...where, "--out", at(out)]);
+      expect(clip("slice.dxf", "--heights", "700,800").stderr).toMatch(
+        /EXPORT_MIXED: .*two.copc.laz: .*zone 31N/,
+      );
+      expect(clip("box.csv", "--box", "0,0,1e6,1e7").stderr).toMatch(/OPTION_CRS: --box/);
     });
 
     it("lies within the scale of UTM of the one in the plane of the zone", () => {

@@ -2,7 +2,7 @@ import type { QueryVolume } from "@groma/layer/tools";
 import type { CutRequest } from "../cut/cut.js";
 import { readPolygon } from "../cut/geojson.js";
 import { type NarrowingOptions, narrowing } from "../cut/narrowing.js";
-import { type GivenCrs, inSource } from "../cut/place.js";
+import { type GivenCrs, inSource, requireCommonPlane } from "../cut/place.js";
 import { box, polygon, slice } from "../cut/volumes.js";
 import type { CutOptions } from "../cut/writers.js";
 import type { ProgressKind } from "../given/choices.js";
@@ -27,7 +27,9 @@ export async function runClip(files: readonly string[], options: ClipCommandOpti
   const upright = options.box && box(options.box);
   const sliced = (volume: QueryVolume | undefined) => (heights ? slice(heights, volume) : volume);
   const narrow = await narrowing(options);
-  const select: CutRequest["select"] = async (origin) => {
+  const inSourceCoordinates = upright ? "--box" : polygonCrs === "source" ? file : undefined;
+  const select: CutRequest["select"] = async (origin, all) => {
+    if (inSourceCoordinates !== undefined) await requireCommonPlane(all, inSourceCoordinates);
     if (!rings || file === undefined) return narrow({ origin, volume: sliced(upright) });
     const inPlane = await Promise.all(rings.map((ring) => inSource(ring, polygonCrs, origin, file)));
     const volume = polygon(

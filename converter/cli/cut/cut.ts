@@ -5,7 +5,7 @@ import type { CutFacts, ExportProgress } from "@groma/layer/export";
 import { type OpenedPoints, openPoints } from "../files/points.js";
 import { requirePlace } from "../given/output-place.js";
 import { writeWhole } from "./output-file.js";
-import { factsOf, geodeticOf } from "./place.js";
+import { factsOf, geodeticOf, systemOf } from "./place.js";
 import { type CutOptions, type CutSelection, type ShownOptions, writerOf } from "./writers.js";
 
 /** No point is where points are asked for. Code: SELECTION_EMPTY. */
@@ -68,9 +68,9 @@ export async function cut(
     const all = opened.map(({ points }) => points);
     for (const one of all) {
       const selection = await select(one, all);
-      selections.push(
-        writer.placed?.(options) ? { ...selection, geodetic: await geodeticOf(one) } : selection,
-      );
+      const geodetic = writer.placed?.(options) ? { geodetic: await geodeticOf(one) } : {};
+      const crs = all.length > 1 ? await systemOf(one) : undefined;
+      selections.push({ ...selection, ...geodetic, crs });
     }
     const named = title ?? basename(inputs[0]!);
     const unknown = { text: "units", size: 1 };

@@ -61,15 +61,20 @@ export async function inSource(
   return { positions: sourceLine(space, radians, given), unit: 1 / named.horizontalUnit.size };
 }
 
-/** Metres in a unit of a file's plane; undefined where that is not known, or no length. */
-export async function unitOf({ source }: RecordedPoints): Promise<number | undefined> {
+/** The coordinate system of a file; undefined where it tells none. */
+export async function systemOf({ source }: RecordedPoints): Promise<Crs | undefined> {
   try {
-    const { horizontalUnit } = (await placed(declarationOf(source))).crs;
-    return horizontalUnit.kind === "linear" ? horizontalUnit.size : undefined;
+    return (await placed(declarationOf(source))).crs;
   } catch (error) {
     if (error instanceof GromaError) return undefined;
     throw error;
   }
+}
+
+/** Metres in a unit of a file's plane; undefined where that is not known, or no length. */
+export async function unitOf(origin: RecordedPoints): Promise<number | undefined> {
+  const unit = (await systemOf(origin))?.horizontalUnit;
+  return unit?.kind === "linear" ? unit.size : undefined;
 }
 
 /** What planes files have. */
@@ -88,6 +93,20 @@ export async function planesOf(opened: readonly RecordedPoints[]): Promise<Plane
     angles: systems.some(({ horizontalUnit }) => horizontalUnit.kind === "angular"),
     different: systems.some((system) => !samePlane(systems[0]!, system)),
   };
+}
+
+/**
+ * Refuses places in the files' own coordinates where these are of several systems, as far as the files tell them.
+ * @param given file or option with the places, for errors
+ * @throws OptionError OPTION_CRS
+ */
+export async function requireCommonPlane(opened: readonly RecordedPoints[], given: string): Promise<void> {
+  const systems = (await Promise.all(opened.map(systemOf))).filter((system) => system !== undefined);
+  if (systems.every((system) => samePlane(systems[0]!, system))) return;
+  throw new OptionError({
+    ...{ code: "OPTION_CRS", file: given, cause: "files of several systems have no coordinates in common" },
+    fix: "give a polygon in longitude and latitude, or cut each file by itself",
+  });
 }
 
 /**
@@ -157,13 +176,7 @@ export async function lengthsOnEarth(
 }
 
 /** What documents say of a file's coordinates; where the file does not tell its system, nothing but the title. */
-export async function factsOf({ source }: RecordedPoints, title: string): Promise<CutFacts> {
+export async function factsOf(origin: RecordedPoints, title: string): Promise<CutFacts> {
   const { cutFacts } = await import("@groma/layer/export");
-  try {
-    const { crs } = await placed(declarationOf(source));
-    return cutFacts(title, crs);
-  } catch (error) {
-    if (!(error instanceof GromaError)) throw error;
-    return cutFacts(title, undefined);
-  }
+  return cutFacts(title, await systemOf(origin));
 }

@@ -3,6 +3,7 @@ import { Pace, type PointBatch, recordNumbers } from "../query/index.js";
 import { colourBits, valueReader } from "../workers/index.js";
 import { SLICE } from "./columns.js";
 import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { requireOneHeightUnit } from "./systems.js";
 
 /** A point as it lies along a line. */
 export interface PointAlong {
@@ -38,6 +39,7 @@ type Finish<P> = (record: number, point: P) => void;
  * Goes through the points of selections with a line, in a fixed order.
  * @param take is given the same object each time
  * @returns number of points
+ * @throws FormatError EXPORT_MIXED where heights are in several units
  * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what `take` throws
  */
 export async function eachAlong(
@@ -70,6 +72,7 @@ async function goAlong<P extends PointAlong>(
   finishOf: (batch: PointBatch, selection: PointSelection) => Finish<P> | undefined,
   take: (point: P) => void,
 ): Promise<number> {
+  requireOneHeightUnit(selections);
   const place = new Float64Array(2);
   const pace = new Pace(options.signal);
   return eachBatch(selections, options, async (batch, wanted, selection) => {

@@ -4,7 +4,8 @@ import { everyRecord, Pace, type PointBatch, type PointOrigin, type QueryVolume 
 import { type RecordedNode, readCoordinates, type StoredAttribute } from "../workers/index.js";
 import type { BlockStore } from "./block-store.js";
 import { SLICE } from "./columns.js";
-import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { type AlongLine, type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import { crsOf } from "./systems.js";
 
 /** A volume of several parts, which may overlap. */
 export interface PartedVolume extends QueryVolume {
@@ -70,14 +71,16 @@ class PartRecords {
  * Reads the points of many parts of data sets in one pass, each node once, and keeps their records apart.
  *
  * @param selections data sets with the same parts
+ * @param alongOf the line of a part, asked about the coordinates of one of the data sets
  * @returns of each part a selection per data set, which any export takes; those without points are left out
  * @throws FormatError EXPORT_NO_LAS where points are no LAS records
  * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what the store throws
  */
-export async function collectParts(
-  selections: readonly PartedSelection[],
+export async function collectParts<S extends PartedSelection>(
+  selections: readonly S[],
   store: BlockStore,
   options: ExportOptions = {},
+  alongOf: (selection: S, part: number) => AlongLine | undefined = () => undefined,
 ): Promise<PointSelection[][]> {
   const collected = new Map<PointSelection, Collected>();
   await eachBatch(selections, options, async (batch, wanted, selection) => {
@@ -94,7 +97,17 @@ export async function collectParts(
     selections.flatMap((selection) => {
       const { volume: _volume, ...rest } = selection;
       const origin = collected.get(selection)?.originOf(part, store);
-      return origin ? [{ ...rest, origin, classes: undefined, filter: undefined }] : [];
+      if (!origin) return [];
+      return [
+        {
+          ...rest,
+          crs: crsOf(selection),
+          origin,
+          along: alongOf(selection, part),
+          classes: undefined,
+          filter: undefined,
+        },
+      ];
     }),
   );
 }

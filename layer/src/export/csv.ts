@@ -1,7 +1,14 @@
 import type { ByteSink } from "./byte-sink.js";
 import { attributeColumns, CoordinateText, SLICE, type TextColumn } from "./columns.js";
 import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from "./selection.js";
+import { areInOneSystem, crsOf } from "./systems.js";
 import { TextSink } from "./text-sink.js";
+
+/** How CSV is written. */
+export interface CsvOptions extends ExportOptions {
+  /** Whether a column `crs` names the system of each point's coordinates. Default: where there are several. */
+  readonly systems?: boolean | undefined;
+}
 
 /** Digits of chainage and offset: a hundredth of a millimetre in metres. */
 const ALONG_DIGITS = 5;
@@ -9,7 +16,8 @@ const ALONG_DIGITS = 5;
 /**
  * Writes points as CSV (RFC 4180, UTF-8, lines end in CR LF): x, y and z with every digit of the record, chainage and
  * offset where the selection has a line, then all attributes in full, by their names. An attribute that is called as one of those gets a number (`chainage 2`). Of several data sets the columns
- * are those of the first with points; what another does not have stays empty. Where points were left out, the last column
+ * are those of the first with points; what another does not have stays empty. Where their
+ * coordinates are of several systems, a column `crs` behind those names the system of each point. Where points were left out, the last column
  * says at which spacing.
  *
  * @returns number of points
@@ -18,16 +26,19 @@ const ALONG_DIGITS = 5;
 export async function exportCsv(
   selections: readonly PointSelection[],
   sink: ByteSink,
-  options: ExportOptions = {},
+  options: CsvOptions = {},
 ): Promise<number> {
+  const { systems = !areInOneSystem(selections) } = options;
   const text = new TextSink(sink);
   const withLine = selections.some(({ along }) => along !== undefined);
   const spacing = spacingOf(selections);
-  const front = ["x", "y", "z", ...(withLine ? ["chainage", "offset"] : [])];
+  const front = ["x", "y", "z", ...(withLine ? ["chainage", "offset"] : []), ...(systems ? ["crs"] : [])];
   const back = spacing > 0 ? ["spacing"] : [];
   const place = new Float64Array(2);
   let names: readonly string[] | undefined;
-  const count = await eachBatch(selections, options, async (batch, wanted, { origin, along }) => {
+  const count = await eachBatch(selections, options, async (batch, wanted, selection) => {
+    const { origin, along } = selection;
+    const system = systems ? `,${quoted(crsOf(selection)?.name ?? "")}` : "";
     const found = attributeColumns(batch, [...front, ...back]);
     if (!names) {
       names = found.map(({ name }) => name);
@@ -45,7 +56,7 @@ export async function exportCsv(
         along?.locate(px, py, place, pz);
         row += `,${alongText(place[0])},${alongText(place[1])}`;
       }
-      text.add(`${row}${valuesText(columns, batch, point)}${spacing > 0 ? `,${spacing}` : ""}\r\n`);
+      text.add(`${row}${system}${valuesText(columns, batch, point)}${spacing > 0 ? `,${spacing}` : ""}\r\n`);
       if (index % SLICE === 0) await text.rest();
     }
   });

@@ -8,6 +8,7 @@ import {
   type PointSelection,
   spacingOf,
 } from "./selection.js";
+import { requireOneHeightUnit, requireOnePlane } from "./systems.js";
 import { TextSink } from "./text-sink.js";
 
 /** How DXF is written. */
@@ -33,9 +34,10 @@ const DIGITS = 5;
 /**
  * Writes points as DXF, the ASCII form of AutoCAD R12 (AC1009), which every program reads: a POINT for each, in real
  * size and with every digit of the record, on a layer of their own; the line as a 3D POLYLINE; chainages, or the grid around
- * straightened points, as LINEs and TEXT.
+ * straightened points, as LINEs and TEXT. Points along a line in another plane than theirs stand in the plane of the line.
  *
  * @returns number of points
+ * @throws FormatError EXPORT_MIXED where coordinates are of several systems, and no line brings them into one plane
  * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what the sink throws
  */
 export async function exportDxf(
@@ -44,6 +46,8 @@ export async function exportDxf(
   options: DxfOptions = {},
 ): Promise<number> {
   const { layout = "space" } = options;
+  requireOneHeightUnit(selections);
+  if (layout === "space") requireOnePlane(selections.filter(({ along }) => !along?.toPlane));
   const text = new TextSink(sink);
   const spacing = spacingOf(selections);
   if (spacing > 0) text.add(groups([999, `thinned: one point in about ${spacing}`]));
@@ -55,15 +59,20 @@ export async function exportDxf(
   const count = await eachBatch(selections, options, async (batch, wanted, { origin, along }) => {
     const coordinates = new CoordinateText(origin);
     const { xyz } = batch.records;
+    const valuesOf = (at: number) => [0, 1, 2].map((axis) => coordinates.value(xyz[at + axis], axis));
     for (const [index, point] of wanted.entries()) {
       const at = 3 * point;
       const [x, y, z] = [0, 1, 2].map((axis) => coordinates.of(xyz[at + axis], axis));
       if (layout === "straightened" && along) {
-        const [px, py, pz] = [0, 1, 2].map((axis) => coordinates.value(xyz[at + axis], axis));
+        const [px, py, pz] = valuesOf(at);
         along.locate(px, py, place, pz);
         low = Math.min(low, pz);
         high = Math.max(high, pz);
         text.add(pointText(place[0].toFixed(DIGITS), z, place[1].toFixed(DIGITS)));
+      } else if (along?.toPlane) {
+        const [px, py, pz] = valuesOf(at);
+        along.toPlane(px, py, pz, place);
+        text.add(pointText(place[0].toFixed(DIGITS), place[1].toFixed(DIGITS), z));
       } else {
         text.add(pointText(x, y, z));
       }

@@ -1,3 +1,4 @@
+import type { Crs } from "@groma/georef";
 import { type Clip, ClipSet, type SourceSpace } from "../clips/index.js";
 import { checkFilter, type PointFilter, type StyledAttribute } from "../effects/index.js";
 import { Pace, type PointOrigin, type QueryVolume } from "../query/index.js";
@@ -14,10 +15,11 @@ export interface Narrowing {
   readonly filter?: PointFilter | undefined;
 }
 
-/** What is known of points besides their records: where they lie, which clips of the globe ask for, and their attributes. */
+/** What is known of points besides their records: where they lie, which clips of the globe ask for, their attributes and system. */
 export interface KnownPoints {
   readonly space?: SourceSpace | undefined;
   readonly attributes?: readonly StyledAttribute[] | undefined;
+  readonly crs?: Crs | undefined;
 }
 
 /** What an origin itself tells; a `PointCloud` tells all of it. */
@@ -25,7 +27,8 @@ export function knownOf(origin: PointOrigin): KnownPoints {
   const space =
     "place" in origin && "boundingBox" in origin ? (origin as PointOrigin & SourceSpace) : undefined;
   const attributes = "attributes" in origin ? (origin as KnownPoints).attributes : undefined;
-  return { space, attributes };
+  const crs = "crs" in origin ? (origin as KnownPoints).crs : undefined;
+  return { space, attributes, crs };
 }
 
 /**

@@ -14,6 +14,7 @@ import { pdfOf } from "./picture/pdf.js";
 import type { Sheet } from "./picture/sheet.js";
 import { svgOf } from "./picture/svg.js";
 import type { AlongLine, PointSelection } from "./selection.js";
+import { areInOneSystem } from "./systems.js";
 import { TextSink } from "./text-sink.js";
 
 /** A cross-section, as `CrossSections` of `@groma/layer/tools` has it. */
@@ -61,6 +62,8 @@ interface ReadSection {
   readonly name: string;
   readonly place: SectionPlace;
   readonly selections: readonly PointSelection[];
+  /** Whether points of several systems are cut, be it in other sections. */
+  readonly mixed: boolean;
 }
 
 /**
@@ -158,12 +161,18 @@ async function readSections(
   selections: readonly SectionSelection[],
   { store = new BlobStore(), signal, onProgress }: SectionOptions,
 ): Promise<ReadSection[]> {
-  const parts = await collectParts(selections, store, { signal, onProgress });
+  // Data sets of several systems have each section in their own coordinates.
+  const parts = await collectParts(
+    selections,
+    store,
+    { signal, onProgress },
+    ({ volume }, part) => volume.sections[part].strip,
+  );
   const { sections } = selections[0].volume;
+  const mixed = !areInOneSystem(selections);
   return sections.map((place, index) => {
-    const along = place.strip;
     const number = String(index + 1).padStart(String(sections.length).length, "0");
-    return { name: number, place, selections: parts[index].map((one) => ({ ...one, along })) };
+    return { name: number, place, selections: parts[index], mixed };
   });
 }
 
@@ -224,7 +233,7 @@ async function fileOf(
       return compress(await inMemory((sink) => exportLas(selections, sink, { signal })));
     }
     case "csv":
-      return inMemory((sink) => exportCsv(selections, sink, { signal }));
+      return inMemory((sink) => exportCsv(selections, sink, { signal, systems: section.mixed }));
     case "geojson":
       return inMemory((sink) => exportGeoJson(selections, sink, { signal }));
     case "dxf":

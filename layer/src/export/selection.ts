@@ -1,9 +1,10 @@
+import type { Crs } from "@groma/georef";
 import type { PointBatch, QueryVolume, RecordQuery } from "../query/index.js";
 import { passing, type WantedPoints } from "./passing.js";
 
 /** How points lie along a line: what a profile adds to their records. */
 export interface AlongLine {
-  /** x and y of its vertices, source coordinates. */
+  /** x and y of its vertices: source coordinates, or those of the plane that `toPlane` leads to. */
   readonly vertices: readonly (readonly [number, number])[];
   /** Chainage of each. */
   readonly chainages: readonly number[];
@@ -12,6 +13,8 @@ export interface AlongLine {
    * @param z without a part in it where the line lies in the plane of the coordinates
    */
   locate(x: number, y: number, out: Float64Array, z?: number): void;
+  /** Where source coordinates are in the plane of its vertices: x and y, written to `out`. Default: that is their own plane. */
+  toPlane?(x: number, y: number, z: number, out: Float64Array): void;
 }
 
 /** Points that are written to one file. */
@@ -20,6 +23,8 @@ export interface PointSelection extends WantedPoints {
   readonly volume?: QueryVolume | undefined;
   /** Distance between neighbouring points that suffices; as `QueryOptions.spacing`. Default: 0, every point. */
   readonly spacing?: number | undefined;
+  /** The system of its coordinates, which tells several data sets apart. Default: the one that a `PointCloud` has. */
+  readonly crs?: Crs | undefined;
   /** The line along which the points were cut. */
   readonly along?: AlongLine | undefined;
 }

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { PointBatch, PointOrigin } from "../query/index.js";
+import { eachAlong } from "./along.js";
 import { MemorySink } from "./byte-sink.js";
 import { exportCsv } from "./csv.js";
 import { exportDxf } from "./dxf.js";
@@ -86,6 +87,56 @@ describe("CSV", () => {
     const text = await textOf((sink) => exportCsv([selectionOf(1 / 3)], sink));
     const [x, y] = text.split("\r\n")[1].split(",").map(Number);
     expect([x, y]).toEqual([100 * (1 / 3) + 600000, -200 * (1 / 3)]);
+  });
+});
+
+/** A system of the zones of UTM, its heights in a unit of some metres. */
+const zone = (number: number, size = 1) =>
+  ({
+    name: `zone ${number}`,
+    proj4: `+proj=utm +zone=${number} +datum=WGS84`,
+    horizontalUnit: { name: "metre", size: 1, kind: "linear" },
+    verticalUnit: { name: "unit", size, kind: "linear" },
+    height: { kind: "unknown" },
+  }) as unknown as NonNullable<PointSelection["crs"]>;
+
+describe("data sets of several systems", () => {
+  const [west, east] = [31, 32].map((number) => ({ ...selectionOf(), crs: zone(number) }));
+  const feet = { ...selectionOf(), crs: zone(31, 0.3048) };
+  const none = new MemorySink();
+
+  it("have a column with the name of each point's system in CSV", async () => {
+    const sink = new MemorySink();
+    expect(await exportCsv([{ ...west, along }, east, selectionOf()], sink)).toBe(6);
+    const rows = (await sink.blob().text()).split("\r\n").map((row) => row.split(","));
+    expect(rows[0].slice(0, 6)).toEqual(["x", "y", "z", "chainage", "offset", "crs"]);
+    expect(rows.slice(1, 7).map((row) => row[5])).toEqual([
+      "zone 31",
+      "zone 31",
+      "zone 32",
+      "zone 32",
+      "",
+      "",
+    ]);
+    expect(await textOf((to) => exportCsv([east], to))).not.toContain("crs");
+  });
+
+  it("are refused by DXF in space where nothing brings them into one plane", async () => {
+    await expect(exportDxf([west, east], none)).rejects.toMatchObject({ code: "EXPORT_MIXED" });
+    const toPlane = (x: number, y: number, _z: number, out: Float64Array) => out.set([x - 600000, -y]);
+    const brought = [west, east].map((one) => ({ ...one, along: { ...along, toPlane } }));
+    const sink = new MemorySink();
+    expect(await exportDxf(brought, sink)).toBe(4);
+    expect(await sink.blob().text()).toContain("POINT\n8\nPOINTS\n10\n1.50000\n20\n-2.50000\n30\n0.43\n");
+  });
+
+  it("are refused where heights are in several units, but by CSV and GeoJSON", async () => {
+    const mixed = [west, feet].map((one) => ({ ...one, along }));
+    for (const layout of ["space", "straightened"] as const)
+      await expect(exportDxf(mixed, none, { layout })).rejects.toMatchObject({ code: "EXPORT_MIXED" });
+    const point = () => undefined;
+    await expect(eachAlong(mixed, {}, point)).rejects.toMatchObject({ code: "EXPORT_MIXED" });
+    expect(await eachAlong([west, west], {}, point)).toBe(4);
   });
 });
 
