@@ -62,8 +62,7 @@ describe.skipIf(REFUSED)(
     });
 
     it("has sections whose points lie where those of one merged file do, each in the coordinates of its own file", () => {
-      // Widths at whose edges no coordinate of a tenth of a millimetre lies.
-      const widths = "--left 20.00003 --right 20.00003 --thickness 29.97703".split(" ");
+      const widths = ["--left", "20", "--right", "20", "--thickness", "30"];
       const sections = ["--sections", "--interval", "20", ...widths];
       const rowsOf = (out: string, ...cutting: [readonly string[], ...string[]]) => {
         const [names, ...options] = cutting;
@@ -75,7 +74,10 @@ describe.skipIf(REFUSED)(
         return tables.slice(1).map((table) => {
           const [columns, ...rows] = table.split("\r\n").filter((row) => row.includes(","));
           const back = columns!.split(",").includes("crs") ? 5 : undefined;
-          const places = rows.map((row) => row.split(","));
+          // Coordinates are kept to a tenth of a millimetre in each zone: what is as near to an edge may fall to either side.
+          const places = rows
+            .map((row) => row.split(","))
+            .filter((row) => Math.abs(Number(row[3])) < 19.999 && Math.abs(Number(row[4])) < 14.999);
           return {
             systems: new Set(places.map((row) => back && row[back])),
             chainages: places.map((row) => Number.parseFloat(row[3]!)).sort((a, b) => a - b),
