@@ -27,7 +27,7 @@ import { Ledger } from "./panel/ledger.js";
 import { connectLook } from "./panel/look.js";
 import { madeOctree } from "./panel/made-octree.js";
 import { Measuring } from "./panel/measuring.js";
-import { Message } from "./panel/message.js";
+import { Message, type ToldFault } from "./panel/message.js";
 import { Moving } from "./panel/moving.js";
 import { Picked } from "./panel/picked.js";
 import { Progress } from "./panel/progress.js";
@@ -129,7 +129,8 @@ function start(viewer: Viewer): void {
   byId("unpick", HTMLButtonElement).addEventListener("click", () => picking.clear());
   const share = new Share(viewer, {
     ...{ layer: () => clouds.layer, box, picking, beside },
-    hasAddress: () => typeof clouds.chosen?.from === "string",
+    addressed: () => addressed(clouds).map(({ layer }) => layer),
+    writeTo: (page) => nameIn(page, clouds),
   });
   new Screenshot({ viewer, clouds, beside, tool: measuring.tool }, (thrown) => message.show(thrown));
   const heights = new Heights(reopen);
@@ -178,8 +179,29 @@ function start(viewer: Viewer): void {
   async function openNamed([first, ...others]: readonly NamedCloud[]): Promise<void> {
     if (!first) return;
     chooser.fill(new URL(location.href).searchParams.get("cloud") ?? "");
-    await bringBack(first);
-    for (const cloud of others) await open(cloud.address, howNamed(cloud), "stay");
+    const faults: ToldFault[] = [];
+    const tell = (thrown: unknown) => {
+      faults.push({ thrown });
+      message.showAll(faults);
+    };
+    let view: SharedView | undefined;
+    let unread: unknown;
+    try {
+      view = Share.wanted();
+    } catch (thrown) {
+      unread = thrown;
+    }
+    await bringBack(first, view, { faults, tell });
+    // What cannot be brought back is told; the clouds are there all the same.
+    if (unread !== undefined) tell(unread);
+    for (const [at, cloud] of others.entries()) {
+      const opened = await open(cloud.address, howNamed(cloud), "stay", faults);
+      try {
+        if (opened) Object.assign(opened.layer, view?.others?.[at]);
+      } catch (thrown) {
+        tell(thrown);
+      }
+    }
   }
 
   function howNamed({ crs, vertical, georef }: NamedCloud): OpenOptions {
@@ -189,35 +211,31 @@ function start(viewer: Viewer): void {
   }
 
   /** Opens a cloud and shows it as the link to the page asks for. */
-  async function bringBack(named: NamedCloud): Promise<void> {
-    let view: SharedView | undefined;
-    let failure: unknown;
-    try {
-      view = Share.wanted();
-    } catch (thrown) {
-      failure = thrown;
-    }
-    const opened = await open(named.address, howNamed(named), view?.camera ? "stay" : undefined);
+  async function bringBack(
+    named: NamedCloud,
+    view: SharedView | undefined,
+    { faults, tell }: { readonly faults: ToldFault[]; readonly tell: (thrown: unknown) => void },
+  ): Promise<void> {
+    const opened = await open(named.address, howNamed(named), view?.camera ? "stay" : undefined, faults);
     if (!opened) return;
     try {
       if (view) await share.show(view);
     } catch (thrown) {
-      failure = thrown;
+      tell(thrown);
     }
     chooser.fold();
     foldIfNarrow();
     drawing.refresh();
     classes.attach(opened.layer);
-    // What cannot be brought back is told; the cloud is there all the same.
-    if (failure !== undefined) message.show(failure);
   }
 
   /** Opens what the reader chose, one after the other; the camera goes to the first. */
   async function chooseAll(chosen: readonly (string | File)[]): Promise<void> {
     message.clear();
+    const faults: ToldFault[] = [];
     for (const [at, from] of chosen.entries()) {
       const how = { ...lasting(), crsIfMissing: chooser.crs };
-      const opened = await open(from, how, at > 0 ? "stay" : undefined);
+      const opened = await open(from, how, at > 0 ? "stay" : undefined, faults);
       if (opened) rememberClouds(clouds);
     }
   }
@@ -256,12 +274,14 @@ function start(viewer: Viewer): void {
   /**
    * Opens a cloud beside the others.
    * @param wanted how the camera goes there; "stay": it does not, nor is the cloud chosen where another one is
+   * @param faults of clouds that were opened with it, which are told with its own
    * @returns undefined where it cannot be opened, which is told, or was given up
    */
   async function open(
     from: string | File,
     how: OpenOptions,
     wanted: Flight["way"] | "stay" = clouds.layer ? "fly" : "descend",
+    faults: ToldFault[] = [],
   ): Promise<OpenCloud | undefined> {
     const name = typeof from === "string" ? from : from.name;
     progress.opening(name);
@@ -277,7 +297,8 @@ function start(viewer: Viewer): void {
       return opened;
     } catch (thrown) {
       const give = { label: i18n.t("Give it here"), run: () => chooser.askForCrs() };
-      message.show(thrown, thrown instanceof CrsError ? give : undefined);
+      faults.push({ thrown, action: thrown instanceof CrsError ? give : undefined });
+      message.showAll(faults);
       return undefined;
     } finally {
       followProgress();
@@ -342,18 +363,26 @@ function start(viewer: Viewer): void {
 }
 
 /** Keeps the page's address in step with what it shows, so that it can be reloaded and passed on: the chosen cloud first. */
-function rememberClouds({ all, chosen }: Clouds): void {
+function rememberClouds(clouds: Clouds): void {
   const page = new URL(location.href);
-  const order = [...(chosen ? [chosen] : []), ...all.filter((one) => one !== chosen)];
-  // A file of the reader's disk has no address.
-  const named = order.flatMap(({ from, crs, how: { vertical, transformation } }): NamedCloud[] => {
-    const georef = typeof transformation === "string" ? transformation : undefined;
-    return typeof from === "string" ? [{ address: from, crs, vertical, georef }] : [];
-  });
-  nameClouds(page, named);
+  nameIn(page, clouds);
   // A link to a view is one of the cloud that it was made for.
   page.hash = "";
   history.replaceState(null, "", page);
+}
+
+/** The clouds that an address can name, which a file of the reader's disk has none of: the chosen one first. */
+function addressed({ all, chosen }: Clouds): (OpenCloud & { readonly from: string })[] {
+  const order = [...(chosen ? [chosen] : []), ...all.filter((one) => one !== chosen)];
+  return order.flatMap((cloud) => (typeof cloud.from === "string" ? [{ ...cloud, from: cloud.from }] : []));
+}
+
+function nameIn(page: URL, clouds: Clouds): void {
+  const named = addressed(clouds).map(({ from, crs, how: { vertical, transformation } }): NamedCloud => {
+    const georef = typeof transformation === "string" ? transformation : undefined;
+    return { address: from, crs, vertical, georef };
+  });
+  nameClouds(page, named);
 }
 
 try {

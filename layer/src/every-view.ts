@@ -28,6 +28,7 @@ export {
 } from "./effects/index.js";
 export * from "./index.js";
 export {
+  type DrawnCloud,
   layerView,
   readPermalink,
   type SharedView,

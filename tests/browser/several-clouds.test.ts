@@ -124,10 +124,15 @@ it("the page's address names them, and brings them back, the chosen one first", 
   await page.click("#cloud-list li:nth-child(2) .name");
   const named = new URL(page.url()).searchParams.getAll("cloud");
   expect(named).toEqual([elsewhere.url, new URL(server.address).searchParams.get("cloud")]);
+  await page.locator("#copy-link").evaluate((button: HTMLButtonElement) => button.click());
+  await page.locator("#link-note:has-text('link')").waitFor({ state: "attached" });
   await page.reload();
   await page.waitForFunction(() => window.groma?.clouds.layers.length === 2);
   expect(await names()).toEqual(["scan.copc.laz", "first.copc.laz"]);
   expect(await chosen()).toBe("scan.copc.laz");
+  // The link keeps how each of them is drawn.
+  const colours = () => page.evaluate(() => window.groma.clouds.layers.map(({ style }) => style.color));
+  await expect.poll(colours, SLOW).toEqual(["elevation", "intensity"]);
   await expect.poll(async () => (await drawn())[0], SLOW).toBeGreaterThan(1000);
 });
 
@@ -145,6 +150,14 @@ it("one that does not come leaves the others, and can be given up", { timeout: 2
     .poll(() => page.locator("#message .code").allTextContents(), SLOW)
     .toEqual(["SOURCE_NOT_FOUND"]);
   expect(await names()).toEqual(["scan.copc.laz", "first.copc.laz"]);
+
+  // Of several files that cannot be opened each is told.
+  const bad = ["a", "b"].map((name) => ({
+    ...{ name: `${name}.copc.laz`, mimeType: "", buffer: Buffer.from("no scan") },
+  }));
+  await page.setInputFiles("#file", bad);
+  await expect.poll(() => page.locator("#message .code").count(), SLOW).toBe(2);
+  expect(await page.textContent("#message")).toMatch(/a\.copc\.laz.*b\.copc\.laz/);
 
   for (let left = 2; left > 0; left--) await page.click("#cloud-list li:first-child [aria-label^=Remove]");
   expect(await page.isVisible("#of-cloud")).toBe(false);

@@ -11,6 +11,18 @@ describe("remarks of the libraries", () => {
     ["EGM96 height: drawn without its geoid", "EGM96 height: ohne sein Geoid gezeichnet"],
     ["greatest of 12 residuals, their RMS is 0.034 m", "größter von 12 Restfehlern, ihr RMS ist 0,034 m"],
     [
+      "declared as shifted by 0.5 (Vertical_Shift), which is not applied",
+      "als um 0,5 verschoben angegeben (Vertical_Shift), was nicht angewendet wird",
+    ],
+    [
+      "declared as depths below an ellipsoid, which other software takes for heights",
+      "als Tiefen unter einem Ellipsoid angegeben, was andere Programme als Höhen lesen",
+    ],
+    [
+      "declared above the ellipsoid of WGS 84, and taken as above that of ETRS89, as PROJ does",
+      "über dem Ellipsoid von WGS 84 angegeben und wie PROJ als über dem von ETRS89 genommen",
+    ],
+    [
       "shown as ellipsoidal; if the heights are above sea level, such as LN02 height (EPSG:5728), the points should be 47.3 m higher",
       "als ellipsoidisch gezeigt; falls die Höhen über dem Meer gelten, gehören die Punkte 47,3 m höher (etwa LN02 height (EPSG:5728))",
     ],

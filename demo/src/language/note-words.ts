@@ -28,6 +28,25 @@ const PATTERNS: readonly (readonly [RegExp, (...found: string[]) => string])[] =
     (operation) => i18n.t("{operation}; a difference of datums is passed over", { operation }),
   ],
   [
+    /^declared as shifted by (\S+) \(Vertical_Shift\), which is not applied$/,
+    (shift) =>
+      i18n.t("declared as shifted by {shift} (Vertical_Shift), which is not applied", {
+        shift: i18n.number(Number(shift)),
+      }),
+  ],
+  [
+    /^declared as depths below an ellipsoid, which other software takes for heights$/,
+    () => i18n.t("declared as depths below an ellipsoid, which other software takes for heights"),
+  ],
+  [
+    /^declared above the ellipsoid of (.*), and taken as above that of (.*), as PROJ does$/,
+    (other, own) =>
+      i18n.t("declared above the ellipsoid of {other}, and taken as above that of {own}, as PROJ does", {
+        other,
+        own,
+      }),
+  ],
+  [
     /^greatest of (\d+) residuals, their RMS is (\S+) m$/,
     (count, rms) =>
       i18n.t("greatest of {count} residuals, their RMS is {rms} m", { count, rms: i18n.number(Number(rms)) }),

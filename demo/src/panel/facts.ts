@@ -78,9 +78,10 @@ function showDoubts(place: HTMLElement, warnings: readonly SourceWarning[]): voi
   place.replaceChildren(...warnings.map(({ message }) => noteElement(noteWords(message), "warning")));
 }
 
-function fact(term: string, { text, note }: Words, ...more: HTMLElement[]): HTMLElement[] {
+function fact(term: string, { text, note, doubt }: Words, ...more: HTMLElement[]): HTMLElement[] {
   const value = textElement("dd", text);
   if (note) value.append(textElement("small", note));
+  if (doubt) value.append(noteElement(doubt, "warning"));
   value.append(...more);
   return [textElement("dt", term), value];
 }

@@ -14,9 +14,10 @@ import {
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
 import { i18n } from "../language/i18n.js";
+import { noteWords } from "../language/note-words.js";
 import { AnnotationList } from "./annotation-list.js";
 import { Compared } from "./compared.js";
-import { byId, optionElement, setText } from "./elements.js";
+import { byId, optionElement, setText, textElement } from "./elements.js";
 import { MEASURE_WORDS, unitsOf } from "./measure-words.js";
 import { MeasurementList } from "./measurement-list.js";
 
@@ -171,16 +172,17 @@ export class Measuring {
   async #open(file: File): Promise<void> {
     const { measurements, notes } = readMeasurements(await file.text(), this.#clouds, file.name);
     this.tool.add(measurements);
-    setText(
-      this.#notes,
-      [
-        i18n.t("{name}: {count, plural, one {# measurement} other {# measurements}} read", {
-          name: file.name,
-          count: measurements.length,
-        }),
-        ...notes,
-      ].join("; "),
-    );
+    const read = i18n.t("{name}: {count, plural, one {# measurement} other {# measurements}} read", {
+      name: file.name,
+      count: measurements.length,
+    });
+    const remarks = notes.map((note) => {
+      const { text, translated } = noteWords(note);
+      const element = textElement("small", text);
+      if (!translated) element.lang = "en";
+      return element;
+    });
+    this.#notes.replaceChildren(textElement("span", read), ...remarks);
   }
 
   #show(): void {

@@ -21,6 +21,20 @@ describe("the place where faults are told", () => {
     }
   });
 
+  it("tells all faults of several files, and how many more there are of very many", () => {
+    const faults = Array.from({ length: 7 }, (_, at) => ({
+      thrown: new GromaError({ code: "FORMAT_MAGIC", file: `${at}.laz`, cause: "no", fix: "take another" }),
+    }));
+    const message = new Message();
+    message.showAll([...faults.slice(0, 2), { thrown: new DOMException("", "AbortError") }]);
+    expect(place.textContent).toMatch(/0\.laz.*1\.laz/);
+    expect(place.textContent).not.toContain("further");
+    expect(place.querySelectorAll("button").length).toBe(1);
+    message.showAll(faults);
+    expect(place.querySelectorAll(".code").length).toBe(5);
+    expect(place.textContent).toContain("and 2 further faults");
+  });
+
   it("tells nothing of what was given up, and keeps what it told", () => {
     const message = new Message();
     message.show(new Error("broken"));

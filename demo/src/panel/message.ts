@@ -9,31 +9,48 @@ export interface Action {
   readonly run: () => void;
 }
 
-/** The place of the panel where faults are told, one at a time; read out by screen readers. */
+/** A fault, and what the reader can do about it. */
+export interface ToldFault {
+  readonly thrown: unknown;
+  readonly action?: Action | undefined;
+}
+
+/** Faults that are told in full at once. */
+const MOST = 5;
+
+/** The place of the panel where faults are told; read out by screen readers. */
 export class Message {
   readonly #place = byId("message", HTMLDivElement);
 
-  /** Tells a fault: where it is, what it is and what to do about it. What was given up, or closed meanwhile, is none. */
+  /**
+   * Tells a fault in place of those before: where it is, what it is and what to do about it. What was given up, or closed
+   * meanwhile, is none.
+   */
   show(thrown: unknown, action?: Action): void {
-    if (thrown instanceof Error && thrown.name === "AbortError") return;
-    const { code, file, cause, fix } = faultOf(thrown);
+    this.showAll([{ thrown, action }]);
+  }
+
+  /** Tells faults of several files, the first of very many. */
+  showAll(all: readonly ToldFault[]): void {
+    const faults = all.filter(({ thrown }) => !(thrown instanceof Error && thrown.name === "AbortError"));
+    if (faults.length === 0) return;
+    const left = faults.length - MOST;
     const buttons = document.createElement("p");
     buttons.className = "row";
+    // What can be done about it belongs to the first that asks for it.
+    const action = faults.find((fault) => fault.action)?.action;
     if (action) buttons.append(this.#button(action));
     buttons.append(this.#button({ label: i18n.t("Dismiss"), run: () => undefined }));
-    const detail = [
-      isolated(file, ": ", sentence(cause)),
-      textElement("p", sentence(fix.charAt(0).toUpperCase() + fix.slice(1)), "fix"),
-    ];
-    const told = sentenceFor(thrown);
-    // What stays English is read out as English.
-    if (told !== undefined) for (const element of detail) element.lang = "en";
-    const stable = textElement("p", code, "code");
-    stable.translate = false;
     this.#place.replaceChildren(
-      stable,
-      ...(told === undefined ? [] : [textElement("p", told, "told")]),
-      ...detail,
+      ...faults.slice(0, MOST).flatMap(({ thrown }) => partsOf(thrown)),
+      ...(left > 0
+        ? [
+            textElement(
+              "p",
+              i18n.t("and {count, plural, one {# further fault} other {# further faults}}", { count: left }),
+            ),
+          ]
+        : []),
       buttons,
     );
   }
@@ -51,6 +68,21 @@ export class Message {
     });
     return button;
   }
+}
+
+/** Code, sentence, place with cause, and fix of a fault. */
+function partsOf(thrown: unknown): HTMLElement[] {
+  const { code, file, cause, fix } = faultOf(thrown);
+  const detail = [
+    isolated(file, ": ", sentence(cause)),
+    textElement("p", sentence(fix.charAt(0).toUpperCase() + fix.slice(1)), "fix"),
+  ];
+  const told = sentenceFor(thrown);
+  // What stays English is read out as English.
+  if (told !== undefined) for (const element of detail) element.lang = "en";
+  const stable = textElement("p", code, "code");
+  stable.translate = false;
+  return [stable, ...(told === undefined ? [] : [textElement("p", told, "told")]), ...detail];
 }
 
 /** A paragraph whose first and last part cannot change each other's direction of writing. */

@@ -30,7 +30,7 @@ describe("saveFile", () => {
   it.each(["write", "close"] as const)("says that there is no room where %s finds none", async (step) => {
     const given = failing(step, "QuotaExceededError");
     await expect(write()).rejects.toMatchObject({
-      ...{ code: "PAGE_STORAGE", file: "cut.las", fix: "Free space, or take fewer points" },
+      ...{ code: "PAGE_STORAGE", file: "cut.las", fix: "Free space, or save on another disk" },
     });
     expect(given.up).toBe(step === "write");
   });

@@ -77,7 +77,7 @@ function unsaved(name: string, thrown: unknown): unknown {
       code: "PAGE_STORAGE",
       file: name,
       cause,
-      fix: i18n.t("Free space, or take fewer points"),
+      fix: i18n.t("Free space, or save on another disk"),
     });
   }
   if (["NotAllowedError", "NoModificationAllowedError", "InvalidStateError"].includes(thrown.name)) {

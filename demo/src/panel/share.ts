@@ -20,8 +20,10 @@ const NAME = "#view=";
 /** What of the page a link brings back. */
 export interface Shared {
   readonly layer: () => PointCloudLayer | undefined;
-  /** Whether the cloud has an address that a link can name. */
-  readonly hasAddress: () => boolean;
+  /** Clouds that an address can name; the chosen one is the first where it is one of them. */
+  readonly addressed: () => readonly PointCloudLayer[];
+  /** Has an address name them, in their order. */
+  readonly writeTo: (page: URL) => void;
   readonly box: ClipBox;
   readonly picking: Picking;
   /** Has an address ask for what the page shows beside or in place of the globe. */
@@ -71,22 +73,28 @@ export class Share {
   }
 
   async #copy(): Promise<void> {
-    const { layer: shown, hasAddress, picking, beside } = this.#shared;
+    const { layer: shown, addressed, writeTo, picking, beside } = this.#shared;
     const layer = shown();
     if (!layer) return;
     const note = byId("link-note", HTMLParagraphElement);
-    if (!hasAddress()) {
+    const [first, ...further] = addressed();
+    if (first !== layer) {
       setText(note, i18n.t("A file of this computer has no address that a link could name."));
       return;
     }
     const page = new URL(location.href);
+    writeTo(page);
     beside.writeTo(page);
+    const others = further.map((one) => {
+      const { style, filter } = layerView(one);
+      return { style, filter };
+    });
     const camera = cameraView(this.#viewer.camera);
     const { hit } = picking;
     // A link brings back a record of the cloud whose style it has.
     const selected = hit?.layer === layer ? { node: hit.node, index: hit.index } : undefined;
     try {
-      page.hash = `view=${writePermalink({ camera, ...layerView(layer), selected })}`;
+      page.hash = `view=${writePermalink({ camera, ...layerView(layer), others, selected })}`;
     } catch (thrown) {
       setText(note, shortlyOf(thrown));
       return;

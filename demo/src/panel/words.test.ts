@@ -80,11 +80,12 @@ describe("a cloud in words", () => {
 
   it("says above whose ellipsoid, and what is declared and not applied", () => {
     const doubt = "declared as shifted by 25 (Vertical_Shift), which is not applied";
-    expect(heightWords(crs({ kind: "ellipsoidal", ellipsoid: "own", doubt }), { geoids: [] }).note).toBe(
-      `that of the system's own datum; ${doubt}`,
-    );
+    const said = { text: doubt, translated: true };
+    expect(heightWords(crs({ kind: "ellipsoidal", ellipsoid: "own", doubt }), { geoids: [] })).toEqual({
+      ...{ text: "above the ellipsoid", note: "that of the system's own datum", doubt: said },
+    });
     const geoid = crs({ kind: "geoid", model: "NAP height", doubt });
-    expect(heightWords(geoid, { geoids: ["EGM96"] }).note).toContain(doubt);
+    expect(heightWords(geoid, { geoids: ["EGM96"] }).doubt).toEqual(said);
   });
 
   it("names the geoid that is applied, or says that none is", () => {

@@ -8,6 +8,8 @@ import { type Note, noteWords } from "../language/note-words.js";
 export interface Words {
   readonly text: string;
   readonly note?: string;
+  /** A remark of a library, which may not be in the reader's language. */
+  readonly doubt?: Note;
 }
 
 /** A bound is never rounded down. */
@@ -53,7 +55,7 @@ export function heightWords(
     : [i18n.t("unit not declared, taken as {unit}", { unit: libraryWords(verticalUnit.name) })];
   if (height.kind === "ellipsoidal") {
     const own = height.ellipsoid === "own" ? [i18n.t("that of the system's own datum")] : [];
-    return noted(i18n.t("above the ellipsoid"), [...own, ...(height.doubt ? [height.doubt] : []), ...unit]);
+    return { ...noted(i18n.t("above the ellipsoid"), [...own, ...unit]), ...doubted(height) };
   }
   if (height.kind === "unknown") {
     const said = remark?.replace(/^(reference )?unknown[:,] /, "");
@@ -72,12 +74,17 @@ export function heightWords(
     geoids.length > 0
       ? i18n.t("geoid applied: {geoids}", { geoids: geoids.join(", ") }) + worth
       : i18n.t("geoid not applied: drawn as if above the ellipsoid");
-  return noted(
+  const words = noted(
     verticalUnit.size < 0
       ? i18n.t("counted downwards from {model}", { model })
       : i18n.t("above {model}", { model }),
-    [geoid, ...(height.doubt ? [height.doubt] : []), ...unit],
+    [geoid, ...unit],
   );
+  return { ...words, ...doubted(height) };
+}
+
+function doubted({ doubt }: { readonly doubt?: string }): Pick<Words, "doubt"> {
+  return doubt === undefined ? {} : { doubt: noteWords(doubt) };
 }
 
 /** What places come from. */

@@ -1,4 +1,5 @@
 export {
+  type DrawnCloud,
   layerView,
   readPermalink,
   type SharedView,

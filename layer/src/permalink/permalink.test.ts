@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { Clip } from "../clips/index.js";
 import { completeStyle, defaultStyle } from "../effects/index.js";
 import { layerView, readPermalink, type SharedView, writePermalink } from "./index.js";
+import { asText } from "./json-text.js";
 
 const DEGREE = Math.PI / 180;
 const cloud = {
@@ -46,6 +47,24 @@ describe("a permalink", () => {
       }),
     );
   });
+
+  it("keeps how further clouds are drawn, in their order, and reads links without them", () => {
+    const others = [{ style: { color: "intensity" } }, {}, { filter: { classes: [2] } }] as const;
+    const text = writePermalink({ style: { color: "rgb" }, others });
+    expect(encodeURIComponent(text)).toBe(text);
+    expect(readPermalink(text)).toEqual({ style: { color: "rgb" }, others });
+    expect(writePermalink({ others: [{}, {}] })).toBe("1");
+    expect(readPermalink("1").others).toBeUndefined();
+    const many = Array.from({ length: 150 }, () => others[0]);
+    expect(readPermalink(writePermalink({ others: many })).others).toHaveLength(100);
+  });
+
+  it.each([{}, [[{}]], [[{}, 1]], [1], Array.from({ length: 101 }, () => [{}, {}])])(
+    "refuses what is no list of clouds: %j",
+    (value) => {
+      expect(() => readPermalink(`1~o${asText(value)}`)).toThrow("LINK_BROKEN");
+    },
+  );
 
   it("is short, and keeps of a style what was changed", () => {
     const style = completeStyle(

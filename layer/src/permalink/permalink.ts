@@ -4,6 +4,9 @@ import { defaultStyle, type PointCloudStyle, type PointFilter, type StyleParts }
 import { LinkError } from "../errors/index.js";
 import { asText, fromText } from "./json-text.js";
 
+/** How one of several clouds is drawn: as of {@link SharedView}. */
+export type DrawnCloud = Pick<SharedView, "style" | "filter">;
+
 /** What a link keeps of a view; all of it may be left out. */
 export interface SharedView {
   readonly camera?: CameraView | undefined;
@@ -11,6 +14,8 @@ export interface SharedView {
   readonly style?: StyleParts | undefined;
   readonly filter?: PointFilter | undefined;
   readonly clips?: readonly Clip[] | undefined;
+  /** How further clouds are drawn, in the order in which an application names them beside the link; at most 100. */
+  readonly others?: readonly DrawnCloud[] | undefined;
   /** A record that is selected: its node, `depth-x-y-z`, and its index there. */
   readonly selected?: { readonly node: string; readonly index: number } | undefined;
 }
@@ -22,6 +27,9 @@ const BETWEEN = "~";
 /** Longest text that is written or read. */
 const LONGEST = 100_000;
 
+/** Clouds that are written or read besides the one that the view is of. */
+const MOST_OTHERS = 100;
+
 const DEGREE = Math.PI / 180;
 /** Decimals of a camera's numbers, degrees and metres: a centimetre and a hundredth of a degree. */
 const DECIMALS = [7, 7, 2, 2, 2, 2] as const;
@@ -32,6 +40,7 @@ const PARTS: ReadonlyMap<string, keyof SharedView> = new Map([
   ["s", "style"],
   ["f", "filter"],
   ["k", "clips"],
+  ["o", "others"],
   ["p", "selected"],
 ]);
 
@@ -41,7 +50,7 @@ const PARTS: ReadonlyMap<string, keyof SharedView> = new Map([
  *
  * @throws LinkError LINK_LONG for a view that no address can hold: volumes of many thousand corners
  */
-export function writePermalink({ camera, style, filter, clips, selected }: SharedView): string {
+export function writePermalink({ camera, style, filter, clips, others = [], selected }: SharedView): string {
   const given = (of: object | undefined) => of !== undefined && Object.keys(of).length > 0;
   const text = [
     VERSION,
@@ -49,6 +58,11 @@ export function writePermalink({ camera, style, filter, clips, selected }: Share
     ...(given(style) ? [`s${asText(style)}`] : []),
     ...(given(filter) ? [`f${asText(filter)}`] : []),
     ...(given(clips) ? [`k${asText(clips)}`] : []),
+    ...(others.some(({ style: one, filter: two }) => given(one) || given(two))
+      ? [
+          `o${asText(others.slice(0, MOST_OTHERS).map(({ style: one, filter: two }) => [one ?? {}, two ?? {}]))}`,
+        ]
+      : []),
     ...(selected ? [`p${selected.node}_${selected.index}`] : []),
   ].join(BETWEEN);
   if (text.length <= LONGEST) return text;
@@ -135,8 +149,20 @@ function read(name: keyof SharedView, text: string): SharedView[keyof SharedView
     for (const clip of value) checkClip(clip);
     return value;
   }
+  if (name === "others") return othersOf(value);
   if (!isObject(value)) throw broken(name, "it is no object");
   return value;
+}
+
+function othersOf(value: unknown): DrawnCloud[] {
+  if (!Array.isArray(value) || value.length > MOST_OTHERS) throw broken("others", "it is no list of clouds");
+  return value.map((one: unknown) => {
+    if (!Array.isArray(one) || one.length !== 2 || !one.every(isObject)) {
+      throw broken("others", "a cloud of it is no style with a filter");
+    }
+    const [style, filter] = one.map((part) => (Object.keys(part).length > 0 ? part : undefined));
+    return { ...(style && { style }), ...(filter && { filter }) };
+  });
 }
 
 function cameraText(camera: CameraView): string {
