@@ -1,10 +1,12 @@
-import { makeZip } from "client-zip";
-import type { ByteSink } from "./byte-sink.js";
+import { crc32 } from "../sources/contract/checksum.js";
+import { BlockSink, type ByteSink, GATHERED } from "./byte-sink.js";
+import { type ZipFile, zipDescriptor, zipDirectory, zipHeader } from "./zip.js";
 
 /** A file in an archive. */
 export interface ArchiveEntry {
   readonly name: string;
-  readonly content: Uint8Array | Blob | string;
+  /** Is the caller's again once the next file is asked for. */
+  readonly content: Uint8Array | string;
 }
 
 /**
@@ -17,20 +19,29 @@ export async function writeArchive(
   sink: ByteSink,
   date: Date,
 ): Promise<void> {
-  async function* files() {
-    for await (const { name, content } of entries) {
-      yield { name, lastModified: date, input: content as Uint8Array<ArrayBuffer> | Blob | string };
+  // Of many small files: one wait for some megabyte, not several for each.
+  const block = new BlockSink();
+  const files: ZipFile[] = [];
+  let before = 0;
+  const flush = async () => {
+    before += block.length;
+    await sink.write(block.bytes());
+    block.clear();
+  };
+  for await (const { name, content } of entries) {
+    const bytes = typeof content === "string" ? new TextEncoder().encode(content) : content;
+    const file = { name, at: before + block.length, size: bytes.length, checksum: crc32(bytes) };
+    files.push(file);
+    block.append(zipHeader(name, date));
+    if (bytes.length < GATHERED) block.append(bytes);
+    else {
+      await flush();
+      await sink.write(bytes);
+      before += bytes.length;
     }
+    block.append(zipDescriptor(file));
+    if (block.length >= GATHERED) await flush();
   }
-  const reader = makeZip(files()).getReader();
-  try {
-    for (;;) {
-      const { done, value } = await reader.read();
-      if (done) return;
-      await sink.write(value);
-    }
-  } finally {
-    // Lets go of what the entries hold, where the sink failed.
-    await reader.cancel().catch(() => undefined);
-  }
+  for (const bytes of zipDirectory(files, before + block.length, date)) block.append(bytes);
+  await flush();
 }

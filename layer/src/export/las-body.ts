@@ -1,4 +1,4 @@
-import type { ByteSink } from "./byte-sink.js";
+import { type ByteSink, GatheringSink } from "./byte-sink.js";
 
 /** The points of a LAS file as they stand in it, and what the front of the file says of that. */
 export interface LasBody {
@@ -10,19 +10,12 @@ export interface LasBody {
   end(): Promise<void>;
 }
 
-/** Bytes that are gathered before they are written, and those that room is made for at first. */
-const BLOCK = 1 << 20;
-const FIRST = 1 << 10;
-
 /** Records as they are, small pieces of them as large ones. */
 export class PlainBody implements LasBody {
-  readonly #sink: ByteSink;
-  /** Grows to its size: small files of many sections have no use for all of it. */
-  #block = new Uint8Array(0);
-  #filled = 0;
+  readonly #records: GatheringSink;
 
   constructor(sink: ByteSink) {
-    this.#sink = sink;
+    this.#records = new GatheringSink(sink);
   }
 
   front(plain: Uint8Array): Uint8Array {
@@ -30,23 +23,10 @@ export class PlainBody implements LasBody {
   }
 
   async take(bytes: Uint8Array): Promise<void> {
-    if (this.#filled + bytes.length > BLOCK) await this.end();
-    if (bytes.length > BLOCK) {
-      await this.#sink.write(bytes);
-      return;
-    }
-    if (this.#filled + bytes.length > this.#block.length) {
-      const wanted = Math.max(FIRST, 2 * (this.#filled + bytes.length));
-      const larger = new Uint8Array(Math.min(BLOCK, wanted));
-      larger.set(this.#block.subarray(0, this.#filled));
-      this.#block = larger;
-    }
-    this.#block.set(bytes, this.#filled);
-    this.#filled += bytes.length;
+    await this.#records.write(bytes);
   }
 
   async end(): Promise<void> {
-    if (this.#filled > 0) await this.#sink.write(this.#block.subarray(0, this.#filled));
-    this.#filled = 0;
+    await this.#records.end();
   }
 }

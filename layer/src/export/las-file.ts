@@ -103,15 +103,36 @@ export class LasFrame {
       view.setFloat64(HEADER.bounds + 16 * axis, greatest, true);
       view.setFloat64(HEADER.bounds + 16 * axis + 8, least, true);
     }
-    view.setBigUint64(HEADER.waveforms, 0n, true);
-    const end = BigInt(bytes.length) + BigInt(count) * BigInt(this.recordLength);
-    view.setBigUint64(HEADER.extendedOffset, extended > 0 ? end : 0n, true);
+    setCount(view, HEADER.waveforms, 0);
+    const end = bytes.length + count * this.recordLength;
+    setCount(view, HEADER.extendedOffset, extended > 0 ? end : 0);
     view.setUint32(HEADER.extendedCount, extended, true);
-    view.setBigUint64(HEADER.count, BigInt(count), true);
-    for (let number = 1; number <= RETURNS; number++) {
-      view.setBigUint64(HEADER.returns + 8 * (number - 1), BigInt(returns[number]), true);
-    }
+    setCount(view, HEADER.count, count);
+    for (let number = 1; number <= RETURNS; number++)
+      setCount(view, HEADER.returns + 8 * (number - 1), returns[number]);
   }
+}
+
+/** Frames of files that are written one after the other: those of the same records share one. */
+export class LasFrames {
+  #envelope: LasEnvelope | undefined;
+  #added: readonly AddedAttribute[] | undefined;
+  #frame: LasFrame | undefined;
+
+  /** @param baseLength bytes of a record without extra bytes @param added attributes behind those of the source */
+  of(envelope: LasEnvelope, baseLength: number, added: readonly AddedAttribute[]): LasFrame {
+    if (!this.#frame || this.#envelope !== envelope || this.#added !== added)
+      this.#frame = new LasFrame(envelope, baseLength, added);
+    this.#envelope = envelope;
+    this.#added = added;
+    return this.#frame;
+  }
+}
+
+/** A whole number below 2⁵³ as one of 64 bits. */
+function setCount(view: DataView, at: number, value: number): void {
+  view.setUint32(at, value % 2 ** 32, true);
+  view.setUint32(at + 4, Math.floor(value / 2 ** 32), true);
 }
 
 function lengthOf({ header, content }: LasVariableRecord): number {

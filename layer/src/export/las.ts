@@ -2,7 +2,7 @@ import { FormatError } from "../errors/index.js";
 import type { LasEnvelope } from "../sources/contract/point-source.js";
 import type { ByteSink } from "./byte-sink.js";
 import { type LasBody, PlainBody } from "./las-body.js";
-import { type AddedAttribute, LasFrame } from "./las-file.js";
+import { type AddedAttribute, LasFrames } from "./las-file.js";
 import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from "./selection.js";
 
 /** How LAS is written. */
@@ -18,6 +18,8 @@ const ALONG: readonly AddedAttribute[] = [
   { name: "chainage", description: "distance along the line" },
   { name: "offset", description: "from the line, left positive" },
 ];
+
+const NOTHING: readonly AddedAttribute[] = [];
 
 /** Byte of a record that has the return number in its lower half (LAS 1.4 R15, table 15). */
 const RETURN_NUMBER = 14;
@@ -49,18 +51,22 @@ type MakeBody = (layout: {
   readonly extra: number;
 }) => Promise<LasBody>;
 
-/** As {@link exportLas}, with points as a body writes them. */
+/**
+ * As {@link exportLas}, with points as a body writes them.
+ * @param frames of the files that are written one after the other
+ */
 export async function writeLas(
   selections: readonly PointSelection[],
   sink: ByteSink,
   options: LasOptions,
   makeBody: MakeBody,
+  frames = new LasFrames(),
 ): Promise<number> {
   const envelope = withSpacing(await commonEnvelope(selections, options.signal), selections);
   const { pointFormat, recordLength } = envelope;
   const chainage = options.chainage === true;
   const base = BASE_LENGTH[pointFormat];
-  const frame = new LasFrame(envelope, base, chainage ? ALONG : []);
+  const frame = frames.of(envelope, base, chainage ? ALONG : NOTHING);
   const { recordLength: length } = frame;
   const body = await makeBody({ format: pointFormat, length, extra: length - base });
   const points = new PointTally();
@@ -201,9 +207,11 @@ class PointTally {
   }
 
   summary({ scale, offset }: PointSelection["origin"]) {
-    const bounds = [...this.#least, ...this.#greatest].map(
-      (value, index) => value * scale[index % 3] + offset[index % 3],
-    );
+    const bounds = new Float64Array(6);
+    for (let axis = 0; axis < 3; axis++) {
+      bounds[axis] = this.#least[axis] * scale[axis] + offset[axis];
+      bounds[axis + 3] = this.#greatest[axis] * scale[axis] + offset[axis];
+    }
     return { count: this.count, returns: this.#returns, bounds };
   }
 }

@@ -1,7 +1,7 @@
 import { stationText } from "../tools/sections/station.js";
 import { type ArchiveEntry, writeArchive } from "./archive.js";
 import { BlobStore, type BlockStore } from "./block-store.js";
-import { type ByteSink, MemorySink } from "./byte-sink.js";
+import { BlockSink, type ByteSink } from "./byte-sink.js";
 import { collectParts, type PartedSelection, type PartedVolume } from "./collect.js";
 import { exportCsv } from "./csv.js";
 import { type DatedOptions, spanOf, USUAL_GROUND } from "./documents.js";
@@ -9,7 +9,9 @@ import { exportDxf } from "./dxf.js";
 import { exportGeoJson } from "./geojson.js";
 import { drawSheet, groundInWords, groundOf } from "./ground.js";
 import { type LandXmlContent, type LandXmlSection, landXmlOf } from "./landxml.js";
-import { exportLas } from "./las.js";
+import { writeLas } from "./las.js";
+import { PlainBody } from "./las-body.js";
+import { LasFrames } from "./las-file.js";
 import { pdfOf } from "./picture/pdf.js";
 import type { Sheet } from "./picture/sheet.js";
 import { svgOf } from "./picture/svg.js";
@@ -86,6 +88,7 @@ export async function exportSections(
   const sections = await readSections(selections, options);
   const counts: number[] = [];
   const grounds: LandXmlSection[] = [];
+  const made = new SectionFiles(options);
   async function* entries(): AsyncGenerator<ArchiveEntry> {
     for (const section of sections) {
       options.signal?.throwIfAborted();
@@ -96,7 +99,7 @@ export async function exportSections(
       for (const format of files) {
         yield {
           name: `section-${name}_${stationOf(place, options)}.${format}`,
-          content: await fileOf(section, format, options),
+          content: await made.make(section, format),
         };
       }
     }
@@ -214,37 +217,53 @@ async function sheetOf(section: ReadSection, options: SectionOptions): Promise<S
   return (await drawSheet(section.selections, span, titleOf(section, options), along, quiet)).sheet;
 }
 
-async function fileOf(
-  section: ReadSection,
-  format: SectionFormat,
-  options: SectionArchiveOptions,
-): Promise<ArchiveEntry["content"]> {
-  const { selections } = section;
-  const { signal, compress } = options;
-  switch (format) {
-    case "svg":
-      return svgOf(await sheetOf(section, options));
-    case "pdf":
-      return pdfOf([await sheetOf(section, options)], titleOf(section, options));
-    case "las":
-      return inMemory((sink) => exportLas(selections, sink, { signal }));
-    case "laz": {
-      if (!compress) throw new RangeError("this program does not compress LAS");
-      return compress(await inMemory((sink) => exportLas(selections, sink, { signal })));
-    }
-    case "csv":
-      return inMemory((sink) => exportCsv(selections, sink, { signal, systems: section.mixed }));
-    case "geojson":
-      return inMemory((sink) => exportGeoJson(selections, sink, { signal }));
-    case "dxf":
-      return inMemory((sink) => exportDxf(selections, sink, { signal, layout: "straightened" }));
-  }
-}
+/** Makes the files of sections one after the other, in a block that is used again for the next one. */
+class SectionFiles {
+  readonly #options: SectionArchiveOptions;
+  readonly #block = new BlockSink();
+  readonly #frames = new LasFrames();
 
-async function inMemory(fill: (sink: ByteSink) => Promise<unknown>): Promise<Uint8Array> {
-  const sink = new MemorySink();
-  await fill(sink);
-  return sink.bytes();
+  constructor(options: SectionArchiveOptions) {
+    this.#options = options;
+  }
+
+  /** @returns what is the caller's until the next file is made */
+  async make(section: ReadSection, format: SectionFormat): Promise<ArchiveEntry["content"]> {
+    const { selections } = section;
+    const options = this.#options;
+    const { signal, compress } = options;
+    switch (format) {
+      case "svg":
+        return svgOf(await sheetOf(section, options));
+      case "pdf":
+        return pdfOf([await sheetOf(section, options)], titleOf(section, options));
+      case "las":
+        return this.#las(selections);
+      case "laz": {
+        if (!compress) throw new RangeError("this program does not compress LAS");
+        return compress(await this.#las(selections));
+      }
+      case "csv":
+        return this.#inBlock((sink) => exportCsv(selections, sink, { signal, systems: section.mixed }));
+      case "geojson":
+        return this.#inBlock((sink) => exportGeoJson(selections, sink, { signal }));
+      case "dxf":
+        return this.#inBlock((sink) => exportDxf(selections, sink, { signal, layout: "straightened" }));
+    }
+  }
+
+  #las(selections: readonly PointSelection[]): Promise<Uint8Array> {
+    const { signal } = this.#options;
+    return this.#inBlock((sink) =>
+      writeLas(selections, sink, { signal }, async () => new PlainBody(sink), this.#frames),
+    );
+  }
+
+  async #inBlock(fill: (sink: ByteSink) => Promise<unknown>): Promise<Uint8Array> {
+    this.#block.clear();
+    await fill(this.#block);
+    return this.#block.bytes();
+  }
 }
 
 /** Places of all sections as CSV, with every digit, so that anyone can cut them again. */

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { crc32c } from "./checksum.js";
+import { crc32, crc32c } from "./checksum.js";
 
 it("is the checksum of RFC 3720, appendix B.4", () => {
   expect(crc32c(new Uint8Array(32))).toBe(0x8a9136aa);
@@ -22,4 +22,12 @@ it("sees every bit of every byte, whatever their number and where they lie", () 
       bytes[bit >> 3]! ^= 1 << (bit & 7);
     }
   }
+});
+
+it("goes on from the checksum of what came before; that of ZIP is the one of its specification", () => {
+  const text = new TextEncoder().encode("123456789");
+  // The check value of CRC-32/ISO-HDLC.
+  expect(crc32(text)).toBe(0xcbf43926);
+  for (let cut = 0; cut <= text.length; cut++)
+    expect(crc32(text.subarray(cut), crc32(text.subarray(0, cut)))).toBe(0xcbf43926);
 });

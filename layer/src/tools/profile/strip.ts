@@ -16,6 +16,9 @@ export class Strip {
   readonly reach: number;
   /** Whether each segment begins where the one before ends. */
   readonly #joined: boolean;
+  /** Of each segment the square of its length, and the length times the reach: what its cross product is held against. */
+  readonly #squares: Float64Array;
+  readonly #limits: Float64Array;
   readonly #grid: SegmentGrid;
 
   /** @param segments which have a length each @param joined whether each begins where the one before ends */
@@ -23,6 +26,9 @@ export class Strip {
     this.segments = segments;
     this.reach = reach;
     this.#joined = joined;
+    const count = segments.length / 4;
+    this.#squares = Float64Array.from({ length: count }, (_, segment) => squareOf(segments, segment));
+    this.#limits = this.#squares.map((square) => reach * Math.sqrt(square));
     this.#grid = new SegmentGrid(segments, reach);
   }
 
@@ -56,10 +62,17 @@ export class Strip {
     const [minX, minY, , maxX, maxY] = box;
     // What rounding may take from the differences of coordinates.
     const slack = 16 * EPSILON * Math.max(Math.abs(minX), Math.abs(maxX), Math.abs(minY), Math.abs(maxY));
+    const reach = this.reach * (1 + 16 * EPSILON) + slack;
+    const { segments } = this;
     let met = false;
-    for (let segment = 0; 4 * segment < this.segments.length; segment++) {
-      if (this.#covers(segment, box)) return "in";
-      met ||= this.#gap(segment, box) <= this.reach * (1 + 16 * EPSILON) + slack;
+    for (let at = 0; at < segments.length; at += 4) {
+      // Most of many segments are that far from a box on one axis alone.
+      const [ax, bx] = [segments[at], segments[at + 2]];
+      if (minX - Math.max(ax, bx) > reach || Math.min(ax, bx) - maxX > reach) continue;
+      const [ay, by] = [segments[at + 1], segments[at + 3]];
+      if (minY - Math.max(ay, by) > reach || Math.min(ay, by) - maxY > reach) continue;
+      if (this.#covers(at / 4, box)) return "in";
+      met ||= this.#gap(at / 4, box) <= reach;
     }
     return met ? "crossing" : "out";
   }
@@ -76,19 +89,19 @@ export class Strip {
     const uy = this.segments[from + 3] - ay;
     const vx = x - ax;
     const vy = y - ay;
-    const length = ux * ux + uy * uy;
-    const along = ux * vx + uy * vy;
     // Each product has an error of some units in the last place of its factors; 16 is generous.
+    const across = Math.abs(ux * vy - uy * vx);
+    const limit = this.#limits[segment];
+    const left = limit - across;
+    const uncertain = 16 * EPSILON * (Math.abs(ux * vy) + Math.abs(uy * vx) + limit);
+    // What lies too far aside is too far from the joint as well.
+    if (left < -uncertain) return -1;
+    const length = this.#squares[segment];
+    const along = ux * vx + uy * vy;
     const doubt = 16 * EPSILON * (Math.abs(ux * vx) + Math.abs(uy * vy) + length);
     if (along < -doubt) return -1;
     if (along > length + doubt) return this.#hasJoint(segment) ? this.#nearnessToJoint(segment, x, y) : -1;
-    const across = ux * vy - uy * vx;
-    const uncertain = 16 * EPSILON * (Math.abs(ux * vy) + Math.abs(uy * vx));
-    const limit = this.reach * Math.sqrt(length);
-    const left = limit - Math.abs(across);
-    if (Math.abs(left) <= uncertain + 16 * EPSILON * limit) return 0;
-    // What lies too far aside is too far from the joint as well.
-    return left < 0 || (along > doubt && along < length - doubt) ? left : 0;
+    return left > uncertain && along > doubt && along < length - doubt ? 1 : 0;
   }
 
   /** The same of the joint behind a segment, for a point that lies behind that segment. */
@@ -172,4 +185,11 @@ export class Strip {
     }
     return gap;
   }
+}
+
+/** Square of the length of a segment. */
+function squareOf(segments: Segments, segment: number): number {
+  const [ax, ay, bx, by] = segments.subarray(4 * segment, 4 * segment + 4);
+  const [ux, uy] = [bx - ax, by - ay];
+  return ux * ux + uy * uy;
 }

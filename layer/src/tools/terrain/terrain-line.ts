@@ -46,11 +46,8 @@ export class TerrainLine {
   readonly statistic: TerrainStatistic;
   readonly #from: number;
   readonly #count: Uint32Array;
-  readonly #least: Float64Array;
-  readonly #greatest: Float64Array;
-  /** Means and sums of squares of what is left of them, by Welford's recurrence. */
-  readonly #mean: Float64Array;
-  readonly #squares: Float64Array;
+  /** Of each station least, greatest, mean and the sum of squares of what is left of it, by Welford's recurrence. */
+  readonly #moments: Float64Array;
   /** All heights of each station, where a percentile is asked for. */
   readonly #heights: Float64Array[] | undefined;
 
@@ -67,10 +64,7 @@ export class TerrainLine {
     this.statistic = statistic;
     this.#from = from;
     this.#count = new Uint32Array(count);
-    this.#least = new Float64Array(count).fill(Number.POSITIVE_INFINITY);
-    this.#greatest = new Float64Array(count).fill(Number.NEGATIVE_INFINITY);
-    this.#mean = new Float64Array(count);
-    this.#squares = new Float64Array(count);
+    this.#moments = new Float64Array(4 * count);
     this.#heights = typeof statistic === "number" ? new Array(count) : undefined;
   }
 
@@ -79,11 +73,13 @@ export class TerrainLine {
     const station = Math.floor((chainage - this.#from) / this.interval + 0.5);
     if (!(station >= 0 && station < this.#count.length)) return;
     const count = ++this.#count[station];
-    if (height < this.#least[station]) this.#least[station] = height;
-    if (height > this.#greatest[station]) this.#greatest[station] = height;
-    const difference = height - this.#mean[station];
-    this.#mean[station] += difference / count;
-    this.#squares[station] += difference * (height - this.#mean[station]);
+    const moments = this.#moments;
+    const at = 4 * station;
+    if (count === 1 || height < moments[at]) moments[at] = height;
+    if (count === 1 || height > moments[at + 1]) moments[at + 1] = height;
+    const difference = height - moments[at + 2];
+    moments[at + 2] += difference / count;
+    moments[at + 3] += difference * (height - moments[at + 2]);
     if (this.#heights) this.#keep(this.#heights, station, count, height);
   }
 
@@ -105,14 +101,14 @@ export class TerrainLine {
   /** The stations one after the other: a percentile of many points takes its time, and a page may pause between two. */
   *eachStation(): Generator<TerrainStation, void> {
     for (const [station, count] of this.#count.entries()) {
-      const [least, greatest, mean] = [this.#least[station], this.#greatest[station], this.#mean[station]];
+      const [least, greatest, mean, squares] = this.#moments.subarray(4 * station, 4 * station + 4);
       yield {
         chainage: this.#chainage(station),
         height: count === 0 ? Number.NaN : this.#height(station, count),
         ...(count === 0
           ? { least: Number.NaN, greatest: Number.NaN, mean: Number.NaN }
           : { least, greatest, mean }),
-        deviation: count < 2 ? Number.NaN : Math.sqrt(this.#squares[station] / (count - 1)),
+        deviation: count < 2 ? Number.NaN : Math.sqrt(squares / (count - 1)),
         count,
       };
     }
@@ -137,12 +133,14 @@ export class TerrainLine {
 
   #height(station: number, count: number): number {
     const { statistic } = this;
-    if (statistic === "min") return this.#least[station];
-    if (statistic === "max") return this.#greatest[station];
-    if (statistic === "mean") return this.#mean[station];
-    return percentile(this.#heights![station].slice(0, count).sort(), statistic);
+    if (typeof statistic === "number")
+      return percentile(this.#heights![station].slice(0, count).sort(), statistic);
+    return this.#moments[4 * station + MOMENTS.indexOf(statistic)];
   }
 }
+
+/** Where statistics stand among the moments of a station. */
+const MOMENTS: readonly TerrainStatistic[] = ["min", "max", "mean"];
 
 /** A percentile of sorted numbers, linear between two of them (Hyndman & Fan 1996, definition 7). */
 function percentile(sorted: Float64Array, share: number): number {
