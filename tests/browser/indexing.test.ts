@@ -90,6 +90,15 @@ it("of a scan whose header announces too many points it is said how to convert i
   expect(hasCore()).toBe(false);
 });
 
+it("the core that is not to be had is told", async () => {
+  await page.route(/groma-core.*\.wasm/, (route) => route.fulfill({ status: 404 }));
+  await page.setInputFiles("#file", file("scan.las"));
+  await expect.poll(codes, { timeout: 60_000 }).toEqual(["INDEX_CORE"]);
+  expect(await page.textContent("#message")).toContain("HTTP 404");
+  await page.unrouteAll();
+  watch.errors.length = 0;
+});
+
 it("of a damaged scan the core's own code is told", async () => {
   await page.setInputFiles("#file", file("damaged.laz"));
   await expect.poll(codes, { timeout: 60_000 }).toEqual(["INPUT_CORRUPT"]);

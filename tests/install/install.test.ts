@@ -85,7 +85,8 @@ describe.skipIf(skipped)(`packages, packed${why}`, () => {
       expect(existsSync(path.replace(/\.tgz$/, ".cdx.json"))).toBe(true);
     }
     const page = packed.get("@groma/converter")!.read("THIRD-PARTY-NOTICES.txt");
-    for (const shown of ["cesium 1.", "ol 10.", "d3-scale ", "three "]) expect(page).toContain(`\n${shown}`);
+    for (const shown of ["cesium 1.", "ol 10.", "d3-scale ", "three ", "clap ", "@bjorn3/browser_wasi_shim "])
+      expect(page).toContain(`\n${shown}`);
   });
 
   it("are as publint and attw want them", { timeout: 120_000 }, async () => {

@@ -71,6 +71,21 @@ describe.skipIf(coreMissing)(`the core in the page${coreMissing ? ` (skipped: ${
     expect(page).toEqual(await inCommand(path));
   });
 
+  it("tells of a core that breaks off what it said last", async () => {
+    // (module (memory (export "memory") 1) (func (export "_start") unreachable))
+    const broken = new CoreProgram(
+      await WebAssembly.compile(
+        Uint8Array.from([
+          ...[0, 0x61, 0x73, 0x6d, 1, 0, 0, 0, 1, 4, 1, 0x60, 0, 0, 3, 2, 1, 0, 5, 3, 1, 0, 1],
+          ...[7, 19, 2, 6, ...Buffer.from("memory"), 2, 0, 6, ...Buffer.from("_start"), 0, 0],
+          ...[10, 5, 1, 3, 0, 0, 0x0b],
+        ]),
+      ),
+    );
+    const scan = { size: 0, read: () => new Uint8Array() };
+    expect(await broken.convert(scan, () => undefined)).toEqual({ complaint: "unreachable" });
+  });
+
   it("says why where a file ends too early, and has made nothing", async () => {
     const { path, missing } = data("las-variants/laz__simple.laz");
     if (missing) return;

@@ -100,7 +100,10 @@ export class Clouds {
         indexed = made;
         this.#indexed = { from, indexed };
       };
-      const events = { onWait, onIndexing: indexing, onIndexed, signal };
+      const onIndexing = (progress: IndexProgress) => {
+        if (this.#openings.includes(opening) && !signal.aborted) indexing(progress);
+      };
+      const events = { onWait, onIndexing, onIndexed, signal };
       const layer = await openLayer(indexed?.copc ?? from, how, events);
       if (!signal.aborted) return this.#take(from, how, indexed, layer);
       layer.destroy();

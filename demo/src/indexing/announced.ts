@@ -15,12 +15,11 @@ const HEADER = 375;
  */
 export async function checkAnnounced(scan: File): Promise<void> {
   const header = new DataView(await scan.slice(0, HEADER).arrayBuffer());
-  const text = (at: number, bytes: number) => header.byteLength >= at + bytes;
   // What is too short for a header is the core's to refuse.
-  if (!text(107, 4)) return;
+  if (header.byteLength < 111) return;
   const recordLength = header.getUint16(105, true);
   const legacy = BigInt(header.getUint32(107, true));
-  const isLong = header.getUint8(24) === 1 && header.getUint8(25) >= 4 && text(247, 8);
+  const isLong = header.getUint8(24) === 1 && header.getUint8(25) >= 4 && header.byteLength >= 255;
   const points = (isLong && header.getBigUint64(247, true)) || legacy;
   if (points <= MOST_POINTS && points * BigInt(recordLength) <= MOST_BYTES) return;
   throw new IndexError({

@@ -78,6 +78,10 @@ const WORDS: ReadonlySet<string> = new Set([
   /*i18n*/ "ellipsoidal",
   /*i18n*/ "unknown",
   /*i18n*/ "reference unknown, drawn as ellipsoidal",
+  // Warnings of the converter's core
+  /*i18n*/ "the bounds in the headers are not those of the points, which are read again",
+  /*i18n*/ "the output has no WKT: readers of LAS 1.4 will not know its coordinate reference system",
+  /*i18n*/ "the waveforms are left out: COPC has no point format for them",
   // Units that are taken for granted
   /*i18n*/ "metre",
   /*i18n*/ "foot",

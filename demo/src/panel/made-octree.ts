@@ -1,5 +1,6 @@
 import type { Indexed } from "../indexing/index-file.js";
 import { i18n } from "../language/i18n.js";
+import { noteWords } from "../language/note-words.js";
 import { textElement } from "./elements.js";
 import { saveFile } from "./save-file.js";
 
@@ -18,9 +19,10 @@ export function madeOctree({ copc, warnings }: Indexed, failed: (thrown: unknown
         await sink.write(new Uint8Array(await copc.slice(at, at + PIECE).arrayBuffer()));
     }).catch(failed);
   });
-  const found = warnings.map((text) => {
+  const found = warnings.map((warning) => {
+    const { text, translated } = noteWords(warning);
     const note = textElement("small", text, "warning");
-    note.lang = "en";
+    if (!translated) note.lang = "en";
     return note;
   });
   place.append(textElement("small", i18n.t("Its octree was made in this page.")), ...found, save);

@@ -57,6 +57,7 @@ export class Progress {
     this.rest();
     this.#place.hidden = false;
     setText(this.#stage, indexingWords(name, stage));
+    this.#bar.setAttribute("aria-label", i18n.t("Points that are indexed"));
     this.#bar.max = Math.max(total, 1);
     this.#bar.value = done;
     this.#bar.hidden = false;
@@ -89,6 +90,7 @@ export class Progress {
     this.#unfollow?.();
     this.#unfollow = undefined;
     this.#place.hidden = true;
+    this.#bar.setAttribute("aria-label", i18n.t("Nodes of this view that are loaded"));
   }
 
   #tell(layer: PointCloudLayer, progress: StreamProgress): void {

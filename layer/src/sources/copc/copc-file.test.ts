@@ -127,6 +127,13 @@ describe("openCopc", () => {
     await expect(open(options)).rejects.toThrow(expect.objectContaining({ code }));
   });
 
+  it("FORMAT_NOT_COPC for a whole file of LAS 1.2 that is shorter than a header of LAS 1.4", async () => {
+    const short = tinyCopc({ minor: 2 }).slice(0, 227 + 20);
+    await expect(openCopc(new KnownParts(source(short)))).rejects.toThrow(
+      expect.objectContaining({ code: "FORMAT_NOT_COPC" }),
+    );
+  });
+
   it("FORMAT_TRUNCATED or FORMAT_MAGIC wherever the file is cut", async () => {
     const whole = tinyCopc();
     for (const length of [0, 3, 4, 200, 374, 480, 600, whole.length - 1]) {

@@ -40,14 +40,15 @@ export const BASE_RECORD_LENGTH: Readonly<Record<number, number>> = { 6: 30, 7: 
  */
 export function parseLasHeader(bytes: Uint8Array, file: string): LasHeader {
   checkMagic(bytes, file);
+  const version = `${bytes[24]}.${bytes[25]}`;
+  const other = () => notCopc(file, `this is LAS ${version}; COPC is LAS 1.4`);
+  // Whole files of other versions may be shorter than this header.
+  if (bytes.length > 25 && version !== "1.4") throw other();
   if (bytes.length < LAS_HEADER_LENGTH) throw truncated(file, "the header");
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const version = `${view.getUint8(24)}.${view.getUint8(25)}`;
   const formatByte = view.getUint8(104);
   const pointFormat = formatByte & 0x3f;
-  if (version !== "1.4" || view.getUint16(94, true) < LAS_HEADER_LENGTH) {
-    throw notCopc(file, `this is LAS ${version}; COPC is LAS 1.4`);
-  }
+  if (view.getUint16(94, true) < LAS_HEADER_LENGTH) throw other();
   if (!(pointFormat in BASE_RECORD_LENGTH) || (formatByte & 0x80) === 0) {
     throw notCopc(file, `its point format is ${formatByte}; COPC has compressed format 6, 7 or 8`);
   }
