@@ -45,14 +45,13 @@ describe.skipIf(pythonMissing)(
               layer.style = { eyeDomeLighting };
               await stage.settle();
               const { gl } = stage;
-              const drawArrays = gl.drawArrays.bind(gl);
               let draws = 0;
-              gl.drawArrays = (mode, first, count) => {
-                if (mode === gl.POINTS && count > 0) draws++;
-                drawArrays(mode, first, count);
-              };
+              const end = window.page.onPoints(gl, (call) => {
+                draws += call.counts.filter((count) => count > 0).length;
+                call.draw();
+              });
               stage.frame();
-              gl.drawArrays = drawArrays;
+              end();
               const { magnitude, active, why } = layer.ledger.find(
                 ({ effect }) => effect === "eyeDomeLighting",
               )!;

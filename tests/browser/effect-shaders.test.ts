@@ -5,8 +5,8 @@ import { combinations } from "../../layer/src/effects/scene.fixture.js";
 import { WEBGL2 } from "../../layer/src/effects/webgl2-target.js";
 import { sharedBrowser } from "./harness.js";
 
-/** As both views have their programs: what belongs to a node comes in a table. */
-const TARGET = { ...WEBGL2, nodeTable: true };
+/** As both views have their programs: what belongs to a node comes in a table, and one call draws many nodes of it. */
+const TARGET = { ...WEBGL2, nodeTable: true, manyDraws: true };
 
 /** A program as the page compiles it, and what it is expected to read. */
 interface Case {
@@ -51,7 +51,7 @@ function cases(): Case[] {
 /** In the page: compiles and links programs; says which fail, and which of their names are not active. */
 function compileAll(programs: readonly Case[]): string[] {
   const gl = document.createElement("canvas").getContext("webgl2");
-  if (!gl) return ["no WebGL 2"];
+  if (!gl?.getExtension("WEBGL_multi_draw")) return ["no WebGL 2, or no calls that draw many"];
   const faults: string[] = [];
   const shaders = new Map<string, WebGLShader>();
   const shader = (type: number, text: string) => {

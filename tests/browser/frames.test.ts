@@ -201,42 +201,53 @@ describe.skipIf(pythonMissing)(
       );
     });
 
-    it("a frame has as many calls as nodes, and few besides, whatever is drawn", {
-      timeout: 120_000,
-    }, async () => {
-      const counted = await stage.page.evaluate(async () => {
+    /** What frames of three styles show, and their calls, with those that draw many nodes or without. */
+    const frames = (together: boolean) =>
+      stage.page.evaluate(async (together) => {
         const { Stage } = window.page;
+        const { getExtension } = WebGL2RenderingContext.prototype;
+        WebGL2RenderingContext.prototype.getExtension = function (
+          this: WebGL2RenderingContext,
+          name: string,
+        ) {
+          return together || name !== "WEBGL_multi_draw" ? getExtension.call(this, name) : null;
+        } as typeof getExtension;
         const stage = new Stage();
         const layer = await stage.show("density", { maximumScreenSpaceError: 0.5 });
         stage.look({ range: 30 });
         const gl = stage.gl as unknown as Record<string, (...given: unknown[]) => unknown>;
+        const many = stage.gl.getExtension("WEBGL_multi_draw") as unknown as typeof gl | null;
         const names = Object.keys(Object.getPrototypeOf(gl)).filter((name) =>
           /^(drawArrays|drawElements|uniform\d|uniformMatrix)/.test(name),
         );
         /** Calls of a frame that draws nothing anew. */
         const callsOf = () => {
           const calls = { draws: 0, uniforms: 0 };
-          for (const name of names) {
-            const own = Object.getPrototypeOf(gl)[name];
-            gl[name] = (...given) => {
-              calls[name.startsWith("draw") ? "draws" : "uniforms"]++;
-              return own.apply(gl, given);
+          const count = (object: typeof gl, name: string) => {
+            const own = Object.getPrototypeOf(object)[name];
+            object[name] = (...given) => {
+              calls[/draw/i.test(name) ? "draws" : "uniforms"]++;
+              return own.apply(object, given);
             };
-          }
+          };
+          for (const name of names) count(gl, name);
+          if (many) count(many, "multiDrawArraysWEBGL");
           stage.frame();
           for (const name of names) delete gl[name];
+          if (many) delete many.multiDrawArraysWEBGL;
           return calls;
         };
         const styles = {
-          fixed: { size: "fixed", shape: "square" },
+          fixed: { size: "fixed", shape: "square", pointSize: 6 },
           adaptive: { size: "adaptive", shape: "disc", color: "elevation" },
           splats: { splats: true, eyeDomeLighting: true },
         } as const;
+        const pictures: string[] = [];
         const counted: Record<string, { nodes: number; draws: number; uniforms: number }> = {};
         for (const [name, style] of Object.entries(styles)) {
           layer.style = style;
           await stage.settle();
-          stage.frame();
+          pictures.push(stage.picture());
           const nodes = layer.statistics.nodesVisible;
           const shown = callsOf();
           layer.show = false;
@@ -251,24 +262,52 @@ describe.skipIf(pythonMissing)(
           };
         }
         stage.destroy();
-        return counted;
-      });
-      expect(counted).toMatchInlineSnapshot(`
+        WebGL2RenderingContext.prototype.getExtension = getExtension;
+        return { counted, pictures };
+      }, together);
+
+    it("a frame has few calls, and is the same where the browser draws no nodes together", {
+      timeout: 120_000,
+    }, async () => {
+      const together = await frames(true);
+      const single = await frames(false);
+      expect(single.pictures).toEqual(together.pictures);
+      expect(new Set(single.pictures).size).toBeGreaterThan(1);
+      expect({ together: together.counted, single: single.counted }).toMatchInlineSnapshot(`
         {
-          "adaptive": {
-            "draws": 7,
-            "nodes": 3,
-            "uniforms": 3,
+          "single": {
+            "adaptive": {
+              "draws": 7,
+              "nodes": 3,
+              "uniforms": 3,
+            },
+            "fixed": {
+              "draws": 7,
+              "nodes": 3,
+              "uniforms": 3,
+            },
+            "splats": {
+              "draws": 12,
+              "nodes": 3,
+              "uniforms": 6,
+            },
           },
-          "fixed": {
-            "draws": 7,
-            "nodes": 3,
-            "uniforms": 3,
-          },
-          "splats": {
-            "draws": 12,
-            "nodes": 3,
-            "uniforms": 6,
+          "together": {
+            "adaptive": {
+              "draws": 7,
+              "nodes": 3,
+              "uniforms": 3,
+            },
+            "fixed": {
+              "draws": 7,
+              "nodes": 3,
+              "uniforms": 3,
+            },
+            "splats": {
+              "draws": 12,
+              "nodes": 3,
+              "uniforms": 6,
+            },
           },
         }
       `);

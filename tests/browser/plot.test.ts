@@ -172,8 +172,8 @@ describe.skipIf(pythonMissing)(
       expect(nodes).toBe(7);
       expect(points).toBeGreaterThan(7000);
       expect(read.pointsDrawn).toBe(points);
-      expect(read.buffers).toBe(2 * nodes);
-      expect(moved).toEqual({ buffers: 0, pointsDrawn: steps * points, textureBytes: expect.any(Number) });
+      expect(read.columns).toBe(2 * nodes);
+      expect(moved).toEqual({ columns: 0, pointsDrawn: steps * points, textureBytes: expect.any(Number) });
       // What is sent is where each node lies: a row of texels.
       expect(moved.textureBytes / steps).toBeLessThanOrEqual(4096 * Math.ceil(nodes / 16));
       expect(anew).toBe(grown);
@@ -252,7 +252,7 @@ describe.skipIf(left)(`the plot of a million points${left ? ` (skipped: ${left})
       console.info(JSON.stringify({ ...read, reading, panning, frames }));
       expect(read.points).toBeGreaterThan(1_000_000);
       expect(read.first).toBeLessThan(300);
-      expect(frames.buffers).toBe(0);
+      expect(frames.columns).toBe(0);
       expect(reading.threadMs).toBeLessThan(8);
       expect(panning.threadMs).toBeLessThan(8);
     } finally {

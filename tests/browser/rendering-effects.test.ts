@@ -120,16 +120,14 @@ describe.skipIf(pythonMissing)(
           try {
             const { gl, scene } = stage;
             scene.backgroundColor = window.page.Cesium.Color.BLACK;
-            const drawArrays = gl.drawArrays.bind(gl);
-            gl.drawArrays = (mode, first, count) => {
-              if (mode !== gl.POINTS) return drawArrays(mode, first, count);
+            window.page.onPoints(gl, (call) => {
               gl.disable(gl.DEPTH_TEST);
               gl.enable(gl.BLEND);
               gl.blendFunc(gl.ONE, gl.ONE);
-              drawArrays(mode, first, count);
+              call.draw();
               gl.disable(gl.BLEND);
               gl.enable(gl.DEPTH_TEST);
-            };
+            });
             const classes = { 0: { color: [1 / 255, 1 / 255, 1 / 255] as const } };
             await stage.show("density", {
               maximumScreenSpaceError: 0.5,

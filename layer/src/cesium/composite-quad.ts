@@ -60,9 +60,10 @@ export class CompositeQuad {
   }
 
   #vertexArray(): VertexArray {
-    this.#corners = this.#objects.vertexBuffer(CORNERS);
+    this.#corners = this.#objects.vertexBuffer(CORNERS.byteLength);
+    this.#objects.writeBuffer(this.#corners, CORNERS, 0);
     this.#array = this.#objects.vertexArray([
-      { location: 0, buffer: this.#corners, data: CORNERS, components: 2, normalized: false },
+      { location: 0, buffer: this.#corners, numbers: "float32", components: 2, normalized: false },
     ]);
     return this.#array;
   }

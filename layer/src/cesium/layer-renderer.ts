@@ -45,7 +45,7 @@ export class LayerRenderer implements Renderer<CesiumView> {
     this.content = new LayerContent<CesiumView>(
       objects,
       this.#drawing.uniforms.values,
-      (vertices, heightOffset) => new NodeDrawable(objects, vertices, heightOffset),
+      (pages, vertices, heightOffset) => new NodeDrawable(pages, vertices, heightOffset),
     );
     this.#picked = new NumberPicture(objects, pass);
     this.#probed = new NumberPicture(objects, pass);

@@ -1,11 +1,9 @@
 import { BoundingSphere, Cartesian3, Matrix4 } from "cesium";
 import type { DrawnNode } from "../drawing/drawn-node.js";
 import type { DrawnVertices } from "../drawing/drawn-vertices.js";
-import type { Gpu } from "../drawing/gpu.js";
-import { NodeBuffers } from "../drawing/node-buffers.js";
 import type { UploadedNode } from "../drawing/node-uploads.js";
-import type { AttributeSet } from "../drawing/vertex-attributes.js";
-import type { VertexArray } from "./engine/cesium-private.js";
+import { PagedNode } from "../drawing/paged-node.js";
+import type { VertexPages } from "../drawing/vertex-pages.js";
 import type { CesiumTypes } from "./engine/gpu-objects.js";
 
 /** What a Cesium scene draws with. */
@@ -17,12 +15,12 @@ export interface CesiumView extends CesiumTypes {
 export type CesiumNode = DrawnNode<CesiumView>;
 
 /** A node on the GPU, and where it is. */
-export class NodeDrawable extends NodeBuffers<CesiumTypes> implements UploadedNode {
+export class NodeDrawable extends PagedNode<CesiumTypes> implements UploadedNode {
   #place: ReturnType<typeof placeOf>;
 
   /** @param heightOffset metres above its place at which it is drawn */
-  constructor(gpu: Gpu<CesiumTypes>, vertices: DrawnVertices, heightOffset: number) {
-    super(gpu, vertices);
+  constructor(pages: VertexPages<CesiumTypes>, vertices: DrawnVertices, heightOffset: number) {
+    super(pages, vertices);
     this.#place = placeOf(vertices, heightOffset);
   }
 
@@ -38,11 +36,6 @@ export class NodeDrawable extends NodeBuffers<CesiumTypes> implements UploadedNo
 
   lift(heightOffset: number): void {
     this.#place = placeOf(this.vertices, heightOffset);
-  }
-
-  /** The vertex array that programs with these attributes read. */
-  arrayOf(reads: AttributeSet): VertexArray {
-    return this.array(reads);
   }
 }
 

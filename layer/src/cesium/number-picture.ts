@@ -1,9 +1,10 @@
 import { BoundingRectangle } from "cesium";
+import { byGroup } from "../drawing/drawn-node.js";
 import type { Size } from "../drawing/pick-window.js";
 import { type Framebuffer, PassState, type Texture } from "./engine/cesium-private.js";
 import type { GpuObjects } from "./engine/gpu-objects.js";
 import { readPixels } from "./engine/pixel-readback.js";
-import type { CesiumNode } from "./node-drawable.js";
+import type { CesiumNode, CesiumView } from "./node-drawable.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
 
 /** A window of a picture, pixels of the drawing buffer. */
@@ -44,12 +45,12 @@ export class NumberPicture {
     until: { readonly gone: () => boolean; readonly signal?: AbortSignal | undefined },
   ): Promise<Uint8Array | undefined> {
     const framebuffer = this.#framebuffer(size);
-    const target = new PassState(setting.context);
+    const target = new PassState(this.#objects.context);
     target.framebuffer = framebuffer;
     // The whole picture, shifted so that the window comes to lie in the corner.
     target.viewport = new BoundingRectangle(-x, -y, picture.width, picture.height);
-    this.#pass.clear(setting.context, target, true);
-    this.#pass.draw("id", nodes, { ...setting, target });
+    this.#pass.clear(this.#objects.context, target, true);
+    this.#pass.draw("id", byGroup<CesiumView>(nodes), { ...setting, target });
     return readPixels(this.#objects, framebuffer, { size, ...until });
   }
 

@@ -1,17 +1,17 @@
 import { Color } from "cesium";
-import { byGroup } from "../drawing/drawn-node.js";
+import type { GroupedNodes } from "../drawing/drawn-node.js";
 import type { Program } from "../drawing/programs.js";
 import type { EffectPlan, PointPass } from "../effects/index.js";
 import { ClearCommand, type Context, type PassState } from "./engine/cesium-private.js";
-import type { CesiumTypes } from "./engine/gpu-objects.js";
+import type { CesiumTypes, GpuObjects } from "./engine/gpu-objects.js";
 import type { RenderStates } from "./engine/render-states.js";
-import type { CesiumNode, CesiumView } from "./node-drawable.js";
+import type { CesiumView } from "./node-drawable.js";
 import { PointBatch } from "./point-batch.js";
 import type { PointFrustum } from "./point-frustum.js";
 
 /** What a pass over the points needs besides the points. */
 export interface PassSetting {
-  readonly context: Context;
+  readonly objects: GpuObjects;
   readonly target: PassState;
   readonly frustum: PointFrustum;
   readonly owner: object;
@@ -34,12 +34,13 @@ export class OffscreenPass {
   }
 
   /** Draws nodes, whose groups have been placed. */
-  draw(pass: PointPass, nodes: Iterable<CesiumNode>, setting: PassSetting): void {
-    const { context, target, frustum, owner, programOf } = setting;
+  draw(pass: PointPass, nodes: GroupedNodes<CesiumView>, setting: PassSetting): void {
+    const { objects, target, frustum, owner, programOf } = setting;
+    const { context } = objects;
     const renderState = this.#states.of(pass);
     context.uniformState.updateFrustum(frustum.frustum);
-    this.#batch ??= new PointBatch(context);
-    for (const [{ plan, uniforms }, members] of byGroup<CesiumView>(nodes)) {
+    this.#batch ??= new PointBatch(objects);
+    for (const [{ plan, uniforms }, members] of nodes) {
       const state = { owner, program: programOf(plan), renderState, uniformMap: uniforms.map, pass: 0 };
       this.#batch.command(members, state).execute(context, target);
     }

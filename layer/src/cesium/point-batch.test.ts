@@ -1,5 +1,6 @@
 import { BoundingSphere, Cartesian3, Matrix4 } from "cesium";
 import { expect, it } from "vitest";
+import { PointDraws } from "../drawing/point-draws.js";
 import { attributeSet } from "../drawing/vertex-attributes.js";
 import type { Context, VertexArray } from "./engine/cesium-private.js";
 import type { CesiumNode } from "./node-drawable.js";
@@ -14,7 +15,7 @@ function recorder() {
     (...given: unknown[]) =>
       void calls.push([name, ...given]);
   const gl = {
-    ...{ POINTS: 0, CURRENT_PROGRAM: 1, getParameter: () => program },
+    ...{ POINTS: 0, CURRENT_PROGRAM: 1, getParameter: () => program, getExtension: () => null },
     getUniformLocation: (_: unknown, name: string) => name,
     uniform1i: record("number"),
     drawArrays: record("draw"),
@@ -24,7 +25,8 @@ function recorder() {
     _unBind: () => void calls.push(["unbind", name]),
     destroy: () => undefined,
   });
-  return { calls, context: { _gl: gl } as unknown as Context, arrayOf };
+  const context = { _gl: gl } as unknown as Context;
+  return { calls, objects: { context, draws: new PointDraws(context._gl) }, arrayOf };
 }
 
 const state = {
@@ -34,13 +36,16 @@ const state = {
 } as unknown as DrawState;
 
 it("draws exactly its nodes, each by its row in the table, whenever Cesium binds it", () => {
-  const { calls, context, arrayOf } = recorder();
-  const batch = new PointBatch(context);
+  const { calls, objects, arrayOf } = recorder();
+  const batch = new PointBatch(objects);
   const node = (name: string, row: number, count: number) =>
     ({
       row,
       count,
-      uploaded: { arrayOf: () => arrayOf(name), sphere: new BoundingSphere(Cartesian3.UNIT_X, row + 1) },
+      uploaded: {
+        ...{ arrayOf: () => arrayOf(name), first: 100 * row },
+        sphere: new BoundingSphere(Cartesian3.UNIT_X, row + 1),
+      },
     }) as unknown as CesiumNode;
   const nodes = [node("a", 0, 10), node("c", 2, 7)];
   const command = batch.command(nodes, state);
@@ -54,14 +59,14 @@ it("draws exactly its nodes, each by its row in the table, whenever Cesium binds
     ["draw", 0, 0, 10],
     ["bind", "c"],
     ["number", "u_node", 2],
-    ["draw", 0, 0, 7],
+    ["draw", 0, 200, 7],
     ["unbind", "c"],
   ]);
   calls.length = 0;
   const again = batch.command([nodes[1]], state);
   expect(again).toBe(command);
   again.vertexArray._bind();
-  expect(calls.filter(([name]) => name === "draw")).toEqual([["draw", 0, 0, 7]]);
+  expect(calls.filter(([name]) => name === "draw")).toEqual([["draw", 0, 200, 7]]);
 });
 
 it("lies as near and as far as its nodes do, not as the sphere around them", () => {

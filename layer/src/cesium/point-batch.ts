@@ -2,8 +2,8 @@ import { BoundingSphere, type Cartesian3, Interval, Matrix4, PrimitiveType } fro
 import type { Program } from "../drawing/programs.js";
 import { NODE_NUMBER } from "../effects/index.js";
 import { BatchArray } from "./engine/batch-array.js";
-import { type Context, DrawCommand, type RenderState, type UniformMap } from "./engine/cesium-private.js";
-import type { CesiumTypes } from "./engine/gpu-objects.js";
+import { DrawCommand, type RenderState, type UniformMap } from "./engine/cesium-private.js";
+import type { CesiumTypes, GpuObjects } from "./engine/gpu-objects.js";
 import type { CesiumNode } from "./node-drawable.js";
 
 /** How nodes are drawn: by which program, where to, and with which values. */
@@ -21,20 +21,26 @@ export class PointBatch {
   readonly #array: BatchArray;
   readonly #volume = new NodesVolume();
   #command: DrawCommand | undefined;
+  /** What the list was filled with. */
+  #nodes: readonly CesiumNode[] | undefined;
+  #program: Program<CesiumTypes> | undefined;
 
-  constructor(context: Context) {
-    this.#array = new BatchArray(context, NODE_NUMBER);
+  constructor({ context, draws }: Pick<GpuObjects, "context" | "draws">) {
+    this.#array = new BatchArray(context, draws, NODE_NUMBER);
   }
 
-  /** The command, which draws these nodes from now on; Cesium derives those for depth, colour range and `scene.pick` from it. */
+  /**
+   * The command, which draws these nodes from now on; Cesium derives those for depth, colour range and `scene.pick` from it.
+   * @param nodes of one group, by rising row; the same array as before where they are as they were
+   */
   command(nodes: readonly CesiumNode[], state: DrawState): DrawCommand {
     const { owner, program, renderState, uniformMap, pass } = state;
-    this.#array.draws = nodes.map(({ uploaded, row, count }) => ({
-      array: uploaded.arrayOf(program.reads),
-      number: row,
-      count,
-    }));
-    this.#volume.hold(nodes.map(({ uploaded }) => uploaded.sphere));
+    if (nodes !== this.#nodes || program !== this.#program) {
+      this.#nodes = nodes;
+      this.#program = program;
+      this.#array.list.fill(nodes, program.reads);
+      this.#volume.hold(nodes.map(({ uploaded }) => uploaded.sphere));
+    }
     const changing = { shaderProgram: program.program, renderState, uniformMap, pass };
     if (this.#command) return Object.assign(this.#command, changing);
     this.#command = new DrawCommand({

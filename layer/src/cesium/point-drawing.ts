@@ -1,5 +1,5 @@
 import { BoundingSphere, type Camera, Matrix4 } from "cesium";
-import { byGroup, type DrawnWith } from "../drawing/drawn-node.js";
+import type { DrawnWith } from "../drawing/drawn-node.js";
 import type { GpuMilliseconds } from "../drawing/frame.js";
 import type { LayerContent } from "../drawing/layer-content.js";
 import type { Material } from "../drawing/material.js";
@@ -76,10 +76,10 @@ export class PointDrawing {
   }
 
   /** Commands that draw nodes straight into the scene, one for each program. */
-  sceneCommands({ nodes, programs, depth }: LayerContent<CesiumView>): Command[] {
+  sceneCommands({ grouped, programs, depth }: LayerContent<CesiumView>): Command[] {
     const owner = this.#owner;
     const common = { owner, renderState: this.#states.of("opaque"), pass: Pass.OPAQUE };
-    return [...byGroup<CesiumView>(nodes)].map(([group, members]) => {
+    return [...grouped].map(([group, members]) => {
       const { plan, uniforms } = group;
       const program = programs.of({ plan, pass: "color", into: "scene", logarithmic: depth.scene });
       return this.#batchOf(group).command(members, { ...common, program, uniformMap: uniforms.map });
@@ -89,8 +89,9 @@ export class PointDrawing {
   /** Has the nodes seen by a camera, in float64, in whatever is drawn of them next. */
   place({ groups }: LayerContent<CesiumView>, { viewMatrix }: Camera): void {
     const toEye = new Matrix4();
+    const by = Matrix4.toArray(viewMatrix);
     for (const group of groups) {
-      group.place(1, ({ uploaded: { modelMatrix } }) => ({
+      group.place(1, by, ({ uploaded: { modelMatrix } }) => ({
         u_modelView: Matrix4.multiplyTransformation(viewMatrix, modelMatrix, toEye) as ArrayLike<number>,
       }));
     }
@@ -104,7 +105,7 @@ export class PointDrawing {
   ): Omit<PassSetting, "target"> {
     const programOf = (plan: EffectPlan) =>
       programs.of({ plan, pass, into: "own", logarithmic: !frustum.orthographic });
-    return { context: this.#objects.context, frustum, owner: this.#owner, programOf };
+    return { objects: this.#objects, frustum, owner: this.#owner, programOf };
   }
 
   /** Frees the picture; it is made again when it is next drawn. */
@@ -124,7 +125,7 @@ export class PointDrawing {
     content: LayerContent<CesiumView>,
   ): Command {
     const { context, camera } = frameState;
-    const { nodes, programs, depth } = content;
+    const { nodes, grouped, programs, depth } = content;
     const {
       points: [first, second],
       translucent,
@@ -138,10 +139,10 @@ export class PointDrawing {
     const setting = (pass: PointPass) => this.setting(pass, frustum, content);
     this.#timer.measure(labelOf(plan, "points"), () => {
       this.#pass.clear(context, picture.points, true);
-      this.#pass.draw(first, nodes, { ...setting(first), target: picture.points });
+      this.#pass.draw(first, grouped, { ...setting(first), target: picture.points });
       if (!picture.blending || !second) return;
       this.#pass.clear(context, picture.blending, false);
-      this.#pass.draw(second, nodes, { ...setting(second), target: picture.blending });
+      this.#pass.draw(second, grouped, { ...setting(second), target: picture.blending });
     });
     context.uniformState.updateFrustum(camera.frustum as PointFrustum["frustum"]);
     this.uniforms.take(picture, frustum);
@@ -153,7 +154,7 @@ export class PointDrawing {
   #batchOf(group: DrawnWith<CesiumView>): PointBatch {
     let batch = this.#batches.get(group);
     if (!batch) {
-      batch = new PointBatch(this.#objects.context);
+      batch = new PointBatch(this.#objects);
       this.#batches.set(group, batch);
     }
     return batch;

@@ -91,6 +91,7 @@ export class NodeStream {
   /** Pages of the hierarchy that views go through; each carries the number of this round. */
   #open: HierarchyPage[] = [];
   #round = 1;
+  #changes = 0;
   /** Nodes and pages that may go on if they are on their way, though no view wants them. */
   #fringe = new Set<OctreeNode>();
 
@@ -108,6 +109,11 @@ export class NodeStream {
   /** Nodes and pages being loaded. */
   get active(): number {
     return this.#active.size;
+  }
+
+  /** Rises with whatever may give a view other nodes than it has, although it stands still. */
+  get changes(): number {
+    return this.#changes;
   }
 
   /** Bytes of vertices held. */
@@ -184,6 +190,7 @@ export class NodeStream {
 
   /** Lets what failed be tried again, once a view wants it, and what is waited for now. */
   retryFailed(): void {
+    this.#changes++;
     for (const node of this.#failed) restore(node);
     this.#failed.clear();
     this.#comeback.hasten();
@@ -323,6 +330,7 @@ export class NodeStream {
 
   /** What an answer leaves free is used at once, without waiting for the next frame. */
   #settle(node: OctreeNode): void {
+    this.#changes++;
     this.#active.delete(node);
     if (this.#wants(node) && (node.state === "listed" || node.state === "page")) {
       // Stopped, and wanted again since: its turn was passed over.
@@ -353,6 +361,7 @@ export class NodeStream {
 
   /** Asks again for a node that could not be had for now. @returns whether a view wants it */
   #askAgain(node: OctreeNode): boolean {
+    this.#changes++;
     if (!restore(node) || !this.#wants(node)) return false;
     this.#queue(node);
     this.#next = 0;
@@ -363,6 +372,7 @@ export class NodeStream {
   #trimVertices(): void {
     const inUse = (node: OctreeNode) => this.#wants(node);
     const evicted = this.#cache.trim(inUse, this.#budget?.cpu.excess ?? 0);
+    if (evicted.length > 0) this.#changes++;
     for (const [node] of evicted) {
       node.become("listed");
       for (const listener of this.#listeners) listener.nodeEvicted?.(node);

@@ -3,11 +3,15 @@ import type { EffectPlan } from "../effects/index.js";
 import type { OctreeNode } from "../octree/index.js";
 import type { GpuTypes } from "./gpu.js";
 import type { UploadedNode } from "./node-uploads.js";
+import type { AttributeSet } from "./vertex-attributes.js";
 
 /** The types of what a view draws with. */
 export interface ViewTypes extends GpuTypes {
   /** A node that is uploaded, with what the view needs to draw it. */
-  readonly node: UploadedNode;
+  readonly node: UploadedNode & {
+    /** The vertex array that programs with these attributes read. */
+    arrayOf(reads: AttributeSet): ViewTypes["vertexArray"];
+  };
 }
 
 /** What nodes are drawn with together. */
@@ -31,7 +35,7 @@ export interface DrawnNode<V extends ViewTypes = ViewTypes> {
   readonly clips: NodeClips;
   /** Those that it is drawn with: by the effects of the layer, or the same without volumes where none crosses it. */
   readonly group: DrawnWith<V>;
-  /** Its index among them. */
+  /** Its index among them, by which those of one page follow each other. */
   readonly row: number;
 }
 
@@ -52,15 +56,30 @@ export function pointOf<Node extends Pick<DrawnNode, "firstId" | "count">>(
   return drawn && index < drawn.count ? { drawn, index } : undefined;
 }
 
-/** Nodes by what they are drawn in, in their order. */
-export function byGroup<V extends ViewTypes>(
-  nodes: Iterable<DrawnNode<V>>,
-): Map<DrawnWith<V>, DrawnNode<V>[]> {
+/** Nodes by what they are drawn in, each group's by rising row. */
+export type GroupedNodes<V extends ViewTypes> = Iterable<readonly [DrawnWith<V>, readonly DrawnNode<V>[]]>;
+
+/** Some nodes by what they are drawn in; `LayerContent.grouped` has all. */
+export function byGroup<V extends ViewTypes>(nodes: Iterable<DrawnNode<V>>): GroupedNodes<V> {
   const groups = new Map<DrawnWith<V>, DrawnNode<V>[]>();
   for (const node of nodes) {
     const there = groups.get(node.group);
     if (there) there.push(node);
     else groups.set(node.group, [node]);
   }
+  for (const members of groups.values()) members.sort((a, b) => a.row - b.row);
   return groups;
+}
+
+/** Nodes in an order in which those of one page follow each other, pages and their nodes as they came. */
+export function byPage<Node extends { readonly uploaded: Pick<UploadedNode, "page"> }>(
+  nodes: readonly Node[],
+): Node[] {
+  const pages = new Map<object | undefined, Node[]>();
+  for (const node of nodes) {
+    const there = pages.get(node.uploaded.page);
+    if (there) there.push(node);
+    else pages.set(node.uploaded.page, [node]);
+  }
+  return [...pages.values()].flat();
 }

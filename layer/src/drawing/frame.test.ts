@@ -1,7 +1,8 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { Clip, ClipSet } from "../clips/index.js";
 import type { PointCloud } from "../cloud/index.js";
 import { defaultStyle } from "../effects/index.js";
+import { SharedBudget } from "../octree/index.js";
 import { type FrameReport, LayerFrames, type LayerSettings } from "./frame.js";
 import { cameraOver, POINTS, TestRenderer, type TestView, testCloud } from "./view.fixture.js";
 
@@ -43,6 +44,55 @@ describe("LayerFrames, in a view of no library at all", () => {
     expect(renderer.drawn.at(-1)).toBe(POINTS);
     expect([frames.settled(true), frames.limited]).toEqual([true, false]);
     expect(frames.ledger(renderer.content.material?.plan.active).some(({ active }) => active)).toBe(true);
+  });
+
+  it("finds out nothing anew for a view that stands still, until something that it rests on changes", async () => {
+    const { cloud, frames, frame, settle, renderer } = await setUp();
+    const settings = settingsOf();
+    await settle(settings);
+    const prepare = vi.spyOn(renderer.content, "prepare");
+    /** Whether a frame went through all of its parts. */
+    const whole = (given: LayerSettings, metres = 100) => {
+      prepare.mockClear();
+      const report = frames.draw(given, cameraOver(cloud, metres), () => renderer);
+      expect(report).toMatchObject({ done: true });
+      expect(renderer.drawn.at(-1)).toBe(POINTS);
+      return prepare.mock.calls.length > 0;
+    };
+    expect(whole(settings)).toBe(false);
+    expect(frames.settled(true)).toBe(true);
+    const budget = new SharedBudget({ points: 1000 });
+    const changes: Record<string, () => boolean> = {
+      "the camera": () => whole(settings, 101),
+      "a setting": () => whole({ ...settings, maximumScreenSpaceError: 3 }),
+      "the stream": () => {
+        cloud.stream.retryFailed();
+        return whole(settings);
+      },
+      "the places": () => {
+        renderer.content.lift(5);
+        return whole(settings);
+      },
+      "a budget": () => whole({ ...settings, budget }),
+      "its size": () => {
+        budget.points = 2000;
+        return whole({ ...settings, budget });
+      },
+    };
+    for (const [name, change] of Object.entries(changes)) {
+      expect(change(), name).toBe(true);
+      whole(settings);
+      expect(whole(settings), `${name}, still again`).toBe(false);
+    }
+    const shared = { ...settings, budget };
+    whole(shared);
+    expect(whole(shared)).toBe(false);
+    budget.gpu.report({}, 2 ** 40);
+    expect(whole(shared), "another layer takes more than there is").toBe(true);
+    frames.rest(true);
+    await turn();
+    expect(frame(settings)).not.toBe("blocked");
+    expect(prepare).toHaveBeenCalled();
   });
 
   it("draws what volumes leave, and rests where the first ones cannot be prepared", async () => {

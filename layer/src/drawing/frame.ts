@@ -23,6 +23,7 @@ import { FrameAllowance } from "./frame-allowance.js";
 import type { FrameCamera } from "./frame-camera.js";
 import type { ContentRequest, LayerContent } from "./layer-content.js";
 import { sceneFacts } from "./scene-facts.js";
+import { cameraGround, type FrameGround, StillFrame } from "./still-frame.js";
 
 /** What a layer is asked to show, as its properties stand at a frame. */
 export interface LayerSettings {
@@ -72,6 +73,11 @@ export interface FrameReport extends FrameChange {
   readonly progress: StreamProgress;
 }
 
+/** Whether layers that share a budget have what is due to each, and none is to give anything up. */
+function roomIn(budget: SharedBudget | undefined): boolean {
+  return !budget || (budget.balanced && budget.cpu.excess === 0 && budget.gpu.excess === 0);
+}
+
 /** Milliseconds; what lies further apart are frames on demand, whose distance says nothing. */
 const LONGEST_FRAME = 1000;
 
@@ -91,6 +97,7 @@ export class LayerFrames<V extends ViewTypes> {
   readonly #completion = new Completion();
   readonly #costs = new CostMeter();
   readonly #clips = new ClipAnswers();
+  readonly #still = new StillFrame();
   /** Parts that have run before. */
   readonly #begun = new Set<Part>();
   #selection: Selection | undefined;
@@ -144,6 +151,7 @@ export class LayerFrames<V extends ViewTypes> {
   rest(show: boolean): void {
     if (this.#selection) this.#octree.stream.detach(this.#owner);
     this.#selection = undefined;
+    this.#still.note(undefined);
     this.#clips.rest();
     this.#completion.rest(show);
   }
@@ -164,6 +172,14 @@ export class LayerFrames<V extends ViewTypes> {
     const clips = this.#clips;
     clips.follow(volumes, this.#cloud, allowance);
     if (clips.blocked) return "blocked";
+    if (this.#still.stands) {
+      const renderer = rendererOf();
+      if (this.#still.holds(this.#ground(settings, camera, renderer)) && roomIn(budget)) {
+        renderer.draw();
+        this.#measure(renderer);
+        return { progress: this.#completion.progress, changed: false, finished: false, done: true };
+      }
+    }
     const selection = this.#select(settings, camera, allowance);
     if (this.#isFirst("selection")) return "unfinished";
     const renderer = rendererOf();
@@ -172,6 +188,7 @@ export class LayerFrames<V extends ViewTypes> {
     const forced = renderer.blends ? settings.forced : { ...settings.forced, splats: false };
     const plan = this.#plan(style, facts, forced);
     if (this.#isFirst("plan")) return "unfinished";
+    const ground = this.#ground(settings, camera, renderer);
     const request = {
       ...{ selection, plan, clips, allowance, depth: camera.depth },
       vertices: (node: OctreeNode) => stream.vertices(node),
@@ -182,14 +199,28 @@ export class LayerFrames<V extends ViewTypes> {
     const probing = renderer.probe(asksForSilhouettes(style, forced), request);
     if (budget) content.keepWithin(budget.gpu, this.#owner);
     this.#measure(renderer);
+    const idle = stream.active === 0;
     const change = this.#completion.note({
       progress: stream.progress(this.#owner),
       undrawn: content.undrawn,
       drawn: waiting === 0 && !clips.pending && !probing && (budget?.balanced ?? true),
-      idle: stream.active === 0,
+      idle,
       pose: camera.pose,
     });
+    this.#still.note(change.done && idle ? ground : undefined);
     return { progress: this.#completion.progress, ...change };
+  }
+
+  /** What a frame rests on, as it stands now. */
+  #ground(settings: LayerSettings, camera: FrameCamera, renderer: LayerRenderer<V>): FrameGround {
+    const { maximumScreenSpaceError, pointBudget, budget, clips, style, filter, forced } = settings;
+    const { silhouettes, blends, content } = renderer;
+    return [
+      ...[maximumScreenSpaceError, pointBudget, budget, budget?.points, clips, style, filter, forced],
+      ...[this.#clips.held, this.#clips.pending, this.#octree.stream.changes],
+      ...[renderer, silhouettes, blends, content.heightOffset],
+      ...cameraGround(camera),
+    ];
   }
 
   #select(settings: LayerSettings, { view }: FrameCamera, allowance: FrameAllowance): Selection {
@@ -247,7 +278,7 @@ export class LayerFrames<V extends ViewTypes> {
     const { points: drawing, picture = 0 } = gpuMilliseconds;
     const plan = content.material?.plan;
     if (!plan) return;
-    const points = content.nodes.reduce((sum, { count }) => sum + count, 0);
+    const { points } = content;
     if (drawing !== undefined) {
       this.#costs.note({ plan, points, milliseconds: drawing + picture, by: "timer query" });
     } else if (!measuresGpu && this.#interval > 0) {

@@ -1,6 +1,7 @@
 import type { PointShader, ShaderTarget } from "../effects/index.js";
 import type { ColumnData } from "../workers/index.js";
 import type { ProgramNeed } from "./program-needs.js";
+import type { VertexNumbers } from "./vertex-numbers.js";
 
 /** Kinds of GPU objects that a layer makes. */
 export type GpuKind =
@@ -63,8 +64,8 @@ export interface Uniforms<Texture> {
 export type VertexInput<Buffer> = { readonly location: number } & (
   | {
       readonly buffer: Buffer;
-      /** What the buffer was made of. */
-      readonly data: ColumnData;
+      /** How they are stored. */
+      readonly numbers: VertexNumbers;
       readonly components: number;
       /** Whether integers become 0 to 1. Integers that do not become the float of the same value. */
       readonly normalized: boolean;
@@ -91,7 +92,10 @@ export interface Gpu<T extends GpuTypes> {
   /** Bytes of buffers and textures that are alive. */
   readonly bytes: number;
   readonly counts: GpuCounts;
-  vertexBuffer(data: ColumnData): T["buffer"];
+  /** A buffer of so many bytes. */
+  vertexBuffer(bytes: number): T["buffer"];
+  /** Writes numbers into a buffer, from a byte on. */
+  writeBuffer(buffer: T["buffer"], data: ColumnData, at: number): void;
   vertexArray(inputs: readonly VertexInput<T["buffer"]>[]): T["vertexArray"];
   /** A texture that is read texel by texel, without filtering. */
   dataTexture(texels: Texels): T["texture"];

@@ -1,7 +1,13 @@
-import { type EffectPlan, nodeUniforms, widestPoint, withoutClips } from "../effects/index.js";
+import {
+  type EffectPlan,
+  type NodeValues,
+  nodeUniforms,
+  widestPoint,
+  withoutClips,
+} from "../effects/index.js";
 import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
 import type { ClipAnswers } from "./clip-answers.js";
-import type { DrawnNode, ViewTypes } from "./drawn-node.js";
+import { byPage, type DrawnNode, type GroupedNodes, type ViewTypes } from "./drawn-node.js";
 import type { DrawnVertices } from "./drawn-vertices.js";
 import type { FrameAllowance } from "./frame-allowance.js";
 import type { Gpu } from "./gpu.js";
@@ -12,6 +18,7 @@ import { NodeUploads } from "./node-uploads.js";
 import { type LogarithmicDepth, pointProgramsOf, programsOf } from "./program-needs.js";
 import { Programs } from "./programs.js";
 import type { AttributeSet } from "./vertex-attributes.js";
+import { VertexPages } from "./vertex-pages.js";
 
 /** What a frame is to show. */
 export interface ContentRequest {
@@ -25,35 +32,51 @@ export interface ContentRequest {
   readonly allowance: FrameAllowance;
 }
 
+/** A node of a frame that is being put together. */
+interface Drawing<V extends ViewTypes> extends DrawnNode<V> {
+  row: number;
+  values: NodeValues;
+}
+
 /** What a layer has on the GPU of one context, and what of it the last frame shows. */
 export class LayerContent<V extends ViewTypes> {
   readonly programs: Programs<V>;
   readonly #gpu: Gpu<V>;
   readonly #materials: Materials<V>;
+  readonly #pages: VertexPages<V>;
   readonly #uploads: NodeUploads<V["node"]>;
   #depth: LogarithmicDepth = { own: false, scene: false };
   #nodes: DrawnNode<V>[] = [];
   #groups: NodeGroup<V>[] = [];
   #undrawn = 0;
+  #points = 0;
 
   /**
    * @param base uniforms that the view itself fills
-   * @param makeNode a node of which nothing is on the GPU yet, so many metres above its place
+   * @param makeNode a node of which nothing is in the pages yet, so many metres above its place
    */
   constructor(
     gpu: Gpu<V>,
     base: V["uniforms"],
-    makeNode: (vertices: DrawnVertices, heightOffset: number) => V["node"],
+    makeNode: (pages: VertexPages<V>, vertices: DrawnVertices, heightOffset: number) => V["node"],
   ) {
     this.#gpu = gpu;
     this.programs = new Programs(gpu);
     this.#materials = new Materials(gpu, base);
-    this.#uploads = new NodeUploads(makeNode);
+    this.#pages = new VertexPages(gpu);
+    this.#uploads = new NodeUploads((vertices, heightOffset) =>
+      makeNode(this.#pages, vertices, heightOffset),
+    );
   }
 
   /** Nodes of the last frame, as they are drawn, by rising `firstId`. */
   get nodes(): readonly DrawnNode<V>[] {
     return this.#nodes;
+  }
+
+  /** Points of the last frame. */
+  get points(): number {
+    return this.#points;
   }
 
   /** Nodes on the GPU: those of the last frame, and those of the frames before that there was room for. */
@@ -64,6 +87,11 @@ export class LayerContent<V extends ViewTypes> {
   /** What they are drawn in, the rows of each of their tables as the frame began. */
   get groups(): readonly NodeGroup<V>[] {
     return this.#groups;
+  }
+
+  /** All nodes of the last frame by what they are drawn in. */
+  get grouped(): GroupedNodes<V> {
+    return this.#groups.map((group) => [group, group.nodes] as const);
   }
 
   /** Nodes that the last frame wanted and that were here, and that it did not draw yet. */
@@ -93,7 +121,8 @@ export class LayerContent<V extends ViewTypes> {
   }
 
   lift(heightOffset: number): void {
-    this.#uploads.lift(heightOffset);
+    if (!this.#uploads.lift(heightOffset)) return;
+    for (const group of this.#groups) group.replace();
   }
 
   /**
@@ -104,6 +133,7 @@ export class LayerContent<V extends ViewTypes> {
   prepare(request: ContentRequest): number {
     const { selection, vertices, plan, clips, depth, allowance } = request;
     this.#depth = depth;
+    this.#pages.tidy();
     this.programs.nextFrame();
     const materials = this.#materials;
     const material = materials.want(plan);
@@ -121,6 +151,7 @@ export class LayerContent<V extends ViewTypes> {
     const { shown } = materials;
     if (shown === material) shown.update(plan);
     this.#nodes = shown ? this.#collect(shown, request) : [];
+    this.#points = this.#nodes.reduce((sum, { count }) => sum + count, 0);
     this.#undrawn = shown ? Math.max(waiting, unformed) : here.length;
     return waiting + unformed + (materials.next ? 1 : 0);
   }
@@ -128,6 +159,7 @@ export class LayerContent<V extends ViewTypes> {
   /** Nothing of the layer is in the next frame. */
   rest(): void {
     this.#nodes = [];
+    this.#points = 0;
     this.#groups = [];
   }
 
@@ -135,6 +167,7 @@ export class LayerContent<V extends ViewTypes> {
   free(node: OctreeNode): void {
     this.#uploads.free(node);
     this.#nodes = this.#nodes.filter((drawn) => drawn.node !== node);
+    for (const group of this.#groups) group.forget(node);
   }
 
   /** Frees what the last frame did not show until the layers that share a budget keep it. */
@@ -172,8 +205,8 @@ export class LayerContent<V extends ViewTypes> {
     const reads = this.#reads(material);
     const { plan } = material;
     const plain = withoutClips(plan);
-    const drawn: DrawnNode<V>[] = [];
-    const members = new Map<NodeGroup<V>, DrawnNode<V>[]>();
+    const drawn: Drawing<V>[] = [];
+    const members = new Map<NodeGroup<V>, Drawing<V>[]>();
     for (const each of [plan, plain]) members.set(material.groupOf(each), []);
     let firstId = 0;
     selection.nodes.forEach((node, index) => {
@@ -183,26 +216,33 @@ export class LayerContent<V extends ViewTypes> {
       const count = Math.min(selection.counts[index], uploaded.vertices.count);
       const group = material.groupOf(clips.state === "in" ? plain : plan);
       const nodes = members.get(group) ?? [];
-      const one = { node, uploaded, count, firstId, clips, group, row: nodes.length };
+      const one = { node, uploaded, count, firstId, clips, group, row: 0, values: {} };
       nodes.push(one);
       drawn.push(one);
       firstId += count;
     });
     const octreeIndices = material.showOctree(drawn);
     const clipRecords = material.showClips(drawn);
-    const values = drawn.map(({ node, uploaded: { vertices }, firstId }, index) =>
-      nodeUniforms(plan, {
-        ...{ columns: vertices.columns, toCube: vertices.toCube, firstId },
+    drawn.forEach((one, index) => {
+      const { node, uploaded, firstId } = one;
+      const { columns, toCube } = uploaded.vertices;
+      one.values = nodeUniforms(plan, {
+        // Programs count from the first vertex of the page.
+        ...{ columns, toCube, firstId: firstId - uploaded.first },
         level: node.key.depth,
         spacing: node.bounds?.spacing ?? 0,
         octreeIndex: octreeIndices?.[index] ?? 0,
         clips: clipRecords[index] ?? [0, 0],
-      }),
-    );
+      });
+    });
     this.#groups = [];
     for (const [group, nodes] of members) {
-      const own = values.filter((_, index) => drawn[index].group === group);
-      group.take(group.plan.key === plan.key ? plan : plain, nodes, own);
+      const ordered = byPage(nodes);
+      ordered.forEach((one, row) => {
+        one.row = row;
+      });
+      const values = ordered.map((one) => one.values);
+      group.take(group.plan.key === plan.key ? plan : plain, ordered, values);
       if (nodes.length > 0) this.#groups.push(group);
     }
     return drawn;

@@ -9,9 +9,13 @@ const BYTES = 4 * 1024 * 1024;
 /** A node on the GPU, as a view draws it. */
 export interface UploadedNode {
   readonly vertices: DrawnVertices;
+  /** What tells the page that it lies in from others: nodes of one page can be drawn by one call. */
+  readonly page: object | undefined;
+  /** Its first vertex there. */
+  readonly first: number;
   /** Whether its points have changed since it was made, so that another one has to take its place. */
   readonly outdated: boolean;
-  /** Bytes on the GPU. */
+  /** Bytes of its page that it fills. */
   readonly bytes: number;
   /** Whether programs that read these attributes can draw it. */
   has(set: AttributeSet): boolean;
@@ -89,11 +93,12 @@ export class NodeUploads<Node extends UploadedNode> {
     for (const uploaded of this.#nodes.values()) uploaded.keep(sets);
   }
 
-  /** Draws all nodes so many metres above their places, those to come as well. */
-  lift(heightOffset: number): void {
-    if (heightOffset === this.#heightOffset) return;
+  /** Draws all nodes so many metres above their places, those to come as well. @returns whether they were not before */
+  lift(heightOffset: number): boolean {
+    if (heightOffset === this.#heightOffset) return false;
     this.#heightOffset = heightOffset;
     for (const uploaded of this.#nodes.values()) uploaded.lift(heightOffset);
+    return true;
   }
 
   /** Nodes that are not among those shown, the one uploaded longest ago first. */

@@ -5,19 +5,14 @@ import type { Column } from "../workers/index.js";
 export const POSITION = "position";
 
 /**
- * The value of a vertex attribute that is the same for all points of a node, as where they share one class: it takes no
- * memory.
+ * What a buffer holds for each point of a node where all have the same value: the numbers stored, not the value that they
+ * stand for.
  * @param column undefined where the data set has no such attribute, which then is 0
  */
-export function constantValue(
-  { normalized, components }: Pick<AttributeDeclaration, "normalized" | "components">,
-  column: Column | undefined,
-): number[] {
+export function storedConstant(components: number, column: Column | undefined): number[] {
   const { constant = [], scale = 1, offset = 0 } = column ?? {};
-  // What the shader would read from a buffer: the number stored, not the value that it stands for.
-  const stored = (value: number) => (normalized ? value / 255 : (value - offset) / scale);
   // No value at all is NaN, which not every GPU can be given.
-  return Array.from({ length: components }, (_, at) => stored(constant[at] ?? 0) || 0);
+  return Array.from({ length: components }, (_, at) => ((constant[at] ?? 0) - offset) / scale || 0);
 }
 
 /** What a program reads of each point: programs with the same signature share vertex arrays. */

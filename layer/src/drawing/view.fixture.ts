@@ -6,9 +6,18 @@ import { BlobSource } from "../sources/index.js";
 import type { NodeExecutor, NodeVertices } from "../workers/index.js";
 import type { LayerRenderer } from "./frame.js";
 import type { FrameCamera } from "./frame-camera.js";
-import { type Destroyable, type Gpu, type GpuKind, type GpuTypes, NO_OBJECTS, type Uniforms } from "./gpu.js";
+import {
+  type Destroyable,
+  type Gpu,
+  type GpuBuffer,
+  type GpuKind,
+  type GpuTypes,
+  NO_OBJECTS,
+  type Uniforms,
+  type VertexInput,
+} from "./gpu.js";
 import { LayerContent } from "./layer-content.js";
-import { NodeBuffers } from "./node-buffers.js";
+import { PagedNode } from "./paged-node.js";
 
 /** Points of the data set, all in one node. */
 export const POINTS = 10;
@@ -26,11 +35,36 @@ class PlainUniforms implements Uniforms<GpuTypes["texture"]> {
   }
 }
 
+/** A buffer that keeps what is written into it. */
+class TestBuffer implements GpuBuffer {
+  readonly #bytes: Uint8Array<ArrayBuffer>;
+
+  constructor(readonly sizeInBytes: number) {
+    this.#bytes = new Uint8Array(sizeInBytes);
+  }
+
+  write(data: ArrayBufferView, at: number): void {
+    this.#bytes.set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), at);
+  }
+
+  /** So many numbers of it, from one on. */
+  written<T>(
+    kind: new (buffer: ArrayBuffer) => { subarray(begin: number, end: number): T },
+    from: number,
+    count: number,
+  ): T {
+    return new kind(this.#bytes.buffer).subarray(from, from + count);
+  }
+
+  destroy(): void {}
+}
+
 export interface TestTypes extends GpuTypes {
+  readonly buffer: TestBuffer;
   readonly uniforms: PlainUniforms;
 }
 
-class TestNode extends NodeBuffers<TestTypes> {
+export class TestNode extends PagedNode<TestTypes> {
   lifted = 0;
 
   lift(heightOffset: number): void {
@@ -46,6 +80,7 @@ export interface TestView extends TestTypes {
 export class TestGpu implements Gpu<TestTypes> {
   readonly target = WEBGL2;
   readonly #alive = new Map<Destroyable, { readonly kind: GpuKind; readonly bytes: number }>();
+  readonly #read = new WeakMap<Destroyable, readonly TestBuffer[]>();
 
   get bytes(): number {
     return [...this.#alive.values()].reduce((sum, { bytes }) => sum + bytes, 0);
@@ -57,12 +92,31 @@ export class TestGpu implements Gpu<TestTypes> {
     return counts;
   }
 
-  vertexBuffer(data: ArrayBufferView) {
-    return this.#own("buffers", { sizeInBytes: data.byteLength, destroy() {} }, data.byteLength);
+  /** Those that are alive, as they were made. */
+  buffers(): TestBuffer[] {
+    return [...this.#alive.keys()].filter((object) => object instanceof TestBuffer);
   }
 
-  vertexArray() {
-    return this.#own("vertexArrays", { destroy() {} });
+  /** Those that a vertex array reads. */
+  buffersOf(array: Destroyable): readonly TestBuffer[] {
+    return this.#read.get(array) ?? [];
+  }
+
+  vertexBuffer(bytes: number) {
+    return this.#own("buffers", new TestBuffer(bytes), bytes);
+  }
+
+  writeBuffer(buffer: TestBuffer, data: ArrayBufferView, at: number): void {
+    buffer.write(data, at);
+  }
+
+  vertexArray(inputs: readonly VertexInput<TestBuffer>[]) {
+    const array = this.#own("vertexArrays", { destroy() {} });
+    this.#read.set(
+      array,
+      inputs.flatMap((input) => ("buffer" in input ? [input.buffer] : [])),
+    );
+    return array;
   }
 
   dataTexture({ width, height, data }: { width: number; height: number; data: ArrayBufferView }) {
@@ -97,7 +151,7 @@ export class TestRenderer implements LayerRenderer<TestView> {
   readonly content = new LayerContent<TestView>(
     this.gpu,
     new PlainUniforms(),
-    (vertices) => new TestNode(this.gpu, vertices),
+    (pages, vertices) => new TestNode(pages, vertices),
   );
   readonly blends = true;
   readonly silhouettes = undefined;

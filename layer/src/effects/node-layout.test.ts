@@ -51,7 +51,7 @@ it("gives each node its own values back, whatever they are", () => {
       let next = 0;
       const rows = [0, 1, 2].map(() =>
         types.map((type) => {
-          if (type === "int") return Math.abs(Math.trunc(1000 * numbers[next++ % 400]));
+          if (type === "int") return Math.trunc(1000 * numbers[next++ % 400]) || 0;
           if (type === "float") return numbers[next++ % 400];
           const values = Array.from({ length: LENGTHS[type] }, () => numbers[next++ % 400]);
           if (type === "mat4") [values[3], values[7], values[11], values[15]] = [0, 0, 0, 1];

@@ -61,8 +61,9 @@ export function writeNode(layout: NodeLayout, table: Float32Array, row: number, 
     if (value === undefined) continue;
     if (type === "mat4") writeMatrix(table, begin + at, value as ArrayLike<number>);
     else if (type === "int") {
-      table[begin + at] = Math.floor((value as number) / PART);
-      table[begin + at + 1] = (value as number) % PART;
+      const parts = Math.floor((value as number) / PART);
+      table[begin + at] = parts;
+      table[begin + at + 1] = (value as number) - parts * PART;
     } else if (typeof value === "number") table[begin + at] = value;
     else table.set(value, begin + at);
   }
@@ -84,7 +85,7 @@ export interface NodeReading {
   readonly statements: readonly string[];
 }
 
-/** The uniform that says which node of the table is drawn. */
+/** The uniform that says which node of the table is drawn; the first of them where one call draws many. */
 export const NODE_NUMBER = "u_node";
 /** The sampler of the table. */
 export const NODE_TABLE = "u_nodes";
@@ -95,8 +96,15 @@ export const NODE_UNIFORMS: readonly UniformDeclaration[] = [
   { name: NODE_NUMBER, type: "int", scope: "view" },
 ];
 
-/** @param read the uniforms of nodes that the shader reads */
-export function nodeReading(layout: NodeLayout, read: readonly UniformDeclaration[]): NodeReading {
+/**
+ * @param read the uniforms of nodes that the shader reads
+ * @param manyDraws whether one call draws many nodes that follow each other, the first of which the uniform names
+ */
+export function nodeReading(
+  layout: NodeLayout,
+  read: readonly UniformDeclaration[],
+  manyDraws = false,
+): NodeReading {
   const names = new Set(read.map(({ name }) => name));
   const fields = layout.fields.filter(({ name }) => names.has(name));
   if (fields.length === 0) return { uniforms: [], globals: [], statements: [] };
@@ -108,7 +116,7 @@ export function nodeReading(layout: NodeLayout, read: readonly UniformDeclaratio
       `vec4 nodeValues(int texel) { return texelFetch(${NODE_TABLE}, ivec2(texel % ${NODE_TABLE_WIDTH}, texel / ${NODE_TABLE_WIDTH}), 0); }`,
     ],
     statements: [
-      `int ofNode = ${NODE_NUMBER} * ${layout.texels};`,
+      `int ofNode = ${manyDraws ? `(${NODE_NUMBER} + gl_DrawID)` : NODE_NUMBER} * ${layout.texels};`,
       ...texels.map((texel) => `vec4 node${texel} = nodeValues(ofNode + ${texel});`),
       ...fields.map((field) => `${field.name} = ${expressionOf(field)};`),
     ],

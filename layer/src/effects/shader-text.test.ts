@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { UniformDeclaration } from "./declaration/shader.js";
+import { nodeLayout } from "./node-layout.js";
 import { readBy, shaderText, stagedStatements, unique } from "./shader-text.js";
 import { WEBGL2 } from "./webgl2-target.js";
 
@@ -36,6 +37,21 @@ describe("the text of a shader", () => {
         ...["float g() { return u_a; }", "void main() {", "  f();", "}", ""],
       ].join("\n"),
     );
+  });
+
+  it("reads the row of a node by the draw where one call draws many, and says so after the version alone", () => {
+    const node: UniformDeclaration = { name: "u_level", type: "float", scope: "node" };
+    const asked = source(["float x = u_level;"], { uniforms: [node], nodes: nodeLayout([node]) });
+    const textFor = (manyDraws: boolean) => shaderText({ ...WEBGL2, nodeTable: true, manyDraws }, asked);
+    const [version, ...rest] = WEBGL2.header.split("\n");
+    const header = [version, "#extension GL_ANGLE_multi_draw : require", ...rest].join("\n");
+    expect(textFor(true).startsWith(header)).toBe(true);
+    expect(textFor(true)).toContain("int ofNode = (u_node + gl_DrawID) * 1;");
+    expect(textFor(false).startsWith(WEBGL2.header)).toBe(true);
+    expect(textFor(false)).toContain("int ofNode = u_node * 1;");
+    // Cesium writes the version itself, and brings extensions to the top.
+    const bare = shaderText({ ...WEBGL2, header: "", nodeTable: true, manyDraws: true }, asked);
+    expect(bare.startsWith("#extension GL_ANGLE_multi_draw : require\n")).toBe(true);
   });
 
   it("says words as the target does, and knows no others", () => {

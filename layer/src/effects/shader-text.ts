@@ -25,12 +25,19 @@ export function shaderText(target: ShaderTarget, source: ShaderSource): string {
   const statements = source.statements.map(worded);
   const read = readBy([...functions, ...statements].join("\n"), [...source.uniforms, ...target.uniforms]);
   const inTable = (uniform: UniformDeclaration) => source.nodes !== undefined && uniform.scope === "node";
-  const nodes = source.nodes && nodeReading(source.nodes, read.filter(inTable));
+  const { manyDraws } = target;
+  const nodes = source.nodes && nodeReading(source.nodes, read.filter(inTable), manyDraws);
   const uniforms = [...read.filter((uniform) => !inTable(uniform)), ...(nodes?.uniforms ?? [])];
   const lines = [...(nodes?.statements ?? []), ...statements].map((line) => `  ${line}\n`);
   const head = [...source.declarations, ...uniforms.map(uniformLine), ...(nodes?.globals ?? [])];
   const body = [...functions, `void main() {\n${lines.join("")}}\n`].join("\n");
-  return `${target.header}${head.map((line) => `${line}\n`).join("")}\n${body}`;
+  const header = nodes && manyDraws ? extended(target.header) : target.header;
+  return `${header}${head.map((line) => `${line}\n`).join("")}\n${body}`;
+}
+
+/** First lines of a shader that reads the number of a draw: what it takes for that comes before all but the version. */
+function extended(header: string): string {
+  return header.replace(/^(#version .*\n)?/, "$1#extension GL_ANGLE_multi_draw : require\n");
 }
 
 /** Statements of one stage after the other. @param shared stages whose lines come in once */

@@ -8,14 +8,19 @@ import {
   type Texels,
   type VertexInput,
 } from "../drawing/gpu.js";
+import { PointDraws } from "../drawing/point-draws.js";
+import type { VertexNumbers } from "../drawing/vertex-numbers.js";
 import { type PointShader, type ShaderTarget, WEBGL2 } from "../effects/index.js";
 import type { ColumnData } from "../workers/index.js";
 import { GlProgram } from "./gl-program.js";
 import type { GlBuffer, GlFramebuffer, GlTexture, GlVertexArray, PictureFormat } from "./gl-types.js";
 import { GlUniforms } from "./gl-uniforms.js";
 
-/** What belongs to a node comes in a table. */
-const TARGET: ShaderTarget = { ...WEBGL2, nodeTable: true };
+/** WebGL's numbers of how numbers are stored. */
+const TYPES: Readonly<Record<VertexNumbers, number>> = {
+  ...{ int8: 0x1400, uint8: 0x1401, int16: 0x1402, uint16: 0x1403 },
+  ...{ int32: 0x1404, uint32: 0x1405, float32: 0x1406 },
+};
 
 /** What drawing is given of WebGL 2's objects. */
 export interface GlTypes extends GpuTypes {
@@ -28,14 +33,18 @@ export interface GlTypes extends GpuTypes {
 
 /** Makes all GPU objects of a layer in one context, and knows what is alive. */
 export class GlObjects implements Gpu<GlTypes> {
-  readonly target = TARGET;
+  readonly target: ShaderTarget;
   readonly gl: WebGL2RenderingContext;
+  readonly draws: PointDraws;
   readonly #alive = new Map<Destroyable, { readonly kind: GpuKind; readonly bytes: number }>();
   readonly #counts: Record<GpuKind, number> = { ...NO_OBJECTS };
   #bytes = 0;
 
   constructor(gl: WebGL2RenderingContext) {
     this.gl = gl;
+    this.draws = new PointDraws(gl);
+    // What belongs to a node comes in a table.
+    this.target = { ...WEBGL2, nodeTable: true, manyDraws: this.draws.many };
   }
 
   get counts(): GpuCounts {
@@ -46,13 +55,19 @@ export class GlObjects implements Gpu<GlTypes> {
     return this.#bytes;
   }
 
-  vertexBuffer(data: ColumnData): GlBuffer {
+  vertexBuffer(bytes: number): GlBuffer {
     const { gl } = this;
     const buffer = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
-    const made = { buffer, sizeInBytes: data.byteLength, destroy: () => gl.deleteBuffer(buffer) };
-    return this.own("buffers", made, data.byteLength);
+    gl.bufferData(gl.ARRAY_BUFFER, bytes, gl.STATIC_DRAW);
+    const made = { buffer, sizeInBytes: bytes, destroy: () => gl.deleteBuffer(buffer) };
+    return this.own("buffers", made, bytes);
+  }
+
+  writeBuffer({ buffer }: GlBuffer, data: ColumnData, at: number): void {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferSubData(gl.ARRAY_BUFFER, at, data);
   }
 
   vertexArray(inputs: readonly VertexInput<GlBuffer>[]): GlVertexArray {
@@ -65,10 +80,10 @@ export class GlObjects implements Gpu<GlTypes> {
         constants.push(input);
         continue;
       }
-      const { location, buffer, data, components, normalized } = input;
+      const { location, buffer, numbers, components, normalized } = input;
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer.buffer);
       gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, components, numberType(gl, data), normalized, 0, 0);
+      gl.vertexAttribPointer(location, components, TYPES[numbers], normalized, 0, 0);
     }
     gl.bindVertexArray(null);
     return this.own("vertexArrays", { array, constants, destroy: () => gl.deleteVertexArray(array) });
@@ -155,13 +170,4 @@ export class GlObjects implements Gpu<GlTypes> {
     }
     return this.own("textures", { texture, width, height, destroy: () => gl.deleteTexture(texture) }, bytes);
   }
-}
-
-function numberType(gl: WebGL2RenderingContext, data: ColumnData): number {
-  if (data instanceof Float32Array) return gl.FLOAT;
-  if (data instanceof Uint8Array) return gl.UNSIGNED_BYTE;
-  if (data instanceof Int8Array) return gl.BYTE;
-  if (data instanceof Uint16Array) return gl.UNSIGNED_SHORT;
-  if (data instanceof Int16Array) return gl.SHORT;
-  return data instanceof Uint32Array ? gl.UNSIGNED_INT : gl.INT;
 }

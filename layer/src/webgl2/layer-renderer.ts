@@ -1,4 +1,4 @@
-import { pointOf } from "../drawing/drawn-node.js";
+import { byGroup, pointOf } from "../drawing/drawn-node.js";
 import type { GpuMilliseconds, LayerRenderer as Renderer } from "../drawing/frame.js";
 import { LayerContent } from "../drawing/layer-content.js";
 import { nearestId, windowPixels } from "../drawing/pick-window.js";
@@ -42,7 +42,7 @@ export class LayerRenderer implements Renderer<GlView> {
     this.content = new LayerContent<GlView>(
       this.objects,
       this.#view,
-      (vertices) => new NodeDrawable(this.objects, vertices),
+      (pages, vertices) => new NodeDrawable(pages, vertices),
     );
   }
 
@@ -106,7 +106,7 @@ export class LayerRenderer implements Renderer<GlView> {
     // The whole picture, shifted so that the window comes to lie in the corner.
     const target = this.#numbers.target("points", [-x, -y, camera.width, camera.height]);
     clear(gl, target, true);
-    drawPoints(gl, "id", nodes, camera, target, this.#programs("id", "own"));
+    drawPoints(this.objects, "id", byGroup<GlView>(nodes), camera, target, this.#programs("id", "own"));
     const pixels = new Uint8Array(4 * edge * edge);
     gl.readPixels(0, 0, edge, edge, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
@@ -148,24 +148,25 @@ export class LayerRenderer implements Renderer<GlView> {
     if (!material || all.length === 0) return;
     const { offscreen, points } = passesOf(material.plan);
     // A nearer point changes what blends behind it.
-    const nodes = points.length > 1 ? all : all.slice(kept);
-    if (nodes.length === 0 && !offscreen) return;
+    const stays = points.length > 1 ? 0 : kept;
+    if (stays >= all.length && !offscreen) return;
+    const nodes = stays > 0 ? byGroup<GlView>(all.slice(stays)) : this.content.grouped;
     this.#setView(camera, camera.width, camera.height);
     placeNodes(this.content.groups, camera);
     if (!offscreen) {
       this.#picture.release();
-      drawPoints(gl, "color", nodes, camera, screen, this.#programs("color", "scene"));
+      drawPoints(this.objects, "color", nodes, camera, screen, this.#programs("color", "scene"));
       return;
     }
     const [first, second] = points;
     this.#picture.prepare(camera.width, camera.height, second !== undefined);
     const target = this.#picture.target();
-    if (nodes.length === all.length) clear(gl, target, true);
-    drawPoints(gl, first, nodes, camera, target, this.#programs(first, "own"));
+    if (stays === 0) clear(gl, target, true);
+    drawPoints(this.objects, first, nodes, camera, target, this.#programs(first, "own"));
     if (second) {
       const sums = this.#picture.target("sums");
       clear(gl, sums, false);
-      drawPoints(gl, second, nodes, camera, sums, this.#programs(second, "own"));
+      drawPoints(this.objects, second, nodes, camera, sums, this.#programs(second, "own"));
     }
     const { colour, depth } = this.#picture;
     if (colour) this.#view.setTexture("u_color", colour);

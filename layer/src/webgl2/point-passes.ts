@@ -1,11 +1,12 @@
-import { byGroup } from "../drawing/drawn-node.js";
+import { DrawList } from "../drawing/draw-list.js";
+import type { GroupedNodes } from "../drawing/drawn-node.js";
 import type { NodeGroup } from "../drawing/node-group.js";
 import type { Program } from "../drawing/programs.js";
 import { type EffectPlan, NODE_NUMBER, type PointPass } from "../effects/index.js";
 import type { FlatCamera } from "./flat-camera.js";
-import type { GlTypes } from "./gl-objects.js";
-import type { GlFramebuffer } from "./gl-types.js";
-import type { GlNode, GlView } from "./node-drawable.js";
+import type { GlObjects, GlTypes } from "./gl-objects.js";
+import type { GlFramebuffer, GlVertexArray } from "./gl-types.js";
+import type { GlView } from "./node-drawable.js";
 
 /** What is drawn into, in pixels: the canvas, or a picture of the layer's own. */
 export interface PassTarget {
@@ -26,9 +27,10 @@ export function clear(gl: WebGL2RenderingContext, target: PassTarget, depth: boo
 }
 
 /** Has the nodes seen by a camera, once for each world that shows, in whatever is drawn of them next. */
-export function placeNodes(groups: readonly NodeGroup<GlView>[], { worlds, modelView }: FlatCamera): void {
+export function placeNodes(groups: readonly NodeGroup<GlView>[], camera: FlatCamera): void {
+  const { worlds, modelView } = camera;
   for (const group of groups) {
-    group.place(worlds.length, ({ uploaded: { vertices, onGlobe } }, copy) => ({
+    group.place(worlds.length, [camera], ({ uploaded: { vertices, onGlobe } }, copy) => ({
       u_modelView: modelView(vertices.frame.origin, worlds[copy]),
       u_onGlobe: onGlobe,
     }));
@@ -37,27 +39,36 @@ export function placeNodes(groups: readonly NodeGroup<GlView>[], { worlds, model
 
 /** Draws nodes that have been placed. */
 export function drawPoints(
-  gl: WebGL2RenderingContext,
+  { gl, draws }: GlObjects,
   pass: PointPass,
-  nodes: Iterable<GlNode>,
+  nodes: GroupedNodes<GlView>,
   camera: FlatCamera,
   target: PassTarget,
   programOf: (plan: EffectPlan) => Program<GlTypes>,
 ): void {
   bind(gl, target);
   setState(gl, pass);
-  for (const [group, members] of byGroup<GlView>(nodes)) {
+  const list = new DrawList<GlVertexArray>();
+  for (const [group, members] of nodes) {
     const { program, reads } = programOf(group.plan);
+    // Nodes may be given attributes here, which binds arrays and buffers of theirs.
+    list.fill(members, reads);
     program.use(group.uniforms);
-    for (const { uploaded, row, count } of members) {
-      uploaded.bind(gl, reads);
-      camera.worlds.forEach((_, copy) => {
-        program.setInteger(NODE_NUMBER, copy * group.rows + row);
-        gl.drawArrays(gl.POINTS, 0, count);
-      });
-    }
+    const number = (row: number) => program.setInteger(NODE_NUMBER, row);
+    camera.worlds.forEach((_, copy) => {
+      draws.draw(list, { bind: (array) => bindArray(gl, array), number }, copy * group.rows);
+    });
   }
   gl.bindVertexArray(null);
+}
+
+/** Has points read from a vertex array, and its constants. */
+function bindArray(gl: WebGL2RenderingContext, { array, constants }: GlVertexArray): void {
+  gl.bindVertexArray(array);
+  for (const { location, value } of constants) {
+    const [x = 0, y = 0, z = 0, w = 1] = value;
+    gl.vertexAttrib4f(location, x, y, z, w);
+  }
 }
 
 /** Draws a triangle over the whole of a target. */

@@ -1,5 +1,6 @@
 import { geodesicFrom } from "@groma/georef";
 import { Clip, ClipSet, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import { onPoints } from "../../browser/stage/point-calls.js";
 import { Stage } from "../../browser/stage/stage.js";
 import { frame, phase, within, wrap } from "./marks.js";
 import { markGl, markLayer, markMessages } from "./parts.js";
@@ -25,8 +26,7 @@ class Frames {
     this.#stage = new Stage(SIZE);
     const { gl, scene } = this.#stage;
     // Points are not rasterised: in software that is done by the same cores, and is none of the layer's.
-    const drawArrays = gl.drawArrays.bind(gl);
-    gl.drawArrays = (mode, first, count) => drawArrays(mode, first, mode === gl.POINTS ? 0 : count);
+    onPoints(gl, (call) => call.draw("none"));
     markGl(gl);
     markLayer();
     markMessages();

@@ -1,5 +1,6 @@
 import { PointCloud, PointCloudLayer } from "@groma/layer/cesium";
 import { MapStage } from "../../browser/map-stage/map-stage.js";
+import { onPoints } from "../../browser/stage/point-calls.js";
 import { Stage } from "../../browser/stage/stage.js";
 
 /** CSS pixels, of both. */
@@ -44,12 +45,12 @@ interface Side {
 }
 
 let draws = 0;
-const { drawArrays, clear } = WebGL2RenderingContext.prototype;
+const { clear } = WebGL2RenderingContext.prototype;
 // Points are not rasterised: in software that is done by the same cores, and is no script.
-WebGL2RenderingContext.prototype.drawArrays = function (mode, first, count) {
+onPoints(WebGL2RenderingContext.prototype, (call) => {
   draws++;
-  drawArrays.call(this, mode, first, mode === this.POINTS ? 0 : count);
-};
+  call.draw("none");
+});
 WebGL2RenderingContext.prototype.clear = function (mask) {
   draws++;
   clear.call(this, mask);

@@ -6,6 +6,7 @@ import {
   type PointFilter,
   type StyleParts,
 } from "@groma/layer/cesium";
+import { onPoints } from "../../browser/stage/point-calls.js";
 import { Stage } from "../../browser/stage/stage.js";
 
 /** CSS pixels. */
@@ -60,8 +61,7 @@ class Soak {
       render(time);
     };
     // Points are not rasterised: in software that takes the time of many a change.
-    const drawArrays = gl.drawArrays.bind(gl);
-    gl.drawArrays = (mode, first, count) => drawArrays(mode, first, mode === gl.POINTS ? 0 : count);
+    onPoints(gl, (call) => call.draw("none"));
     stage.layer = PointCloudLayer.fromCloud(cloud, { pointBudget: 500_000 });
     stage.scene.primitives.add(stage.layer);
     return new Soak(stage, at);

@@ -1,6 +1,7 @@
 import * as exporting from "@groma/layer/export";
 import * as layer from "@groma/layer/openlayers";
 import * as tools from "@groma/layer/tools";
+import { onPoints } from "../stage/point-calls.js";
 import { MapStage } from "./map-stage.js";
 import * as ol from "./ol.js";
 import { lineThrough, PlotStage } from "./plot-stage.js";
@@ -16,6 +17,7 @@ declare global {
       readonly MapStage: typeof MapStage;
       readonly PlotStage: typeof PlotStage;
       readonly lineThrough: typeof lineThrough;
+      readonly onPoints: typeof onPoints;
       /** The plot of its cloud, if any. */
       plot: PlotStage;
       /** The stage that stands, if any. */
@@ -27,7 +29,7 @@ declare global {
 }
 
 window.map = {
-  ...{ ol, layer, tools, exporting, MapStage, PlotStage, lineThrough },
+  ...{ ol, layer, tools, exporting, MapStage, PlotStage, lineThrough, onPoints },
   plot: undefined as unknown as PlotStage,
   stage: undefined as unknown as MapStage,
   measure: undefined as unknown as tools.MeasureTool,

@@ -2,11 +2,13 @@ import { ecefToGeodetic } from "@groma/georef";
 import type { PointCloud, PointFilter, StyleParts } from "@groma/layer/openlayers";
 import { PlotPicture, type PlotSeries } from "@groma/layer/plot";
 import { PlotIndex, PlotView, Profile, type ProfileOptions, type ProfilePoints } from "@groma/layer/tools";
+import { onPoints } from "../stage/point-calls.js";
 import type { MapStage } from "./map-stage.js";
 
 /** What was asked of a canvas' context since it was looked at last. */
 interface Asked {
-  buffers: number;
+  /** Columns of nodes that were sent. */
+  columns: number;
   textureBytes: number;
   pointsDrawn: number;
 }
@@ -22,7 +24,7 @@ export class PlotStage {
   readonly #map: MapStage;
   readonly #profile: Profile;
   readonly #index = new PlotIndex<ProfilePoints>();
-  #asked: Asked = { buffers: 0, textureBytes: 0, pointsDrawn: 0 };
+  #asked: Asked = { columns: 0, textureBytes: 0, pointsDrawn: 0 };
 
   constructor(
     map: MapStage,
@@ -99,7 +101,7 @@ export class PlotStage {
   /** What was asked of the context since the last call. */
   asked(): Asked {
     const asked = this.#asked;
-    this.#asked = { buffers: 0, textureBytes: 0, pointsDrawn: 0 };
+    this.#asked = { columns: 0, textureBytes: 0, pointsDrawn: 0 };
     return asked;
   }
 
@@ -122,19 +124,20 @@ export class PlotStage {
   /** Counts what goes through the context. */
   #watch(): void {
     const gl = this.#canvas.getContext("webgl2")!;
-    const [bufferData, texImage2D, drawArrays] = [gl.bufferData, gl.texImage2D, gl.drawArrays];
+    const { bufferSubData, texImage2D } = gl;
     const counted = (count: (asked: Asked, values: unknown[]) => void, call: unknown) =>
       ((...values: unknown[]) => {
         count(this.#asked, values);
         return (call as (...values: unknown[]) => void).apply(gl, values);
       }) as never;
-    gl.bufferData = counted((asked) => asked.buffers++, bufferData);
+    gl.bufferSubData = counted((asked) => asked.columns++, bufferSubData);
     gl.texImage2D = counted((asked, values) => {
       asked.textureBytes += (values.at(-1) as Uint8Array).byteLength;
     }, texImage2D);
-    gl.drawArrays = counted((asked, [, , count]) => {
-      asked.pointsDrawn += count as number;
-    }, drawArrays);
+    onPoints(gl, (call) => {
+      this.#asked.pointsDrawn += call.counts.reduce((sum, count) => sum + count, 0);
+      call.draw();
+    });
   }
 }
 

@@ -1,6 +1,7 @@
 import * as layer from "@groma/layer/cesium";
 import { PointNavigation } from "@groma/layer/navigation";
 import * as Cesium from "cesium";
+import { onPoints } from "./point-calls.js";
 import { Stage } from "./stage.js";
 
 declare global {
@@ -11,6 +12,7 @@ declare global {
       readonly layer: typeof layer;
       readonly Stage: typeof Stage;
       readonly PointNavigation: typeof PointNavigation;
+      readonly onPoints: typeof onPoints;
       /** The stage that stands, if any. */
       stage: Stage;
       /** What moves its camera, if anything. */
@@ -19,5 +21,5 @@ declare global {
   }
 }
 
-window.page = { Cesium, layer, Stage, PointNavigation } as Window["page"];
+window.page = { Cesium, layer, Stage, PointNavigation, onPoints } as Window["page"];
 document.body.dataset.ready = "true";

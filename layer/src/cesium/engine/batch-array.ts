@@ -1,54 +1,43 @@
+import { DrawList } from "../../drawing/draw-list.js";
+import type { PointDraws } from "../../drawing/point-draws.js";
 import type { Context, VertexArray } from "./cesium-private.js";
 
-/** One draw of a batch. */
-interface Draw {
-  readonly array: VertexArray;
-  /** What the program is told of it. */
-  readonly number: number;
-  /** Vertices, from the first one on. */
-  readonly count: number;
-}
-
 /**
- * Many vertex arrays that Cesium takes for one: whenever it binds it to draw a command, or one derived from it, all of them
- * are drawn, with the program and the uniforms that the command has set. What Cesium then draws itself has no vertices.
+ * A list of draws that Cesium takes for one vertex array: whenever it binds it to draw a command, or one derived from it, all
+ * of them are drawn, with the program and the uniforms that the command has set. What Cesium then draws itself has no vertices.
  */
 export class BatchArray implements VertexArray {
   readonly indexBuffer = undefined;
   readonly numberOfVertices = 0;
+  /** What is drawn. */
+  readonly list = new DrawList<VertexArray>();
   readonly #context: Context;
-  /** Name of the integer uniform that says which draw it is. */
+  readonly #draws: PointDraws;
+  /** Name of the integer uniform that says which node is drawn. */
   readonly #uniform: string;
   readonly #locations = new WeakMap<WebGLProgram, WebGLUniformLocation>();
-  #draws: readonly Draw[] = [];
 
-  constructor(context: Context, uniform: string) {
+  constructor(context: Context, draws: PointDraws, uniform: string) {
     this.#context = context;
-    this.#uniform = uniform;
-  }
-
-  /** What is drawn from now on. */
-  set draws(draws: readonly Draw[]) {
     this.#draws = draws;
+    this.#uniform = uniform;
   }
 
   _bind(): void {
     const { _gl: gl } = this.#context;
     const location = this.#location(gl);
-    for (const { array, number, count } of this.#draws) {
-      array._bind();
-      gl.uniform1i(location, number);
-      gl.drawArrays(gl.POINTS, 0, count);
-    }
+    const bind = (array: VertexArray) => array._bind();
+    this.#draws.draw(this.list, { bind, number: (row) => gl.uniform1i(location, row) });
   }
 
   _unBind(): void {
-    this.#draws.at(-1)?.array._unBind();
+    const { runs } = this.list;
+    if (runs > 0) this.list.run(runs - 1).array._unBind();
   }
 
   /** The arrays are others'. */
   destroy(): void {
-    this.#draws = [];
+    this.list.clear();
   }
 
   #location(gl: WebGL2RenderingContext): WebGLUniformLocation | null {

@@ -76,7 +76,10 @@ describe.each(engines)("undocumented parts of Cesium $version", ({ version, fold
       ],
     ],
     ["Renderer/UniformState.js", ["prototype.update = ", "prototype.updateFrustum = "]],
-    ["Renderer/Buffer.js", ["this.vertexArrayDestroyable = true", "prototype.getBufferData"]],
+    [
+      "Renderer/Buffer.js",
+      ["this.vertexArrayDestroyable = true", "prototype.getBufferData", "prototype.copyFromArrayView"],
+    ],
     ["Renderer/Framebuffer.js", ["options.colorTextures", "options.depthTexture", "this.destroyAttachments"]],
     ["Renderer/Texture.js", ["source.arrayBufferView", "prototype.copyFrom", "sizeInBytes"]],
     ["Renderer/Sync.js", ["prototype.getStatus"]],
@@ -139,6 +142,10 @@ describe.each(engines)("undocumented parts of Cesium $version", ({ version, fold
     expect(source("Scene/DerivedCommand.js")).toContain("writeLogDepthRegex = /\\s+czm_writeLogDepth\\(/");
     expect(source("Scene/DerivedCommand.js")).toContain("vertexlogDepthRegex = /\\s+czm_vertexLogDepth\\(/");
     expect(source("Renderer/ShaderSource.js")).toMatch(/combinedSources = removeComments\(combinedSources\)/);
+  });
+
+  it("brings extensions of a shader to the top", () => {
+    expect(source("Renderer/ShaderSource.js")).toMatch(/#extension[\s\S]{0,200}extensions\.push\(match\)/);
   });
 
   it("asks for another frame where a function of afterRender returns true", () => {

@@ -10,6 +10,8 @@ export interface Buffer {
   readonly sizeInBytes: number;
   /** Whether a vertex array destroys it with itself. */
   vertexArrayDestroyable: boolean;
+  /** Writes numbers from a byte on. */
+  copyFromArrayView(arrayView: ArrayBufferView, offsetInBytes: number): void;
   /** Copies the contents of a buffer that pixels were read into. */
   getBufferData(target: ArrayBufferView): void;
   destroy(): void;
@@ -18,7 +20,7 @@ export interface Buffer {
 /** Options of `Buffer.createVertexBuffer`. */
 export interface BufferOptions {
   readonly context: ContextHandle;
-  readonly typedArray: ArrayBufferView;
+  readonly sizeInBytes: number;
   readonly usage: number;
 }
 

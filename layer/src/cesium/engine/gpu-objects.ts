@@ -9,8 +9,10 @@ import {
   type Texels,
   type VertexInput,
 } from "../../drawing/gpu.js";
+import { PointDraws } from "../../drawing/point-draws.js";
 import type { ProgramNeed } from "../../drawing/program-needs.js";
-import type { PointShader } from "../../effects/index.js";
+import type { VertexNumbers } from "../../drawing/vertex-numbers.js";
+import type { PointShader, ShaderTarget } from "../../effects/index.js";
 import type { ColumnData } from "../../workers/index.js";
 import {
   Buffer,
@@ -54,8 +56,9 @@ interface Alive {
  * but through here, so the counts are the truth and one call frees all.
  */
 export class GpuObjects implements Gpu<CesiumTypes> {
-  readonly target = CESIUM;
+  readonly target: ShaderTarget;
   readonly context: Context;
+  readonly draws: PointDraws;
   readonly #owner: object;
   readonly #alive = new Map<Destroyable, Alive>();
   readonly #counts: Record<GpuKind, number> = { ...NO_OBJECTS };
@@ -69,6 +72,8 @@ export class GpuObjects implements Gpu<CesiumTypes> {
    */
   constructor(context: Context, owner: object, generation = 0) {
     this.context = context;
+    this.draws = new PointDraws(context._gl);
+    this.target = { ...CESIUM, manyDraws: this.draws.many };
     this.#owner = owner;
     this.#generation = `GROMA_CONTEXT_${generation}`;
   }
@@ -82,15 +87,19 @@ export class GpuObjects implements Gpu<CesiumTypes> {
     return this.#bytes;
   }
 
-  vertexBuffer(typedArray: ArrayBufferView): Buffer {
+  vertexBuffer(sizeInBytes: number): Buffer {
     const buffer = Buffer.createVertexBuffer({
       context: this.context,
-      typedArray,
+      sizeInBytes,
       usage: BufferUsage.STATIC_DRAW,
     });
     // Several vertex arrays share one buffer; it is freed by itself.
     buffer.vertexArrayDestroyable = false;
     return this.own("buffers", buffer, buffer.sizeInBytes);
+  }
+
+  writeBuffer(buffer: Buffer, data: ColumnData, at: number): void {
+    buffer.copyFromArrayView(data, at);
   }
 
   vertexArray(inputs: readonly VertexInput<Buffer>[]): VertexArray {
@@ -210,21 +219,22 @@ export class GpuObjects implements Gpu<CesiumTypes> {
 /** What Cesium is told of an attribute: numbers as they are stored. */
 export function vertexAttribute(input: VertexInput<Buffer>): VertexAttribute {
   if ("value" in input) return { index: input.location, value: input.value };
-  const { location, buffer, data, components, normalized } = input;
+  const { location, buffer, numbers, components, normalized } = input;
   return {
     index: location,
     vertexBuffer: buffer,
     componentsPerAttribute: components,
-    componentDatatype: datatypeOf(data),
+    componentDatatype: DATATYPES[numbers],
     normalize: normalized,
   };
 }
 
-function datatypeOf(data: ColumnData): number {
-  if (data instanceof Float32Array) return ComponentDatatype.FLOAT;
-  if (data instanceof Uint8Array) return ComponentDatatype.UNSIGNED_BYTE;
-  if (data instanceof Int8Array) return ComponentDatatype.BYTE;
-  if (data instanceof Uint16Array) return ComponentDatatype.UNSIGNED_SHORT;
-  if (data instanceof Int16Array) return ComponentDatatype.SHORT;
-  return data instanceof Uint32Array ? ComponentDatatype.UNSIGNED_INT : ComponentDatatype.INT;
-}
+const DATATYPES: Readonly<Record<VertexNumbers, number>> = {
+  uint8: ComponentDatatype.UNSIGNED_BYTE,
+  int8: ComponentDatatype.BYTE,
+  uint16: ComponentDatatype.UNSIGNED_SHORT,
+  int16: ComponentDatatype.SHORT,
+  uint32: ComponentDatatype.UNSIGNED_INT,
+  int32: ComponentDatatype.INT,
+  float32: ComponentDatatype.FLOAT,
+};

@@ -35,6 +35,8 @@ export interface ShaderTarget {
    * else from uniforms of each.
    */
   readonly nodeTable?: boolean;
+  /** Whether one call draws many nodes of the table, which follow each other there (`GL_ANGLE_multi_draw`). */
+  readonly manyDraws?: boolean;
   /** Lines before the functions of a fragment shader that draws points for the scene. */
   readonly declarations: readonly string[];
   /** Expression for a colour, RGBA, as the view's picture takes it. */

@@ -1,4 +1,5 @@
 import { ClipSet, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
+import { onPoints } from "../../../browser/stage/point-calls.js";
 import type { LayerOptions, Pose } from "../../../browser/stage/setting.js";
 import { Stage } from "../../../browser/stage/stage.js";
 import { type Coverage, countingFragments, fragmentsIn, holesIn, outlineOf, WHITE } from "./coverage.js";
@@ -211,12 +212,10 @@ export class Bench {
 
 /** Loads and uploads all that a stage wants; points are not drawn meanwhile, which would take most of the time. */
 async function settle(stage: Stage): Promise<void> {
-  const { gl } = stage;
-  const drawArrays = gl.drawArrays;
-  gl.drawArrays = () => {};
+  const end = onPoints(stage.gl, () => {});
   try {
     await stage.settle([stage.layer], LONGEST_LOADING);
   } finally {
-    gl.drawArrays = drawArrays;
+    end();
   }
 }

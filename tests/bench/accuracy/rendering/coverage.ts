@@ -1,4 +1,5 @@
 import { Color } from "cesium";
+import { onPoints } from "../../../browser/stage/point-calls.js";
 import type { Stage } from "../../../browser/stage/stage.js";
 import type { Picture } from "./picture.js";
 
@@ -30,24 +31,22 @@ export function fragmentsIn({ rgb }: Picture, outline: readonly boolean[]): numb
 
 /** What `draw` draws of white points where each fragment adds a step of 255 to black, with no depth test. */
 export function countingFragments({ gl, scene }: Stage, draw: () => Picture): Picture {
-  const { drawArrays } = gl;
   const { backgroundColor } = scene;
   const step = 1 / 255;
   scene.backgroundColor = Color.BLACK;
-  gl.drawArrays = (mode, first, count) => {
-    if (mode !== gl.POINTS) return drawArrays.call(gl, mode, first, count);
+  const end = onPoints(gl, (call) => {
     gl.disable(gl.DEPTH_TEST);
     gl.enable(gl.BLEND);
     gl.blendColor(step, step, step, step);
     gl.blendFunc(gl.CONSTANT_COLOR, gl.ONE);
-    drawArrays.call(gl, mode, first, count);
+    call.draw();
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
-  };
+  });
   try {
     return draw();
   } finally {
-    gl.drawArrays = drawArrays;
+    end();
     scene.backgroundColor = backgroundColor;
   }
 }

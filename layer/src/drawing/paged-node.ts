@@ -1,0 +1,156 @@
+import type { Column } from "../workers/index.js";
+import type { DrawnVertices } from "./drawn-vertices.js";
+import type { GpuTypes, VertexInput } from "./gpu.js";
+import { type AttributeSet, POSITION, storedConstant } from "./vertex-attributes.js";
+import { bytesOf, numbersFor, numbersOf, repeated, type VertexNumbers } from "./vertex-numbers.js";
+import type { PageSlot, PageTenant, VertexPages } from "./vertex-pages.js";
+
+/** A column that a node has in its page. */
+interface PagedColumn {
+  /** Name of the page's buffer. */
+  readonly buffer: string;
+  readonly numbers: VertexNumbers;
+  /** Bytes that the node's points take there. */
+  readonly bytes: number;
+}
+
+/** A vertex array that a node is drawn with. */
+interface PagedArray<T extends GpuTypes> {
+  readonly set: AttributeSet;
+  readonly name: string;
+  readonly array: T["vertexArray"];
+}
+
+/**
+ * The points of a node on the GPU: vertices of a page that it shares with others, their places and each attribute that is
+ * asked for.
+ */
+export class PagedNode<T extends GpuTypes> implements PageTenant {
+  readonly vertices: DrawnVertices;
+  readonly #pages: VertexPages<T>;
+  /** The colours that it was made with. */
+  readonly #colours: Column | undefined;
+  readonly #columns = new Map<string, PagedColumn>();
+  readonly #arrays = new Map<string, PagedArray<T>>();
+  #slot: PageSlot<T> | undefined;
+  #bytes = 0;
+
+  constructor(pages: VertexPages<T>, vertices: DrawnVertices) {
+    this.#pages = pages;
+    this.vertices = vertices;
+    this.#colours = vertices.columns.get("rgb");
+  }
+
+  /** Whether the node has other colours by now: those of foreign files may turn out to be of 16 bits. */
+  get outdated(): boolean {
+    return this.vertices.columns.get("rgb") !== this.#colours;
+  }
+
+  /** Bytes of its page that the node fills. */
+  get bytes(): number {
+    return this.#bytes;
+  }
+
+  /** What tells its page from others; nodes of one page can be drawn by one call. */
+  get page(): object | undefined {
+    return this.#slot?.page;
+  }
+
+  /** Its first vertex in the page. */
+  get first(): number {
+    return this.#slot?.first ?? 0;
+  }
+
+  /** Whether programs that read these attributes can draw the node. */
+  has({ signature }: AttributeSet): boolean {
+    return this.#arrays.has(signature);
+  }
+
+  /** Puts on the GPU what programs with these attributes need. */
+  upload(set: AttributeSet): void {
+    this.arrayOf(set);
+  }
+
+  /** The vertex array that programs with these attributes read, made where it is not there. */
+  arrayOf(set: AttributeSet): T["vertexArray"] {
+    const found = this.#arrays.get(set.signature);
+    if (found) return found.array;
+    const slot = this.#slot ?? this.#pages.reserve(this.vertices.count, this);
+    this.#slot = slot;
+    const { page } = slot;
+    const inputs = set.attributes.map((attribute): VertexInput<T["buffer"]> => {
+      const { location, components, normalized, column } = attribute;
+      const paged = this.#columns.get(column) ?? this.#write(slot, attribute);
+      if (!paged) return { location, value: storedConstant(components, undefined) };
+      const { buffer, numbers } = paged;
+      return { location, components, normalized, numbers, buffer: page.bufferOf(buffer) };
+    });
+    const stored = set.columns.map((column) => this.#columns.get(column)?.numbers ?? "");
+    const name = `${set.signature} ${stored}`;
+    const array = page.array(name, inputs);
+    this.#arrays.set(set.signature, { set, name, array });
+    return array;
+  }
+
+  /** Frees what programs with other attributes than these read. */
+  keep(sets: readonly AttributeSet[]): void {
+    const signatures = new Set(sets.map(({ signature }) => signature));
+    for (const [signature, { name }] of this.#arrays) {
+      if (signatures.has(signature)) continue;
+      this.#slot?.page.leaveArray(name);
+      this.#arrays.delete(signature);
+    }
+    const columns = new Set([POSITION, ...sets.flatMap((set) => set.columns)]);
+    for (const [column, { buffer, bytes }] of this.#columns) {
+      if (columns.has(column)) continue;
+      this.#slot?.page.leave(buffer);
+      this.#columns.delete(column);
+      this.#bytes -= bytes;
+    }
+  }
+
+  move(to: PageSlot<T>): void {
+    const sets = [...this.#arrays.values()].map(({ set }) => set);
+    this.destroy();
+    this.#slot = to;
+    for (const set of sets) this.upload(set);
+  }
+
+  /** Frees all that the node has on the GPU. */
+  destroy(): void {
+    const slot = this.#slot;
+    if (!slot) return;
+    for (const { name } of this.#arrays.values()) slot.page.leaveArray(name);
+    for (const { buffer } of this.#columns.values()) slot.page.leave(buffer);
+    this.#arrays.clear();
+    this.#columns.clear();
+    this.#bytes = 0;
+    this.#slot = undefined;
+    this.#pages.release(slot);
+  }
+
+  /** Writes a column into the page; undefined where the data set has no such attribute. */
+  #write(
+    slot: PageSlot<T>,
+    { column: name, components, normalized }: AttributeSet["attributes"][number],
+  ): PagedColumn | undefined {
+    const { positions, columns, count } = this.vertices;
+    const column = columns.get(name);
+    const recorded = name === POSITION ? positions : column?.data;
+    if (!recorded || (recorded.length === 0 && !column?.constant)) return undefined;
+    let numbers = numbersOf(recorded);
+    let data = recorded;
+    if (recorded.length === 0) {
+      const values = storedConstant(components, column);
+      // As the nodes beside it have theirs, so that they are drawn together.
+      const fit = numbersFor(values).filter((each) => !normalized || each === "uint8");
+      numbers = slot.page.numbersOf(name, fit) ?? fit[0] ?? "uint8";
+      data = repeated(values, count, numbers);
+    }
+    const buffer = slot.page.write(slot, name, components, numbers, data);
+    const paged = { buffer, numbers, bytes: count * components * bytesOf(numbers) };
+    this.#columns.set(name, paged);
+    this.#bytes += paged.bytes;
+    return paged;
+  }
+}
