@@ -95,6 +95,62 @@ describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: $
       }
   });
 
+  it("name the classes that are there where those asked for are not, and nothing is empty without a word", {
+    timeout: 240_000,
+  }, () => {
+    const ground = cut("ground.xml", "--ground-classes", "77");
+    expect(ground).toMatchObject({ code: 0 });
+    expect(ground.stderr).toMatch(
+      /warning: .*ground\.xml has no ground: no point is of class 77 \(user defined\); there are \d+ \(/,
+    );
+    const present = /there are (\d+)/.exec(ground.stderr)![1]!;
+    const there = cut("ground.xml", "--ground-classes", `${present},77`);
+    expect(there).toMatchObject({ code: 0 });
+    expect(there.stderr).not.toContain("warning");
+    for (const [out, ...options] of [["classes.las"], ["classes.zip", "--sections", "--at", "40"]] as const) {
+      const none = cut(out, ...options, "--classes", "77");
+      expect(none.code).toBe(1);
+      expect(none.stderr).toMatch(new RegExp(`SELECTION_EMPTY: .*whose classes are .*\\b${present} \\(`));
+    }
+  });
+
+  it("lie at the end of the line where that is given as it is printed; DXF and list bear the stations of equations", {
+    timeout: 240_000,
+  }, () => {
+    const alignment = join(folder, "axis.xml");
+    const places = ["231350 589600", "231450 589800", "231450 589900"];
+    const stretch = (from: number) =>
+      `<Line><Start>${places[from]}</Start><End>${places[from + 1]}</End></Line>`;
+    writeFileSync(
+      alignment,
+      `<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2"><Alignments><Alignment name="axis" length="323.60680" staStart="1000">
+      <CoordGeom>${stretch(0)}${stretch(1)}</CoordGeom><StaEquation staInternal="1200" staAhead="5000"/></Alignment></Alignments></LandXML>`,
+    );
+    // The line is 223.60679774997897 + 100 long.
+    const ends = cut(
+      "ends.zip",
+      "--line",
+      alignment,
+      "--sections",
+      "--at",
+      "1100,1323.607",
+      "--files",
+      "csv",
+    );
+    expect(ends).toMatchObject({ code: 0 });
+    const zip = readFileSync(join(folder, "ends.zip"), "latin1");
+    expect(zip).toContain("\r\n1,1+100.000,1100,");
+    expect(zip).toContain("\r\n2,5+123.607,1323.606797749979,589900,231450,");
+    expect(zip).toContain(
+      '<StaEquation staInternal="1200.00000" staAhead="5000.00000" staIncrement="increasing"/>',
+    );
+    const beyond = cut("beyond.zip", "--line", alignment, "--sections", "--at", "1323.608");
+    expect(beyond.stderr).toContain("no chainage 1323.608: it is 1000 to 1323.606797749979");
+    expect(cut("axis.dxf", "--line", alignment)).toMatchObject({ code: 0 });
+    const texts = readFileSync(join(folder, "axis.dxf"), "latin1").match(/(?<=\n1\n)\d+\.\d\d(?=\n)/g);
+    expect(texts).toEqual(["1000.00", "5023.61", "5123.61"]);
+  });
+
   it("are refused in formats and at stations that there are not, before anything is read", {
     timeout: 240_000,
   }, () => {

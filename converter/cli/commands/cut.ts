@@ -1,5 +1,4 @@
-import type { ExportProgress } from "@groma/layer/export";
-import { type Cut, type CutRequest, cut } from "../cut/cut.js";
+import { type Cut, type CutListener, type CutRequest, cut } from "../cut/cut.js";
 import type { CutOptions } from "../cut/writers.js";
 import type { ProgressKind } from "../given/choices.js";
 import { interruptible } from "../terminal/interruption.js";
@@ -15,10 +14,12 @@ export async function tellCut(
 ): Promise<void> {
   const work = { label, stages: [{ stage: "read", share: 1 }] };
   const progress = await createProgress(options.progress ?? defaultProgress(), work);
-  const onProgress = ({ read, total }: ExportProgress) =>
-    progress.show({ event: "progress", stage: "read", done: read, total });
+  const listener: CutListener = {
+    onProgress: ({ read, total }) => progress.show({ event: "progress", stage: "read", done: read, total }),
+    onWarning: (text) => progress.show({ event: "warning", text }),
+  };
   try {
-    const done = await interruptible((signal) => cut(files, request, options, onProgress, signal));
+    const done = await interruptible((signal) => cut(files, request, options, listener, signal));
     progress.stop();
     if (options.progress === "json") printJson({ event: "done", ...done });
     else print(inWords(done));

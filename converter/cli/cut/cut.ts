@@ -2,11 +2,19 @@ import { realpath } from "node:fs/promises";
 import { basename } from "node:path";
 import { GromaError } from "@groma/georef";
 import type { CutFacts, ExportProgress } from "@groma/layer/export";
+import { classesOf } from "@groma/layer/query";
 import { type OpenedPoints, openPoints } from "../files/points.js";
 import { requirePlace } from "../given/output-place.js";
+import { classesInWords } from "../terminal/class-names.js";
 import { writeWhole } from "./output-file.js";
 import { factsOf, geodeticOf, systemOf } from "./place.js";
-import { type CutOptions, type CutSelection, type ShownOptions, writerOf } from "./writers.js";
+import {
+  type CutOptions,
+  type CutSelection,
+  type ShownOptions,
+  type WriteOptions,
+  writerOf,
+} from "./writers.js";
 
 /** No point is where points are asked for. Code: SELECTION_EMPTY. */
 class SelectionError extends GromaError {
@@ -43,6 +51,12 @@ export interface CutRequest {
   readonly shown?: (() => Promise<ShownOptions>) | undefined;
 }
 
+/** Who is told how far a cut is, and what may not be as it is wanted. */
+export interface CutListener {
+  readonly onProgress: (progress: ExportProgress) => void;
+  readonly onWarning: (text: string) => void;
+}
+
 /**
  * Writes what is selected of files into one file, which stands whole or not at all.
  *
@@ -53,10 +67,10 @@ export async function cut(
   inputs: readonly string[],
   request: CutRequest,
   options: CutOptions,
-  onProgress: (progress: ExportProgress) => void,
+  { onProgress, onWarning }: CutListener,
   signal: AbortSignal,
 ): Promise<Cut> {
-  const { out, overwrite = false } = options;
+  const { out, overwrite = false, ground } = options;
   const { select, sections, title, given } = request;
   const began = performance.now();
   const writer = writerOf(out, sections ?? false);
@@ -78,19 +92,48 @@ export async function cut(
       ? (request.facts ?? asKnown)(await factsOf(opened[0]!.points, named))
       : { title: named, unit: unknown, heightUnit: unknown };
     let [points, read] = [0, 0];
+    const classes = new ClassesFound();
+    const told = (progress: ExportProgress) => {
+      read = progress.read;
+      onProgress(progress);
+    };
     await writeWhole(out, overwrite, async (unfinished) => {
-      const told = (progress: ExportProgress) => {
-        read = progress.read;
-        onProgress(progress);
-      };
-      const shown = writer.documents && (await request.shown?.());
-      const how = { ...options, ...shown, facts, signal, onProgress: told };
+      const shown = (writer.documents || writer.stations) && (await request.shown?.());
+      const { onGround, onLeftOut } = classes;
+      const how = { ...options, ...shown, facts, signal, onProgress: told, onGround, onLeftOut };
       points = await writer.write(selections, unfinished, how);
-      if (points === 0) throw empty(out);
+      if (points === 0) throw empty(out, classes.leftOut);
     });
+    const others = classes.instead;
+    if (ground?.classes && others) {
+      const asked = classesInWords(ground.classes);
+      onWarning(`${out} has no ground: no point is of class ${asked}; there are ${classesInWords(others)}`);
+    }
     return { output: out, points, read, inputs: opened.length, seconds: (performance.now() - began) / 1000 };
   } finally {
     await Promise.all(opened.map((one) => one.close()));
+  }
+}
+
+/** What is found of the classes of points, for those who asked for classes that are not there. */
+class ClassesFound {
+  /** Of the points that lie where they are asked for, where classes and filter leave none. */
+  readonly leftOut = new Set<number>();
+  readonly #others = new Set<number>();
+  #ground = 0;
+
+  readonly onLeftOut: NonNullable<WriteOptions["onLeftOut"]> = (batch) => {
+    for (const one of classesOf(batch)) this.leftOut.add(one);
+  };
+
+  readonly onGround: NonNullable<WriteOptions["onGround"]> = ({ points, others }) => {
+    this.#ground += points;
+    for (const one of others) this.#others.add(one);
+  };
+
+  /** Classes of the points that are there, where none is of the ground; undefined where some are. */
+  get instead(): ReadonlySet<number> | undefined {
+    return this.#ground === 0 && this.#others.size > 0 ? this.#others : undefined;
   }
 }
 
@@ -102,11 +145,20 @@ async function different(inputs: readonly string[]): Promise<string[]> {
 
 const asKnown = (facts: CutFacts): CutFacts => facts;
 
-function empty(out: string): SelectionError {
+/** @param leftOut classes of the points that lie where they are asked for */
+function empty(out: string, leftOut: ReadonlySet<number>): SelectionError {
+  if (leftOut.size > 0) {
+    return new SelectionError({
+      code: "SELECTION_EMPTY",
+      file: out,
+      cause: `classes, returns and ranges leave none of the points there, whose classes are ${classesInWords(leftOut)}; nothing was written`,
+      fix: "ask for classes, returns and values that are there",
+    });
+  }
   return new SelectionError({
     code: "SELECTION_EMPTY",
     file: out,
     cause: "no point of the inputs is where points are asked for; nothing was written",
-    fix: "check the line or the area, in which coordinates it is given, and what classes, returns and ranges leave",
+    fix: "check the line or the area, and in which coordinates it is given",
   });
 }

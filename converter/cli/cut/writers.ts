@@ -41,7 +41,11 @@ export interface CutOptions extends PictureScale {
 /** What is written: points as they are selected, or as they lie in cross-sections of a line. */
 export type CutSelection = PointSelection | (SectionSelection & { readonly line: AlongLine });
 
-interface WriteOptions extends ExportOptions, CutOptions, ShownOptions {
+export interface WriteOptions
+  extends ExportOptions,
+    CutOptions,
+    ShownOptions,
+    Pick<DatedOptions, "onGround"> {
   readonly facts: CutFacts;
 }
 
@@ -58,6 +62,8 @@ interface Writer {
   readonly placed?: ((options: CutOptions) => boolean) | undefined;
   /** Whether it says things of the coordinates. */
   readonly documents?: true;
+  /** Whether it names stations of the line. */
+  readonly stations?: true;
 }
 
 type Library = typeof import("@groma/layer/export");
@@ -114,6 +120,7 @@ const POINTS: ReadonlyMap<string, Writer> = new Map<string, Writer>([
       write: through<PointSelection>(({ exportDxf }, selections, sink, { straightened, ...options }) =>
         exportDxf(selections, sink, { ...options, layout: straightened ? "straightened" : "space" }),
       ),
+      stations: true,
     },
   ],
   [".svg", picture("svg")],

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { className } from "./classes.js";
+import { className } from "../terminal/class-names.js";
 import { gpsSpan, gpsSpanInWords } from "./gps-time.js";
 
 const words = (kind: "week" | "standard", min: number, max: number) =>

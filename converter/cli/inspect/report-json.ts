@@ -1,6 +1,6 @@
 import { statedAccuracy } from "@groma/georef";
 import { density } from "../place/describe.js";
-import { className } from "./classes.js";
+import { className } from "../terminal/class-names.js";
 import type { Inspection } from "./inspect.js";
 
 /** What is known of a file as one JSON object (docs/cli.md). */

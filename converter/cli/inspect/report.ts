@@ -8,8 +8,8 @@ import {
   remarks,
 } from "../place/describe.js";
 import { centreRow } from "../place/whereabouts.js";
+import { className } from "../terminal/class-names.js";
 import { atMost, count, counted, fixed, labelled, length, rounded, size } from "../terminal/output.js";
-import { className } from "./classes.js";
 import { gpsSpanInWords } from "./gps-time.js";
 import type { HeaderDetails } from "./header.js";
 import type { Inspection } from "./inspect.js";

@@ -35,8 +35,11 @@ export function gridOf({ from, to, low, high }: StraightenedExtent): string {
   return text;
 }
 
-/** The chainage of each vertex of a line beside it, on the layer `TEXT`. */
-export function chainagesOf({ vertices, chainages }: AlongLine): string {
+/** The station of each vertex of a line beside it, on the layer `TEXT`. @param stationOf of a chainage */
+export function stationsOf(
+  { vertices, chainages }: AlongLine,
+  stationOf: (chainage: number) => number,
+): string {
   const length = chainages[chainages.length - 1] - chainages[0];
   const size = roundStep(length / 200);
   // An alignment of many chords would be covered with numbers: at most some fifty are written.
@@ -44,7 +47,7 @@ export function chainagesOf({ vertices, chainages }: AlongLine): string {
   return vertices
     .map(([x, y], index) =>
       index % every === 0 || index === vertices.length - 1
-        ? label(x, y, size, chainages[index].toFixed(2))
+        ? label(x, y, size, stationOf(chainages[index]).toFixed(2))
         : "",
     )
     .join("");

@@ -1,6 +1,6 @@
 import type { ByteSink } from "./byte-sink.js";
 import { CoordinateText, SLICE } from "./columns.js";
-import { chainagesOf, gridOf, groups } from "./dxf-annotations.js";
+import { gridOf, groups, stationsOf } from "./dxf-annotations.js";
 import {
   type AlongLine,
   type ExportOptions,
@@ -18,6 +18,8 @@ export interface DxfOptions extends ExportOptions {
    * chainage, y the height, z the offset from the line). Default: `space`.
    */
   readonly layout?: "space" | "straightened" | undefined;
+  /** Stations as they are written beside the line, by chainage: those of station equations. Default: the chainage itself. */
+  readonly stationOf?: ((chainage: number) => number) | undefined;
 }
 
 /** Layers by what stands on them, and their colours (AutoCAD colour index). */
@@ -33,7 +35,7 @@ const DIGITS = 5;
 
 /**
  * Writes points as DXF, the ASCII form of AutoCAD R12 (AC1009), which every program reads: a POINT for each, in real
- * size and with every digit of the record, on a layer of their own; the line as a 3D POLYLINE; chainages, or the grid around
+ * size and with every digit of the record, on a layer of their own; the line as a 3D POLYLINE; stations, or the grid around
  * straightened points, as LINEs and TEXT. Points along a line in another plane than theirs stand in the plane of the line.
  *
  * @returns number of points
@@ -45,7 +47,7 @@ export async function exportDxf(
   sink: ByteSink,
   options: DxfOptions = {},
 ): Promise<number> {
-  const { layout = "space" } = options;
+  const { layout = "space", stationOf = (chainage) => chainage } = options;
   requireOneHeightUnit(selections);
   if (layout === "space") requireOnePlane(selections.filter(({ along }) => !along?.toPlane));
   const text = new TextSink(sink);
@@ -81,7 +83,7 @@ export async function exportDxf(
   });
   if (line) {
     const [from, to] = [line.chainages[0], line.chainages[line.chainages.length - 1]];
-    if (layout === "space") text.add(chainagesOf(line));
+    if (layout === "space") text.add(stationsOf(line, stationOf));
     else if (high >= low) text.add(gridOf({ from, to, low, high }));
   }
   text.add(groups([0, "ENDSEC"], [0, "EOF"]));

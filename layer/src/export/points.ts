@@ -62,6 +62,11 @@ const PROGRESS = kindOf(
   (given): given is NonNullable<PointExportOptions["onProgress"]> => typeof given === "function",
 );
 
+const LEFT_OUT = kindOf(
+  "a function",
+  (given): given is NonNullable<PointExportOptions["onLeftOut"]> => typeof given === "function",
+);
+
 const COMPRESSOR = kindOf(
   "a function",
   (given): given is NonNullable<PointExportOptions["createCompressor"]> => typeof given === "function",
@@ -70,7 +75,7 @@ const COMPRESSOR = kindOf(
 const OPTIONS = some<PointExportOptions>({
   ...{ format: oneOf("las", "laz", "csv", "geojson", "dxf"), layout: oneOf("space", "straightened") },
   ...{ clips: CLIPS_OPTION, filter: FILTER, classes: list(whole(0, 255)), spacing: number(0) },
-  ...{ chainage: flag, signal, onProgress: PROGRESS, createCompressor: COMPRESSOR },
+  ...{ chainage: flag, signal, onProgress: PROGRESS, onLeftOut: LEFT_OUT, createCompressor: COMPRESSOR },
 });
 
 /**

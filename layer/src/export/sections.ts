@@ -162,13 +162,13 @@ export async function exportSectionLandXml(
 
 async function readSections(
   selections: readonly SectionSelection[],
-  { store = new BlobStore(), signal, onProgress }: SectionOptions,
+  { store = new BlobStore(), signal, onProgress, onLeftOut }: SectionOptions,
 ): Promise<ReadSection[]> {
   // Data sets of several systems have each section in their own coordinates.
   const parts = await collectParts(
     selections,
     store,
-    { signal, onProgress },
+    { signal, onProgress, onLeftOut },
     ({ volume }, part) => volume.sections[part].strip,
   );
   const { sections } = selections[0].volume;
@@ -200,8 +200,8 @@ function stationOf(
 
 async function groundOfSection(section: ReadSection, options: SectionOptions): Promise<LandXmlSection> {
   const { place, selections, name } = section;
-  const { ground = USUAL_GROUND, signal } = options;
-  const runs = await groundOf(selections, spanOf(place.strip), ground, { signal });
+  const { ground = USUAL_GROUND, signal, onGround } = options;
+  const runs = await groundOf(selections, spanOf(place.strip), ground, { signal, onGround });
   return { station: place.station, name: `section ${name}`, ground: runs };
 }
 

@@ -45,6 +45,8 @@ export interface ExportOptions {
   readonly signal?: AbortSignal | undefined;
   /** Told after each node. */
   readonly onProgress?: ((progress: ExportProgress) => void) | undefined;
+  /** Told of nodes whose points lie where points are wanted, and of which classes and filter leave none. */
+  readonly onLeftOut?: ((batch: PointBatch) => void) | undefined;
 }
 
 /** Indices of a batch's records that are wanted, rising. */
@@ -59,7 +61,7 @@ type Wanted = Uint32Array;
  */
 export async function eachBatch(
   selections: readonly PointSelection[],
-  { signal, onProgress }: ExportOptions,
+  { signal, onProgress, onLeftOut }: ExportOptions,
   take: (batch: PointBatch, wanted: Wanted, selection: PointSelection) => Promise<void>,
 ): Promise<number> {
   const queries: { readonly query: RecordQuery; readonly selection: PointSelection }[] = [];
@@ -74,6 +76,7 @@ export async function eachBatch(
     for await (const batch of query.batches({ signal })) {
       const wanted = passing(batch, selection);
       if (wanted.length > 0) await take(batch, wanted, selection);
+      else onLeftOut?.(batch);
       read += batch.records.count;
       written += wanted.length;
       onProgress?.({ read, total, written });

@@ -5,6 +5,7 @@ export { openPage } from "./open-page.js";
 export { Pace } from "./pace.js";
 export {
   type BoxRelation,
+  classesOf,
   everyRecord,
   ofClasses,
   type PointBatch,

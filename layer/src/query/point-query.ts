@@ -263,3 +263,11 @@ export function ofClasses(
   const { bytes, at, stride } = attribute;
   return inside.filter((point) => classes.has(bytes[at + point * stride]));
 }
+
+/** Classes of a batch's points, each once; none where its records have no classes. */
+export function classesOf({ records, inside }: Pick<PointBatch, "records" | "inside">): Set<number> {
+  const attribute = records.attributes.find(({ name }) => name === "classification");
+  if (!attribute) return new Set();
+  const { bytes, at, stride } = attribute;
+  return new Set(inside.map((point) => bytes[at + point * stride]));
+}

@@ -10,6 +10,17 @@ it("stations are the ends of the line, round multiples of the interval, and thos
   expect(stations(0, 10, { at: [7, 2] })).toEqual([2, 7]);
 });
 
+it("an end of the line may be given as it is printed, with two decimals or more", () => {
+  const [from, to] = [-0.12345, 223.60679774997897];
+  for (const printed of [223.61, 223.607, 223.6068])
+    expect(stations(from, to, { at: [printed] })).toEqual([to]);
+  expect(stations(from, to, { at: [-0.1235, -0.12345, 223.6] })).toEqual([from, 223.6]);
+  for (const beyond of [223.608, 223.611, 223.62, 224, -0.124])
+    expect(() => stations(from, to, { at: [beyond] })).toThrow(
+      `the line has no chainage ${beyond}: it is -0.12345 to 223.60679774997897`,
+    );
+});
+
 it.each([
   [{ interval: 0 }, "the interval cannot be 0"],
   [{ interval: Number.NaN }, "the interval cannot be NaN"],

@@ -2,7 +2,7 @@
 export interface StationOptions {
   /** Distance between stations, in the unit of the line's chainage; round multiples of it, and both ends of the line. */
   readonly interval?: number | undefined;
-  /** Chainages of further stations. */
+  /** Chainages of further stations; an end of the line may be given as it reads rounded to two decimals or more. */
   readonly at?: readonly number[] | undefined;
 }
 
@@ -17,7 +17,9 @@ const MOST = 100_000;
  * @throws RangeError where the interval is not above 0, a chainage lies beyond the line, or none is asked for
  */
 export function stations(from: number, to: number, { interval, at = [] }: StationOptions): number[] {
-  const found = [...at];
+  const found = at.map((chainage) =>
+    isRounded(chainage, to) ? to : isRounded(chainage, from) ? from : chainage,
+  );
   const beyond = found.find((chainage) => !(chainage >= from && chainage <= to));
   if (beyond !== undefined)
     throw new RangeError(`the line has no chainage ${beyond}: it is ${from} to ${to}`);
@@ -34,6 +36,17 @@ export function stations(from: number, to: number, { interval, at = [] }: Statio
   }
   if (found.length === 0) throw new RangeError("neither an interval nor a station is given");
   return [...new Set(found)].sort((a, b) => a - b);
+}
+
+/** Decimals that chainages are printed with: at least, and the most that change anything. */
+const PRINTED = [2, 12] as const;
+
+/** Whether a chainage is an end of the line as it reads where it is printed with fewer digits than it has. */
+function isRounded(chainage: number, end: number): boolean {
+  if (chainage === end || Math.abs(chainage - end) > 0.5 * 10 ** -PRINTED[0] * (1 + 1e-9)) return false;
+  for (let digits = PRINTED[0]; digits <= PRINTED[1]; digits++)
+    if (Number(end.toFixed(digits)) === chainage) return true;
+  return false;
 }
 
 /**

@@ -26,3 +26,12 @@ export function className(code: number, pointFormat: number): string {
   if (code >= FIRST_USER_CLASS) return "user defined";
   return (pointFormat < 6 ? LEGACY[code] : undefined) ?? CLASSES[code] ?? "reserved";
 }
+
+/** Point format whose classes COPC files have. */
+const COPC = 6;
+
+/** Classes of a COPC file for people: their numbers, rising, and names. */
+export function classesInWords(codes: Iterable<number>): string {
+  const sorted = [...codes].sort((a, b) => a - b);
+  return sorted.map((code) => `${code} (${className(code, COPC)})`).join(", ");
+}
