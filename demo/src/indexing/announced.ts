@@ -9,6 +9,8 @@ const MOST_BYTES = 1 << 30;
 /** Length of the header of LAS 1.4 (R15, 2.4), bytes. */
 const HEADER = 375;
 
+const words = (count: number | bigint) => count.toLocaleString("en");
+
 /**
  * Refuses a scan that is too large for the page, by what its header announces. Nothing else of it is read.
  * @throws IndexError INDEX_POINTS
@@ -21,11 +23,15 @@ export async function checkAnnounced(scan: File): Promise<void> {
   const legacy = BigInt(header.getUint32(107, true));
   const isLong = header.getUint8(24) === 1 && header.getUint8(25) >= 4 && header.byteLength >= 255;
   const points = (isLong && header.getBigUint64(247, true)) || legacy;
-  if (points <= MOST_POINTS && points * BigInt(recordLength) <= MOST_BYTES) return;
+  const bytes = points * BigInt(recordLength);
+  if (points <= MOST_POINTS && bytes <= MOST_BYTES) return;
   throw new IndexError({
     code: "INDEX_POINTS",
     file: scan.name,
-    cause: `it has no octree, and ${points} points of ${recordLength} bytes; the page itself indexes up to ${MOST_POINTS} points and ${MOST_BYTES} bytes`,
+    cause:
+      points > MOST_POINTS
+        ? `it has no octree, and ${words(points)} points; the page itself indexes up to ${words(MOST_POINTS)}`
+        : `it has no octree, and ${words(bytes)} bytes of points; the page itself indexes up to ${words(MOST_BYTES)}`,
     fix: "Convert it: groma convert IN OUT.copc.laz",
   });
 }
