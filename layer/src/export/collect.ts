@@ -1,27 +1,18 @@
 import { FormatError } from "../errors/index.js";
 import { ROOT_KEY } from "../octree/index.js";
-import { everyRecord, Pace, type PointBatch, type PointOrigin, type QueryVolume } from "../query/index.js";
+import { everyRecord, Pace, type PointBatch, type PointOrigin } from "../query/index.js";
 import { type RecordedNode, readCoordinates, type StoredAttribute } from "../workers/index.js";
 import type { BlockStore } from "./block-store.js";
 import { SLICE } from "./columns.js";
-import { type AlongLine, type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
+import {
+  type AlongLine,
+  type ExportOptions,
+  eachBatch,
+  type PartedSelection,
+  type PartedVolume,
+  type PointSelection,
+} from "./selection.js";
 import { crsOf } from "./systems.js";
-
-/** A volume of several parts, which may overlap. */
-export interface PartedVolume extends QueryVolume {
-  /** Number of parts. */
-  readonly count: number;
-  /**
-   * @param out receives the numbers of the parts that a point lies in, rising
-   * @returns how many they are
-   */
-  partsAt(x: number, y: number, z: number, out: Uint32Array): number;
-}
-
-/** Points of several parts of one data set, of which each is written to files of its own. */
-export interface PartedSelection extends Omit<PointSelection, "volume" | "along"> {
-  readonly volume: PartedVolume;
-}
 
 /** Bytes of a block of records, and of the first, smaller one of a part with few of them. */
 const BLOCK = 1 << 16;

@@ -4,7 +4,7 @@ export type { PaintOptions } from "./along.js";
 export { type ArchiveEntry, writeArchive } from "./archive.js";
 export { BlobStore, type BlockStore } from "./block-store.js";
 export { type ByteSink, MemorySink } from "./byte-sink.js";
-export { collectParts, type PartedSelection, type PartedVolume } from "./collect.js";
+export { collectParts } from "./collect.js";
 export type { PointCompressor } from "./compressor/laz-worker.js";
 export { exportCsv } from "./csv.js";
 export { type CutFacts, cutFacts, type LengthUnit } from "./cut-facts.js";
@@ -30,4 +30,11 @@ export {
   type SectionSelection,
   type SectionSet,
 } from "./sections.js";
-export type { AlongLine, ExportOptions, ExportProgress, PointSelection } from "./selection.js";
+export type {
+  AlongLine,
+  ExportOptions,
+  ExportProgress,
+  PartedSelection,
+  PartedVolume,
+  PointSelection,
+} from "./selection.js";

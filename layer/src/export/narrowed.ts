@@ -3,9 +3,8 @@ import { type Clip, ClipSet, type SourceSpace } from "../clips/index.js";
 import { checkFilter, type PointFilter, type StyledAttribute } from "../effects/index.js";
 import { Pace, type PointOrigin, type QueryVolume } from "../query/index.js";
 import { ClippedVolume } from "../tools/area/clipped-volume.js";
-import type { PartedVolume } from "./collect.js";
 import { noPlace } from "./passing.js";
-import type { PointSelection } from "./selection.js";
+import type { PartedVolume, PointSelection } from "./selection.js";
 
 /** What is left of points. */
 export interface Narrowing {

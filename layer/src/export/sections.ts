@@ -2,7 +2,7 @@ import { stationText } from "../tools/sections/station.js";
 import { type ArchiveEntry, writeArchive } from "./archive.js";
 import { BlobStore, type BlockStore } from "./block-store.js";
 import { BlockSink, type ByteSink } from "./byte-sink.js";
-import { collectParts, type PartedSelection, type PartedVolume } from "./collect.js";
+import { collectParts } from "./collect.js";
 import { exportCsv } from "./csv.js";
 import { type DatedOptions, spanOf, USUAL_GROUND } from "./documents.js";
 import { exportDxf } from "./dxf.js";
@@ -15,7 +15,7 @@ import { LasFrames } from "./las-file.js";
 import { pdfOf } from "./picture/pdf.js";
 import type { Sheet } from "./picture/sheet.js";
 import { svgOf } from "./picture/svg.js";
-import type { AlongLine, PointSelection } from "./selection.js";
+import type { AlongLine, PartedSelection, PartedVolume, PointSelection } from "./selection.js";
 import { areInOneSystem } from "./systems.js";
 import { TextSink } from "./text-sink.js";
 

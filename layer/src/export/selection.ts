@@ -29,6 +29,22 @@ export interface PointSelection extends WantedPoints {
   readonly along?: AlongLine | undefined;
 }
 
+/** A volume of several parts, which may overlap. */
+export interface PartedVolume extends QueryVolume {
+  /** Number of parts. */
+  readonly count: number;
+  /**
+   * @param out receives the numbers of the parts that a point lies in, rising
+   * @returns how many they are
+   */
+  partsAt(x: number, y: number, z: number, out: Uint32Array): number;
+}
+
+/** Points of several parts of one data set, of which each is written to files of its own. */
+export interface PartedSelection extends Omit<PointSelection, "volume" | "along"> {
+  readonly volume: PartedVolume;
+}
+
 /** How far an export is. */
 export interface ExportProgress {
   /** Points that were read so far. */
