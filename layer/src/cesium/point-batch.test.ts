@@ -75,7 +75,8 @@ it("lies as near and as far as its nodes do, not as the sphere around them", () 
   volume.hold([at(100, 0), at(100, 5000)]);
   const { start, stop } = volume.computePlaneDistances(Cartesian3.ZERO, Cartesian3.UNIT_X);
   expect([start, stop]).toEqual([99, 101]);
-  expect(volume.radius).toBeGreaterThan(2500);
+  expect(volume.center).toEqual(new Cartesian3(100, 2500, 0));
+  expect(volume.radius).toBe(2501);
   volume.hold([at(7, 0)]);
   expect(volume.computePlaneDistances(Cartesian3.ZERO, Cartesian3.UNIT_X).start).toBe(6);
 });

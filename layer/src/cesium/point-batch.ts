@@ -1,4 +1,4 @@
-import { BoundingSphere, type Cartesian3, Interval, Matrix4, PrimitiveType } from "cesium";
+import { BoundingSphere, Cartesian3, Interval, Matrix4, PrimitiveType } from "cesium";
 import type { Program } from "../drawing/programs.js";
 import { NODE_NUMBER } from "../effects/index.js";
 import { BatchArray } from "./engine/batch-array.js";
@@ -70,7 +70,23 @@ export class NodesVolume extends BoundingSphere {
   /** Stands for these spheres from now on. */
   hold(spheres: readonly BoundingSphere[]): void {
     this.#spheres = spheres;
-    BoundingSphere.fromBoundingSpheres([...spheres], this);
+    const low = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
+    const high = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
+    for (const { center, radius } of spheres) {
+      low[0] = Math.min(low[0], center.x - radius);
+      low[1] = Math.min(low[1], center.y - radius);
+      low[2] = Math.min(low[2], center.z - radius);
+      high[0] = Math.max(high[0], center.x + radius);
+      high[1] = Math.max(high[1], center.y + radius);
+      high[2] = Math.max(high[2], center.z + radius);
+    }
+    const [x, y, z] = low.map((least, axis) => (least + high[axis]) / 2);
+    Cartesian3.fromElements(x, y, z, this.center);
+    // Not as narrow as Cesium's own, which takes many times as long.
+    this.radius = 0;
+    for (const { center, radius } of spheres) {
+      this.radius = Math.max(this.radius, Cartesian3.distance(center, this.center) + radius);
+    }
   }
 
   /** Least and greatest distance along a direction, metres. */

@@ -78,22 +78,32 @@ const ROUNDOFF = 2 ** -24;
  * that is no more than 5 u per term (N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., 3.1).
  */
 function placingPixels({ view, near }: FrameCamera, { nodes }: Selection, verticesOf: VerticesOf): number {
+  const { position } = view;
+  const perspective = view.projection.kind === "perspective";
+  const metre = pixelsPerMetre(view);
   let greatest = 0;
   for (const node of nodes) {
     const vertices = verticesOf(node);
     if (!vertices) continue;
     const { box, bound, frame } = vertices;
-    const { position } = view;
     const eye = pointIn(frame, position[0], position[1], position[2]);
-    let [away, reach] = [0, 0];
+    let away = 0;
+    let reach = 0;
+    let range = 0;
+    // Loops without arrays and without hypot: for a thousand nodes in each frame they would take half a millisecond.
     for (let axis = 0; axis < 3; axis++) {
-      const [low, high] = [box[axis], box[axis + 3]];
-      away += Math.max(0, low - eye[axis], eye[axis] - high) ** 2;
-      reach += Math.max(Math.abs(low), Math.abs(high)) ** 2;
+      const low = box[axis];
+      const high = box[axis + 3];
+      const at = eye[axis];
+      const outside = at < low ? low - at : at > high ? at - high : 0;
+      const farthest = Math.max(Math.abs(low), Math.abs(high));
+      away += outside * outside;
+      reach += farthest * farthest;
+      range += at * at;
     }
-    const rounding = 5 * ROUNDOFF * (Math.sqrt(3 * reach) + Math.hypot(eye[0], eye[1], eye[2]));
-    const distance = view.projection.kind === "perspective" ? Math.max(near, Math.sqrt(away)) : 1;
-    greatest = Math.max(greatest, ((bound + rounding) * pixelsPerMetre(view)) / distance);
+    const rounding = 5 * ROUNDOFF * (Math.sqrt(3 * reach) + Math.sqrt(range));
+    const distance = perspective ? Math.max(near, Math.sqrt(away)) : 1;
+    greatest = Math.max(greatest, ((bound + rounding) * metre) / distance);
   }
   return greatest;
 }

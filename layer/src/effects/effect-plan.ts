@@ -76,10 +76,13 @@ export function layerUniforms(plan: EffectPlan): UniformValues {
   return Object.assign({}, ...effectsOf(plan).map((effect) => effect.values?.(plan.scene)));
 }
 
+/** Effects that have uniforms of nodes. */
+const OF_NODES = EFFECTS.filter(({ nodeValues }) => nodeValues !== undefined);
+
 /** Values of the uniforms of one node. Form them when the node, the style or the view's nodes change. */
 export function nodeUniforms(plan: EffectPlan, node: DrawnNode): UniformValues {
   const values: Record<string, number | readonly number[]> = { u_firstId: node.firstId };
-  for (const effect of EFFECTS) {
+  for (const effect of OF_NODES) {
     if (plan.active.has(effect.name)) Object.assign(values, effect.nodeValues?.(plan.scene, node));
   }
   return values;
