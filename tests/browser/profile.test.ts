@@ -312,6 +312,12 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
   await complete();
   expect(await page.evaluate(() => window.groma.profile.shown)).toBeGreaterThan(shown);
 
+  await page.fill("#profile-from", "250.5");
+  await page.press("#profile-from", "Enter");
+  await complete();
+  const from = () => page.evaluate(() => window.groma.profile.plot!.view.shown.from);
+  expect(await from()).toBeGreaterThan(240);
+
   // By what tells the scan from others, which may have its name.
   const [keys, identity] = await page.evaluate(
     () => [Object.keys(localStorage), window.groma.layer.cloud.identity] as const,
@@ -323,6 +329,10 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
   expect(await page.locator("#profile-list option").allTextContents()).toEqual(["profiles…", "dike <b>"]);
   await page.selectOption("#profile-list", { label: "dike <b>" });
   await complete();
+  // A line has its own width and chainage at the start, on the next visit too.
+  expect(await page.inputValue("#profile-width")).toBe("4.4");
+  expect(await page.inputValue("#profile-from")).toBe("250.5");
+  expect(await from()).toBeGreaterThan(240);
   const kept = await line();
   for (const [index, vertex] of [...before].reverse().entries()) {
     expect(kept[index]![0]).toBeCloseTo(vertex[0]!, 12);
@@ -343,6 +353,7 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
   expect(await page.textContent("#profile-status")).toBe("");
   expect(await page.isDisabled("#profile-export")).toBe(true);
   expect(await page.isVisible("#profile-list")).toBe(false);
+  expect(await page.inputValue("#profile-from")).toBe("0");
 
   // An alignment of the scan's own coordinates: its stations, as the command line has them.
   const corners = await page.evaluate(() => {
@@ -359,7 +370,7 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
   await expect.poll(async () => (await line()).length).toBe(2);
   await complete();
   expect(await page.inputValue("#profile-name")).toBe("axis");
-  expect((await page.evaluate(() => window.groma.profile.plot!.view.shown)).from).toBeGreaterThan(1100);
+  expect(await from()).toBeGreaterThan(1100);
   await page.selectOption("#profile-cut", "inside");
   expect(await page.evaluate(() => window.groma.layer.clips.size)).toBe(1);
   await page.selectOption("#profile-cut", "");

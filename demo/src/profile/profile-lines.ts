@@ -13,6 +13,7 @@ import { i18n } from "../language/i18n.js";
 import { MEASURE_WORDS, unitsOf } from "../panel/measure-words.js";
 import { PageError } from "../panel/page-error.js";
 import { readLines } from "./line-file.js";
+import { type LineSettings, settingsIn } from "./line-settings.js";
 
 /** A line on the globe: longitude and latitude of each vertex, radians. */
 export type DrawnLine = readonly (readonly [number, number])[];
@@ -22,7 +23,7 @@ const KEY = "groma-profiles:";
 
 /**
  * The lines of profiles: drawn and changed on globe and map, by pointer, touch or keyboard, as measured polylines are; named,
- * reversed, kept in the browser with the records that their vertices stand on.
+ * reversed, kept in the browser with the records that their vertices stand on, their widths and where their chainage starts.
  */
 export class ProfileLines {
   readonly tool: MeasureTool;
@@ -32,6 +33,8 @@ export class ProfileLines {
   /** Vertices that the picture was told of. */
   #told = "";
   #chosen: string | undefined;
+  /** By the ids of lines, those too that were removed and may come back. */
+  #settings = new Map<string, LineSettings>();
   /** Identity of the cloud whose lines these are: several scans may have one name. */
   #cloud: string | undefined;
   /** Whether the browser keeps them; false where it cannot, or has some that this program cannot read. */
@@ -96,9 +99,13 @@ export class ProfileLines {
     this.leave();
     this.#cloud = cloud.identity;
     this.#keeps = true;
+    this.#settings = new Map();
     try {
       const kept = localStorage.getItem(KEY + cloud.identity);
-      if (kept) this.tool.add(readMeasurements(kept, [cloud], cloud.name).measurements);
+      if (!kept) return;
+      const { measurements } = readMeasurements(kept, [cloud], cloud.name);
+      this.#settings = settingsIn(kept);
+      this.tool.add(measurements);
     } catch (thrown) {
       this.#keepsNone(thrown);
     }
@@ -125,18 +132,28 @@ export class ProfileLines {
 
   /**
    * Takes the lines of a file over, of which the last is chosen.
-   * @param begins hears of the chainage at its start, metres, before it is shown
+   * @param width of their strips, metres
    * @throws as `readLines`
    */
-  async open(file: File, begins: (start: number) => void): Promise<void> {
+  async open(file: File, width: number): Promise<void> {
     const layer = this.#layer();
     if (!layer) return;
-    const lines = await readLines(file, layer.cloud);
-    begins(lines.at(-1)?.start ?? 0);
-    this.tool.add(
-      lines.map(({ name, vertices }) => ({ id: crypto.randomUUID(), kind: "polyline", name, vertices })),
-    );
+    const lines = (await readLines(file, layer.cloud)).map((line) => ({ id: crypto.randomUUID(), ...line }));
+    for (const { id, start } of lines) this.#settings.set(id, { width, start });
+    this.tool.add(lines.map(({ id, name, vertices }) => ({ id, kind: "polyline", name, vertices })));
     if (lines.length > 0) this.choose(this.all.at(-1)?.id);
+  }
+
+  /** Of the line that is shown; undefined where it has none yet. */
+  get settings(): LineSettings | undefined {
+    return this.#chosen === undefined ? undefined : this.#settings.get(this.#chosen);
+  }
+
+  /** Gives the line that is shown its settings, which are kept. */
+  settle(settings: LineSettings): void {
+    if (this.#chosen === undefined) return;
+    this.#settings.set(this.#chosen, settings);
+    this.#keep();
   }
 
   rename(name: string): void {
@@ -182,10 +199,19 @@ export class ProfileLines {
     const key = KEY + this.#cloud;
     try {
       if (this.all.length === 0) localStorage.removeItem(key);
-      else localStorage.setItem(key, JSON.stringify(measurementsToGeoJson(this.all)));
+      else
+        localStorage.setItem(
+          key,
+          JSON.stringify({ ...measurementsToGeoJson(this.all), profiles: this.#kept() }),
+        );
     } catch (thrown) {
       this.#keepsNone(thrown);
     }
+  }
+
+  /** Settings of the lines that there are, by their ids. */
+  #kept(): Record<string, LineSettings> {
+    return Object.fromEntries([...this.#settings].filter(([id]) => this.all.some((line) => line.id === id)));
   }
 
   /** Tells once why lines are not kept; those that were stay as they are. */

@@ -60,7 +60,6 @@ export class ProfilePanel {
   readonly #panel = byId("profile", HTMLElement);
   readonly #status = byId("profile-status", HTMLElement);
   readonly #readout = byId("profile-readout", HTMLElement);
-  readonly #width = byId("profile-width", HTMLInputElement);
   readonly #start = byId("profile-draw", HTMLButtonElement);
   readonly #format = byId("profile-format", HTMLSelectElement);
   readonly #export = byId("profile-export", HTMLButtonElement);
@@ -93,8 +92,7 @@ export class ProfilePanel {
       if (this.#plot && !this.#panel.hidden) this.#plot.drawing = drawing;
     });
     const widened = (width: number) => {
-      this.#width.value = String(Number(width.toPrecision(3)));
-      void this.#read();
+      this.#lineTools.width = Number(width.toPrecision(3));
     };
     this.#outline = new StripOutline(viewer, layer, widened, events.failed);
     this.#job = new ExportJob(this.#export, this.#status, () => void this.#save(), events.failed);
@@ -159,10 +157,6 @@ export class ProfilePanel {
     const on = (element: HTMLElement, event: string, work: () => void) =>
       element.addEventListener(event, work);
     on(this.#start, "click", () => (this.drawing ? this.finish() : this.#begin()));
-    on(this.#width, "change", () => {
-      // A width that is none is told at the field, in the browser's words.
-      if (this.#width.reportValidity()) void this.#read();
-    });
     on(byId("profile-close", HTMLButtonElement), "click", () => this.#close());
     on(byId("profile-fit", HTMLButtonElement), "click", () => this.#plot?.fit());
     on(byId("profile-true", HTMLButtonElement), "click", () => this.#plot?.stretch(1));
@@ -263,14 +257,14 @@ export class ProfilePanel {
   async #read(): Promise<void> {
     const layer = this.#layer();
     const { line, vertices } = this.lines;
-    const { start } = this.#lineTools;
+    const { start, width } = this.#lineTools;
     if (!layer || line.length < 2) return;
     this.#work?.abort();
     this.#work = new AbortController();
     const { signal } = this.#work;
     try {
       const plane = this.comparison.planeWith(layer.cloud);
-      const cut = { line, width: this.#width.valueAsNumber, start, plane };
+      const cut = { line, width, start, plane };
       const profile = new Profile(layer.cloud, cut);
       this.#profile = profile;
       this.#outline.show(profile, vertices);
@@ -411,7 +405,7 @@ export class ProfilePanel {
         sections: {
           interval: this.#interval.valueAsNumber || 10,
           width: 40,
-          thickness: this.#width.valueAsNumber,
+          thickness: this.#lineTools.width,
         },
       }),
     );

@@ -12,10 +12,11 @@ export { type DatedOptions, exportLandXml, exportPicture, type PictureFileOption
 export { type DxfOptions, exportDxf } from "./dxf.js";
 export { exportGeoJson } from "./geojson.js";
 export type { DocumentOptions, GroundOptions } from "./ground.js";
+export type { KnownPoints } from "./known.js";
 export type { GroundRuns, LandXmlSection } from "./landxml.js";
 export { exportLas, type LasOptions } from "./las.js";
 export { exportLaz, type LazOptions } from "./laz.js";
-export { type KnownPoints, type Narrowing, narrowed } from "./narrowed.js";
+export { type Narrowing, narrowed } from "./narrowed.js";
 export { type PaintChoices, type PaintedSource, paintBy } from "./paint-by.js";
 export type { PictureScale } from "./picture/profile-picture.js";
 export { type ExportedPoints, exportPoints, type PointExportOptions, type PointFormat } from "./points.js";

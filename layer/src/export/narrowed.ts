@@ -1,8 +1,8 @@
-import type { Crs } from "@groma/georef";
 import { type Clip, ClipSet, type SourceSpace } from "../clips/index.js";
-import { checkFilter, type PointFilter, type StyledAttribute } from "../effects/index.js";
-import { Pace, type PointOrigin, type QueryVolume } from "../query/index.js";
+import { checkFilter, type PointFilter } from "../effects/index.js";
+import { Pace, type QueryVolume } from "../query/index.js";
 import { ClippedVolume } from "../tools/area/clipped-volume.js";
+import { type KnownPoints, knownOf } from "./known.js";
 import { noPlace } from "./passing.js";
 import type { PartedVolume, PointSelection } from "./selection.js";
 
@@ -12,22 +12,6 @@ export interface Narrowing {
   readonly clips?: Iterable<Clip> | undefined;
   /** What passes, such as `layer.filter`. Default: everything. */
   readonly filter?: PointFilter | undefined;
-}
-
-/** What is known of points besides their records: where they lie, which clips of the globe ask for, their attributes and system. */
-export interface KnownPoints {
-  readonly space?: SourceSpace | undefined;
-  readonly attributes?: readonly StyledAttribute[] | undefined;
-  readonly crs?: Crs | undefined;
-}
-
-/** What an origin itself tells; a `PointCloud` tells all of it. */
-export function knownOf(origin: PointOrigin): KnownPoints {
-  const space =
-    "place" in origin && "boundingBox" in origin ? (origin as PointOrigin & SourceSpace) : undefined;
-  const attributes = "attributes" in origin ? (origin as KnownPoints).attributes : undefined;
-  const crs = "crs" in origin ? (origin as KnownPoints).crs : undefined;
-  return { space, attributes, crs };
 }
 
 /**

@@ -18,9 +18,10 @@ import type { ByteSink } from "./byte-sink.js";
 import { exportCsv } from "./csv.js";
 import { exportDxf } from "./dxf.js";
 import { exportGeoJson } from "./geojson.js";
+import { knownOf } from "./known.js";
 import { exportLas } from "./las.js";
 import { exportLaz, type LazOptions } from "./laz.js";
-import { knownOf, narrowed } from "./narrowed.js";
+import { narrowed } from "./narrowed.js";
 import { noPlace } from "./passing.js";
 import type { PointSelection } from "./selection.js";
 

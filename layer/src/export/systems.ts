@@ -1,6 +1,6 @@
 import { sameHeights, samePlane, sameSize } from "@groma/georef";
 import { FormatError } from "../errors/index.js";
-import { knownOf } from "./narrowed.js";
+import { knownOf } from "./known.js";
 import type { PointSelection } from "./selection.js";
 
 /** Some of what a selection is: what tells of its coordinate system. */
