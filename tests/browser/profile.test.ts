@@ -362,7 +362,7 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
     return [at(0.3, 0.4), at(0.6, 0.5)].map(([x, y]) => `${y} ${x}`);
   });
   const geometry = `<Line><Start>${corners[0]}</Start><End>${corners[1]}</End></Line>`;
-  const alignment = `<Alignment name="axis" length="0" staStart="1200"><CoordGeom>${geometry}</CoordGeom></Alignment>`;
+  const alignment = `<Alignment name="axis" length="0" staStart="1200"><CoordGeom>${geometry}</CoordGeom><StaEquation staInternal="1250" staAhead="5000"/></Alignment>`;
   const buffer = Buffer.from(
     `<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2"><Alignments>${alignment}</Alignments></LandXML>`,
   );
@@ -371,6 +371,16 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
   await complete();
   expect(await page.inputValue("#profile-name")).toBe("axis");
   expect(await from()).toBeGreaterThan(1100);
+  // Its station equation is told of points, and written.
+  const { x, y, chainage } = await pixelOfPlottedPoint(page);
+  await page.mouse.move(x, y);
+  const station = `5\\+0${(chainage - 1250).toFixed(2)}`;
+  await expect.poll(() => readout(page)).toMatch(new RegExp(`, station ${station}$`));
+  await page.selectOption("#profile-format", "xml");
+  const downloading = page.waitForEvent("download");
+  await page.click("#profile-export");
+  const written = readFileSync(await (await downloading).path(), "utf8");
+  expect(written).toContain('<StaEquation staInternal="1250.00000" staAhead="5000.00000"');
   await page.selectOption("#profile-cut", "inside");
   expect(await page.evaluate(() => window.groma.layer.clips.size)).toBe(1);
   await page.selectOption("#profile-cut", "");

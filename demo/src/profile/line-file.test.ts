@@ -34,7 +34,8 @@ const cloud = {
 const landXml = (unit: string, factor: number) =>
   `<LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2"><Units><Imperial linearUnit="${unit}"/></Units><Alignments>
 <Alignment name="axis" staStart="${1000 / factor}"><CoordGeom><Line><Start>${231350 / factor} ${589600 / factor}</Start>
-<End>${231450 / factor} ${589800 / factor}</End></Line></CoordGeom></Alignment></Alignments></LandXML>`;
+<End>${231450 / factor} ${589800 / factor}</End></Line></CoordGeom>
+<StaEquation staInternal="${1050 / factor}" staAhead="${2000 / factor}"/></Alignment></Alignments></LandXML>`;
 
 /** The line in the plane of the scan, as its profile has it. */
 async function laid(text: string, name: string) {
@@ -48,9 +49,13 @@ describe("a line of a file", () => {
     ["meter", 1],
     ["foot", 0.3048],
   ])("lies where an alignment in %s says, whatever the height of its points", async (unit, factor) => {
-    const { plane, vertices, start, name } = await laid(landXml(unit, factor), "axis.xml");
+    const { plane, vertices, start, name, equations } = await laid(landXml(unit, factor), "axis.xml");
     expect(name).toBe("axis");
     expect(start).toBeCloseTo(1000, 9);
+    expect(equations).toHaveLength(1);
+    // Metres from the start.
+    expect(equations[0]!.internal).toBeCloseTo(50, 9);
+    expect(equations[0]!.ahead).toBeCloseTo(2000, 9);
     const wanted = [
       [589600, 231350],
       [589800, 231450],

@@ -7,6 +7,7 @@ import {
   readDxfLine,
   readLandXml,
   readMeasurements,
+  type StationEquation,
   sourceLine,
   sourceVertex,
   type Vertex,
@@ -18,6 +19,8 @@ export interface FileLine {
   readonly vertices: readonly Vertex[];
   /** Chainage at its start, metres. */
   readonly start: number;
+  /** Where stations are counted anew, by the distance from the start, metres. */
+  readonly equations: readonly StationEquation[];
 }
 
 type Places = readonly (readonly [number, number])[];
@@ -43,13 +46,15 @@ export async function readLines(file: File, cloud: PointCloud): Promise<FileLine
       lines.map(async ({ name, places }) => ({
         name,
         start: 0,
+        equations: [],
         vertices: await onPoints(places, cloud, file.name),
       })),
     );
   }
   const alignment = (ending === "dxf" ? readDxfLine : readLandXml)(text, undefined, file.name);
-  const { places, start } = await inCloud(alignment, cloud, file.name);
-  return [{ name: alignment.name || file.name, start, vertices: await onPoints(places, cloud, file.name) }];
+  const { places, ...stations } = await inCloud(alignment, cloud, file.name);
+  const vertices = await onPoints(places, cloud, file.name);
+  return [{ name: alignment.name || file.name, vertices, ...stations }];
 }
 
 function linesOfGeoJson(text: string, cloud: PointCloud, file: string) {
@@ -83,12 +88,16 @@ async function inCloud(alignment: Alignment, { crs }: PointCloud, file: string) 
       fix: "Give the line as GeoJSON, in longitude and latitude",
     });
   }
-  const { vertices, start } = inUnit(alignment, size);
+  const { vertices, start, equations } = inUnit(alignment, size);
   const { default: LineString } = await import("ol/geom/LineString.js");
   const line = new LineString(vertices.map(([x, y]) => [x, y]));
   const simple = line.simplify(TOLERANCE / size) as typeof line;
   const places = simple.getCoordinates().map(([x, y]) => [x!, y!] as const);
-  return { places, start: start * size };
+  const inMetres = equations.map(({ internal, ahead, ...equation }) => ({
+    ...{ internal: (internal - start) * size, ahead: ahead * size },
+    ...equation,
+  }));
+  return { places, start: start * size, equations: inMetres };
 }
 
 /** Vertices at places, each as high as the point that is nearest to it. */

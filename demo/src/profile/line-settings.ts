@@ -1,9 +1,40 @@
+import { type StationEquation, StationEquations } from "@groma/layer/tools";
+
+/** Longitude and latitude of vertices, radians. */
+type Places = readonly (readonly [number, number])[];
+
+/** Station equations of an alignment, and the line that they belong to. */
+export interface Stationing {
+  /** As it was opened: a line that was changed since has other stations. */
+  readonly vertices: Places;
+  /** By the distance from the start of the line, metres. */
+  readonly equations: readonly StationEquation[];
+}
+
 /** What the profile of a line has besides its vertices. */
 export interface LineSettings {
   /** Of the strip, metres. */
   readonly width: number;
   /** Chainage at the start of the line, metres. */
   readonly start: number;
+  readonly stationing?: Stationing | undefined;
+}
+
+/** Of longitudes and latitudes of one vertex, radians: a millimetre. */
+const SAME = 1.5e-10;
+
+/** The stations of a line, metres; undefined where they are its chainages, and where the line is no longer the one that had others. */
+export function stationsOn({ start, stationing }: LineSettings, line: Places): StationEquations | undefined {
+  if (!stationing || stationing.equations.length === 0) return undefined;
+  const { vertices, equations } = stationing;
+  const same = (one: number, other: number | undefined) => Math.abs(one - (other ?? Number.NaN)) < SAME;
+  const unchanged =
+    vertices.length === line.length &&
+    line.every(([east, north], at) => same(east, vertices[at]?.[0]) && same(north, vertices[at]?.[1]));
+  if (!unchanged) return undefined;
+  return new StationEquations(
+    equations.map(({ internal, ...equation }) => ({ ...equation, internal: internal + start })),
+  );
 }
 
 /**
@@ -14,13 +45,27 @@ export interface LineSettings {
 export function settingsIn(kept: string): Map<string, LineSettings> {
   const { profiles } = JSON.parse(kept) as { profiles?: unknown };
   const found = new Map<string, LineSettings>();
-  if (typeof profiles !== "object" || profiles === null) return found;
+  if (!isObject(profiles)) return found;
   for (const [id, given] of Object.entries(profiles)) {
-    const { width, start } = (given ?? {}) as Partial<Record<keyof LineSettings, unknown>>;
+    const { width, start, stationing } = isObject(given) ? given : ({} as Record<string, unknown>);
     if (!isNumber(width) || !(width > 0) || !isNumber(start)) continue;
-    found.set(id, { width, start });
+    found.set(id, { width, start, ...(isStationing(stationing) && { stationing }) });
   }
   return found;
+}
+
+function isStationing(value: unknown): value is Stationing {
+  if (!isObject(value) || !Array.isArray(value.vertices) || !Array.isArray(value.equations)) return false;
+  const places = value.vertices.every((one) => Array.isArray(one) && one.length === 2 && one.every(isNumber));
+  const numbers = value.equations.every(
+    (one) => isObject(one) && isNumber(one.internal) && isNumber(one.ahead),
+  );
+  const distinct = new Set(value.equations.map((one) => one?.internal)).size === value.equations.length;
+  return places && numbers && distinct;
+}
+
+function isObject(value: unknown): value is Record<string, unknown> {
+  return typeof value === "object" && value !== null;
 }
 
 function isNumber(value: unknown): value is number {

@@ -14,7 +14,7 @@ import {
   type PointExportOptions,
 } from "@groma/layer/export";
 import { OFFSET, type PlotDrawing } from "@groma/layer/plot";
-import { CrossSections, type Profile, stations } from "@groma/layer/tools";
+import { CrossSections, type Profile, StationEquations, stations } from "@groma/layer/tools";
 import { i18n } from "../language/i18n.js";
 
 /** What files of a profile are made with. */
@@ -22,6 +22,8 @@ export interface FileChoices extends ExportOptions {
   readonly title: string;
   readonly exaggeration: number;
   readonly ground: GroundOptions | undefined;
+  /** Stations of the line, metres, where they are not its chainages. */
+  readonly stations?: StationEquations | undefined;
   /** How its picture is drawn, and what it leaves out. */
   readonly drawing: PlotDrawing;
   /** Of cross-sections, metres. */
@@ -72,7 +74,19 @@ export async function writeProfile(
   choices: FileChoices,
 ): Promise<void> {
   const { crs } = profile.origin as PointCloud;
-  await format.write(profile, sink, { ...choices, facts: factsOf(profile, cutFacts(choices.title, crs)) });
+  const facts = factsOf(profile, cutFacts(choices.title, crs));
+  await format.write(profile, sink, { ...choices, ...stationsOf(profile, choices.stations), facts });
+}
+
+/** Stations in the unit of the profile's plane, for documents. */
+function stationsOf({ unit }: Profile, stations: StationEquations | undefined) {
+  if (!stations) return {};
+  const equations = stations.equations.map(({ internal, ahead, ...equation }) => ({
+    ...{ internal: internal / unit, ahead: ahead / unit },
+    ...equation,
+  }));
+  const inUnit = new StationEquations(equations);
+  return { equations, stationOf: (chainage: number) => inUnit.stationOf(chainage).station };
 }
 
 /** What documents say of the coordinates: those of the plane in which the line lies. */

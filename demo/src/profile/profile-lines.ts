@@ -5,6 +5,7 @@ import {
   MeasureTool,
   measurementsToGeoJson,
   readMeasurements,
+  type StationEquations,
   type Vertex,
   type ViewAdapter,
 } from "@groma/layer/tools";
@@ -13,7 +14,7 @@ import { i18n } from "../language/i18n.js";
 import { MEASURE_WORDS, unitsOf } from "../panel/measure-words.js";
 import { PageError } from "../panel/page-error.js";
 import { readLines } from "./line-file.js";
-import { type LineSettings, settingsIn } from "./line-settings.js";
+import { type LineSettings, settingsIn, stationsOn } from "./line-settings.js";
 
 /** A line on the globe: longitude and latitude of each vertex, radians. */
 export type DrawnLine = readonly (readonly [number, number])[];
@@ -86,7 +87,12 @@ export class ProfileLines {
   }
 
   get line(): DrawnLine {
-    return this.vertices.map(({ longitude, latitude }) => [longitude, latitude]);
+    return placesOf(this.vertices);
+  }
+
+  /** Stations of the line that is shown, metres; undefined: its chainages. */
+  get stations(): StationEquations | undefined {
+    return this.settings && stationsOn(this.settings, this.line);
   }
 
   /** Takes over the lines that were kept of a cloud, with their records. */
@@ -139,7 +145,10 @@ export class ProfileLines {
     const layer = this.#layer();
     if (!layer) return;
     const lines = (await readLines(file, layer.cloud)).map((line) => ({ id: crypto.randomUUID(), ...line }));
-    for (const { id, start } of lines) this.#settings.set(id, { width, start });
+    for (const { id, start, equations, vertices } of lines) {
+      const stationing = { vertices: placesOf(vertices), equations };
+      this.#settings.set(id, { width, start, stationing });
+    }
     this.tool.add(lines.map(({ id, name, vertices }) => ({ id, kind: "polyline", name, vertices })));
     if (lines.length > 0) this.choose(this.all.at(-1)?.id);
   }
@@ -150,9 +159,9 @@ export class ProfileLines {
   }
 
   /** Gives the line that is shown its settings, which are kept. */
-  settle(settings: LineSettings): void {
+  settle(settings: Omit<LineSettings, "stationing">): void {
     if (this.#chosen === undefined) return;
-    this.#settings.set(this.#chosen, settings);
+    this.#settings.set(this.#chosen, { ...this.settings, ...settings });
     this.#keep();
   }
 
@@ -220,6 +229,10 @@ export class ProfileLines {
     const refused = thrown instanceof DOMException;
     this.#failed(refused ? unkept(thrown) : thrown);
   }
+}
+
+function placesOf(vertices: readonly Vertex[]): DrawnLine {
+  return vertices.map(({ longitude, latitude }) => [longitude, latitude]);
 }
 
 function unkept({ message }: DOMException): PageError {

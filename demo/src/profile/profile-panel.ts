@@ -22,6 +22,7 @@ import { LineTools } from "./line-tools.js";
 import { measuredWords, TOLERANCE } from "./measured-words.js";
 import { ProfilePlot, placeOf } from "./plot.js";
 import { PlotStyle } from "./plot-style.js";
+import { axisWords, pointPlace, pointWords, profileWords } from "./point-words.js";
 import { FORMATS, writeProfile } from "./profile-files.js";
 import { type GroundChoice, groundOf, intervalFor, statisticWords } from "./profile-ground.js";
 import { type DrawnLine, ProfileLines } from "./profile-lines.js";
@@ -234,20 +235,8 @@ export class ProfilePanel {
 
   #clearPicture(from: number, length: number): ProfilePlot {
     const layer = this.#layer();
-    const crs = layer?.cloud.crs;
-    const height = crs?.height.kind === "geoid" ? `, ${crs.height.model}` : "";
-    const ellipsoid = crs?.height.kind === "ellipsoidal" ? `, ${i18n.t("above the ellipsoid")}` : "";
     const plot = this.#picture();
-    plot.clear(
-      from,
-      length,
-      {
-        along: i18n.t("chainage (m)"),
-        up: i18n.t("height (m{reference})", { reference: height + ellipsoid }),
-      },
-      layer?.cloud,
-      layer && this.#style.of(layer),
-    );
+    plot.clear(from, length, axisWords(layer?.cloud), layer?.cloud, layer && this.#style.of(layer));
     this.#measured = [];
     this.#ground = [];
     this.#table.replaceChildren();
@@ -271,7 +260,7 @@ export class ProfilePanel {
       this.#cut.show(profile);
       this.#tellState();
       const plot = this.#clearPicture(profile.from, profile.length);
-      const tell = (state: string) => setText(this.#status, `${told(profile, plot.count)}, ${state}`);
+      const tell = (state: string) => setText(this.#status, `${profileWords(profile, plot.count)}, ${state}`);
       tell(i18n.t("reading…"));
       let complete = true;
       for await (const points of profile.points({ signal })) {
@@ -334,24 +323,10 @@ export class ProfilePanel {
   /** Shows the point that is pointed at, here and on globe and map. */
   #point(point: PlottedPoint<ProfilePoints> | undefined): void {
     const profile = this.#profile;
-    const { place, words } =
-      point && profile ? this.#placed(profile, point) : { place: undefined, words: "" };
-    setText(this.#readout, words);
+    const place = point && profile ? pointPlace(profile, point) : undefined;
+    setText(this.#readout, point && place ? pointWords(point, this.lines.stations) : "");
     this.#mark.show(place);
     this.#events.pointed(place);
-  }
-
-  #placed({ origin }: Profile, { points, index }: PlottedPoint<ProfilePoints>) {
-    const { xyz } = points.batch.records;
-    const at = 3 * points.batch.inside[index]!;
-    const [x, y, z] = [0, 1, 2].map((axis) => xyz[at + axis]! * origin.scale[axis]! + origin.offset[axis]!);
-    const place = origin.place(x!, y!, z!, new Float64Array(3));
-    const words = i18n.t("chainage {chainage} m, height {height} m, offset {offset} m", {
-      chainage: fixed(points.chainage[index]!, 2),
-      height: fixed(points.height[index]!, 3),
-      offset: fixed(points.offset[index]!, 2),
-    });
-    return { place, words };
   }
 
   #toggleMeasuring(): void {
@@ -401,6 +376,7 @@ export class ProfilePanel {
         title: this.lines.chosen?.name ?? stem,
         exaggeration: Number(this.#plot?.view.exaggeration.toPrecision(3) ?? 1),
         drawing: this.#style.of(layer),
+        stations: this.lines.stations,
         ground: chosen ? { interval: intervalFor(profile.length) / unit, statistic, classes } : undefined,
         sections: {
           interval: this.#interval.valueAsNumber || 10,
@@ -410,11 +386,4 @@ export class ProfilePanel {
       }),
     );
   }
-}
-
-function told({ length }: Profile, count: number): string {
-  return i18n.t("{length} m, {count, plural, one {# point} other {# points}}", {
-    length: fixed(length, 1),
-    count,
-  });
 }
