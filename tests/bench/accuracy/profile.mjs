@@ -16,8 +16,11 @@ const SCANS = [
 /** Spacings that are asked for, in units of the scan, from coarse to every point. */
 const SPACINGS = [64, 32, 16, 8, 4, 2, 1, 0.5, 0.25, 0];
 
+/** How often every level is read, in turns: the least time of each counts, once everything is compiled. */
+const ROUNDS = 5;
+
 /**
- * The picture of a profile at each level: points read and shown, time, and how far its ground (median of each station) lies
+ * The picture of a profile at each level: points read and shown, time of the processor, and how far its ground (median of each station) lies
  * from that of all points; stations without a point are counted apart.
  */
 export async function measurePicture(root) {
@@ -31,8 +34,14 @@ export async function measurePicture(root) {
     const { min, max } = origin.source.boundingBox;
     const at = ([x, y]) => [min[0] + x * (max[0] - min[0]), min[1] + y * (max[1] - min[1])];
     const strip = new Corridor([at(from), at(to)], width);
-    const levels = [];
-    for (const spacing of SPACINGS) levels.push(await level(origin, strip, interval, spacing));
+    const rounds = [];
+    for (let round = 0; round < ROUNDS; round++) {
+      const levels = [];
+      for (const spacing of SPACINGS) levels.push(await level(origin, strip, interval, spacing));
+      rounds.push(levels);
+    }
+    const least = (index) => Math.min(...rounds.map((one) => one[index].ms));
+    const levels = rounds[0].map((one, index) => ({ ...one, ms: least(index) }));
     const whole = levels[levels.length - 1];
     const known = new Set();
     for (const one of levels) {
@@ -40,7 +49,7 @@ export async function measurePicture(root) {
       known.add(one.read);
       const { rms, missing } = difference(one.stations, whole.stations);
       const { stations: _stations, ...rest } = one;
-      rows.push({ scan, ...rest, rms, missing, share: one.shown / whole.shown });
+      rows.push({ scan, ...rest, rms, missing, share: one.shown / whole.shown, time: one.ms / whole.ms });
     }
     const { size } = statSync(copc);
     for (const row of rows.filter((one) => one.scan === scan))
@@ -51,7 +60,7 @@ export async function measurePicture(root) {
 }
 
 async function level(origin, strip, interval, spacing) {
-  const began = performance.now();
+  const before = process.cpuUsage();
   const line = new TerrainLine(0, strip.length, { interval, statistic: 50 });
   const place = new Float64Array(2);
   const { scale, offset } = origin;
@@ -65,7 +74,8 @@ async function level(origin, strip, interval, spacing) {
       line.add(place[0], z);
     }
   }
-  return { spacing, read, shown, ms: performance.now() - began, stations: line.stations() };
+  const { user, system } = process.cpuUsage(before);
+  return { spacing, read, shown, ms: (user + system) / 1000, stations: line.stations() };
 }
 
 function difference(stations, whole) {
