@@ -340,7 +340,7 @@ function start(viewer: Viewer): void {
   }
 
   function attach({ layer, how, crs, indexed }: OpenCloud): void {
-    byId("of-cloud", HTMLDivElement).hidden = false;
+    document.body.classList.add("has-cloud");
     const octree = indexed && madeOctree(indexed, (thrown) => message.show(thrown));
     showFacts(layer, { given: crs !== undefined, octree });
     heights.attach(layer.cloud, how.vertical);
@@ -355,7 +355,7 @@ function start(viewer: Viewer): void {
 
   /** No cloud is there any more. */
   function leave(): void {
-    byId("of-cloud", HTMLDivElement).hidden = true;
+    document.body.classList.remove("has-cloud");
     clearTitle();
     profile.leave();
     progress.rest();

@@ -48,6 +48,16 @@ it("the page with globe and map has nothing that axe objects to", { timeout: 180
   await page.waitForFunction(() => window.groma?.layer?.settled, undefined, { timeout: 120_000 });
   expect(await violations()).toEqual([]);
 
+  // The panel begins with five things, of which the first is unfolded.
+  const folds = () =>
+    page.evaluate(() =>
+      Array.from(document.querySelectorAll<HTMLDetailsElement>("#body details"))
+        .filter((fold) => fold.checkVisibility() && fold.matches(":not(details details)"))
+        .map((fold) => [fold.querySelector("summary h2")?.textContent, fold.open]),
+    );
+  const five = ["Look", "Measure", "Profile", "Share"].map((name) => [name, false]);
+  expect(await folds()).toEqual([["Clouds", true], ...five]);
+
   await page.evaluate(() => {
     for (const part of Array.from(document.querySelectorAll("details"))) part.open = true;
   });

@@ -41,8 +41,10 @@ const camera = () =>
 it("an annotation is placed on a record and written, by keyboard alone", { timeout: 240_000 }, async () => {
   await page.goto(`${server.address}&fly=0&budget=60000`, { timeout: 120_000 });
   await settle(page);
-  await page.focus("#annotations summary");
-  await page.keyboard.press("Enter");
+  for (const fold of ["#measuring > summary", "#annotations > summary"]) {
+    await page.focus(fold);
+    await page.keyboard.press("Enter");
+  }
   await page.focus("#annotate");
   await page.keyboard.press("Enter");
   expect(await page.getAttribute("#annotate", "aria-pressed")).toBe("true");
@@ -83,7 +85,6 @@ it("is flown to with the camera that was there, and stands on the map too", {
 });
 
 it("is saved with what is measured, deleted, and read again", { timeout: 240_000 }, async () => {
-  await page.click("#measuring summary");
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#measure-save")]);
   await download.saveAs(saved);
   const [feature] = JSON.parse(readFileSync(saved, "utf8")).features;

@@ -66,6 +66,8 @@ it("from an empty page to an exported profile, by keyboard alone", { timeout: 30
   await tabTo(page, "#above");
   await page.keyboard.press("Enter");
   await settle(page);
+  await tabTo(page, "#profiles > summary");
+  await page.keyboard.press("Enter");
   await tabTo(page, "#profile-draw");
   await page.keyboard.press("Enter");
   // The crosshair starts in the middle of the view.

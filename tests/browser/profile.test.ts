@@ -64,6 +64,7 @@ describe.skipIf(scan.missing)(
       await settle(page);
       await page.click("#above");
       await settle(page);
+      await page.click("#profiles > summary");
       await page.click("#profile-draw");
       await page.fill("#profile-width", "4");
       for (const { x, y } of await pixelsOfPoints(page)) {
@@ -141,7 +142,7 @@ async function clippedPointsAreExported(page: Page, folder: string): Promise<voi
     window.groma.layer.filter = { ranges: { elevation: heights } };
     return { ring, heights };
   });
-  await page.click("#export summary");
+  await page.click("#share > summary");
   const downloading = page.waitForEvent("download");
   await page.selectOption("#export-format", "laz");
   await page.click("#export-points");
@@ -181,7 +182,7 @@ async function clippedPointsAreExported(page: Page, folder: string): Promise<voi
     window.groma.layer.clips.clear();
     window.groma.layer.filter = undefined;
   });
-  await page.click("#export summary");
+  await page.click("#share > summary");
 }
 
 /** A COPC file with all heights a metre greater: its offset (LAS 1.4 R15, table 3), bounds, and the middle of its octree. */
@@ -324,7 +325,8 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
   );
   expect(keys.filter((key) => key.startsWith("groma-profiles:"))).toEqual([`groma-profiles:${identity}`]);
   await page.reload();
-  await page.waitForSelector("#profile-list:not([hidden])", { timeout: 60_000 });
+  await page.waitForSelector("#profile-list:not([hidden])", { state: "attached", timeout: 60_000 });
+  await page.click("#profiles > summary");
   await settle(page);
   expect(await page.locator("#profile-list option").allTextContents()).toEqual(["profiles…", "dike <b>"]);
   await page.selectOption("#profile-list", { label: "dike <b>" });

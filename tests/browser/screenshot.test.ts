@@ -271,6 +271,7 @@ it("waits for what is on its way, can be given up, and takes names for words", {
   await page.fill("#address", "/late.copc.laz");
   await page.press("#address", "Enter");
   await page.locator("[aria-label='Give up late.copc.laz']").waitFor();
+  await page.click("#share > summary");
   await page.click("#screenshot");
   await expect.poll(() => page.textContent("#screenshot-status")).toBe("waiting until this view is complete");
   await page.click("#screenshot");

@@ -87,6 +87,7 @@ it("each is shown, gone to and removed by itself; one is what the panel speaks o
   expect(await page.evaluate(() => document.activeElement?.textContent)).toBe("scan.copc.laz");
   await page.click("#cloud-list li:first-child .name");
   expect(await chosen()).toBe("first.copc.laz");
+  await page.click("#looks > summary");
   await page.selectOption("#color", "intensity");
   expect(await page.evaluate(() => window.groma.clouds.layers.map(({ style }) => style.color))).toEqual([
     "intensity",

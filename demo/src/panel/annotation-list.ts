@@ -1,6 +1,7 @@
 import type { CameraView, Measurement, MeasureTool, Note } from "@groma/layer/tools";
 import { i18n } from "../language/i18n.js";
 import { byId, setText, textElement } from "./elements.js";
+import { unfold } from "./fold.js";
 import { iconButton } from "./icons.js";
 
 interface Entry {
@@ -61,7 +62,7 @@ export class AnnotationList {
     this.#edited = id;
     const entry = id === undefined ? undefined : this.#entries.get(id);
     if (!entry) return;
-    this.#place.open = true;
+    unfold(this.#place);
     entry.title.focus();
     entry.title.select();
   }

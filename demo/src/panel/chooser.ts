@@ -1,4 +1,5 @@
 import { byId } from "./elements.js";
+import { unfold } from "./fold.js";
 
 /** A small scan that comes with the page, in `demo/public`: of the kind that `demo/sample` makes, converted. */
 const SAMPLE = "sample.copc.laz";
@@ -43,14 +44,14 @@ export class Chooser {
 
   /** Takes the reader to where a coordinate system can be given. */
   askForCrs(): void {
-    this.#details.open = true;
+    unfold(this.#details);
     this.#crs.focus();
   }
 
   /** Whether the page has no cloud: it then begins with this, in the middle. */
   set alone(alone: boolean) {
     document.body.classList.toggle("empty", alone);
-    if (alone) this.#details.open = true;
+    if (alone) unfold(this.#details);
   }
 
   fold(): void {

@@ -20,9 +20,8 @@ interface Row {
 
 /** The clouds of the scene: which are shown, and which one the panel speaks of. */
 export class CloudList {
-  readonly #place = byId("clouds", HTMLElement);
   readonly #list = byId("cloud-list", HTMLUListElement);
-  readonly #title = byId("clouds-title", HTMLHeadingElement);
+  readonly #address = byId("address", HTMLInputElement);
   readonly #wishes: CloudWishes;
   #rows: readonly Row[] = [];
 
@@ -46,11 +45,11 @@ export class CloudList {
       wanted.length === this.#list.children.length &&
       wanted.every((one, i) => one === this.#list.children[i]);
     if (!same) this.#list.replaceChildren(...wanted);
-    this.#place.hidden = wanted.length === 0;
-    // Whoever removed one by keyboard goes on at the next.
+    this.#list.hidden = wanted.length === 0;
+    // Whoever removed one by keyboard goes on at the next, or opens another one.
     if (focused < 0 || this.#list.contains(document.activeElement)) return;
     const next = this.#rows[Math.min(focused, this.#rows.length - 1)];
-    (next?.choose ?? this.#title).focus();
+    (next?.choose ?? this.#address).focus();
   }
 
   #row(cloud: OpenCloud): Row {

@@ -18,6 +18,13 @@ export function foldIfNarrow(): void {
   if (innerWidth < NARROW) setFolded(true);
 }
 
+/** Opens all folds that an element is in. */
+export function unfold(element: Element): void {
+  for (let fold = element.closest("details"); fold; fold = fold.parentElement?.closest("details") ?? null) {
+    fold.open = true;
+  }
+}
+
 function setFolded(folded: boolean): void {
   const button = byId("fold", HTMLButtonElement);
   byId("body", HTMLDivElement).hidden = folded;

@@ -56,7 +56,7 @@ export async function openMeasuring(scan: string) {
     await page.evaluate(async (mapShows) => {
       const { beside } = window.groma;
       document.querySelectorAll("details").forEach((one) => {
-        one.open = one.id === "measuring";
+        one.open = one.closest("#measuring, #share") !== null;
       });
       const { map } = (await beside.view)!;
       if (!mapShows) return;
