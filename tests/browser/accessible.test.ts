@@ -140,7 +140,45 @@ it("serves readers with colours of their own, large text and no motion", { timeo
   await page.emulateMedia({ forcedColors: "none", reducedMotion: "no-preference" });
 });
 
-it("asks before another language loses what was measured", { timeout: 60_000 }, async () => {
+/** Opens what lies over globe and map besides the panel: a point, a profile with its table, an annotation that is written. */
+async function openAll(): Promise<void> {
+  await page.waitForFunction(() => window.groma?.layer, undefined, { timeout: 120_000 });
+  await page.selectOption("#views", "globe");
+  await page.waitForFunction(
+    () => window.groma?.viewer.canvas.width === innerWidth && window.groma.layer?.settled,
+    undefined,
+    { timeout: 120_000 },
+  );
+  const { line, free } = await page.evaluate(() => {
+    const { viewer, layer } = window.groma;
+    const at = (x: number, y: number) => {
+      const [px, py, pz] = layer.cloud.place(x, y, 25);
+      return Object.assign(viewer.camera.positionWC.clone(), { x: px, y: py, z: pz });
+    };
+    const ends = [at(100, 500), at(900, 500)].map((place) => {
+      const { longitude, latitude } = viewer.scene.globe.ellipsoid.cartesianToCartographic(place);
+      return [longitude, latitude].map((angle) => angle * (180 / Math.PI));
+    });
+    for (const part of Array.from(document.querySelectorAll("details"))) part.open = true;
+    // A place of the cloud that nothing lies over.
+    const steps = [1, 2, 3, 4, 5, 6, 7, 8, 9];
+    const places = steps.flatMap((x) => steps.map((y) => at(100 * x, 100 * y)));
+    const pixels = places.map((place) => viewer.scene.cartesianToCanvasCoordinates(place)!);
+    const free = pixels.find(({ x, y }) => document.elementFromPoint(x, y) === viewer.canvas)!;
+    return { line: { type: "LineString", coordinates: ends }, free: { x: free.x, y: free.y } };
+  });
+  await page.mouse.click(free.x, free.y);
+  await page.waitForSelector("#picked:not([hidden])");
+  const buffer = Buffer.from(JSON.stringify(line));
+  await page.setInputFiles("#profile-file", { name: "line.geojson", mimeType: "", buffer });
+  await page.waitForFunction(
+    () => (window.groma as unknown as { profile: { shown: number } }).profile.shown > 0,
+  );
+  await page.check("#profile-table-shown");
+  await page.waitForSelector("#profile-table tbody tr");
+}
+
+it("asks before another language loses what was measured", { timeout: 180_000 }, async () => {
   const note = () => page.textContent("#language-note");
   await page.evaluate(() => {
     const { measure, layer } = window.groma;
@@ -158,9 +196,23 @@ it("asks before another language loses what was measured", { timeout: 60_000 }, 
   expect(await note()).toBe("");
   await page.selectOption("#language", "ja");
   await page.waitForFunction(() => document.documentElement.lang === "ja");
+  // Every screen in another language, with all that can be open; then as wide as a phone, and with a reader's colours.
+  await page.setViewportSize({ width: 1000, height: 700 });
   await page.waitForSelector("#language");
+  await openAll();
+  expect(await violations()).toEqual([]);
+  await screenshot(page, "accessible-all-ja");
+  await page.emulateMedia({ forcedColors: "active" });
+  await page.setViewportSize({ width: 320, height: 640 });
+  expect(await violations()).toEqual([]);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(320);
+  await screenshot(page, "accessible-all-320");
+  await page.emulateMedia({ forcedColors: "none" });
+  await page.setViewportSize({ width: 1000, height: 700 });
   await page.selectOption("#language", "en");
   await page.waitForFunction(() => document.documentElement.lang === "en");
+  await openAll();
+  expect(await violations()).toEqual([]);
 });
 
 it("the first screen asks for a scan, and opens its own sample", { timeout: 180_000 }, async () => {
