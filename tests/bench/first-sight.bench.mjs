@@ -3,8 +3,7 @@ import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
-import { build } from "vite";
-import { cesium, harness } from "./accuracy/rendering-browser.mjs";
+import { buildPage, cesium, harness } from "./accuracy/rendering-browser.mjs";
 import { converted } from "./converted.mjs";
 import { serveOver } from "./first-sight/line.mjs";
 
@@ -34,7 +33,8 @@ export async function bench(root) {
   const { launch, openPage } = await harness(root);
   const browser = await launch();
   try {
-    await buildPages(source, folder);
+    const input = PAGES.map((name) => join(source, `${name}.html`));
+    await buildPage(source, folder, { minify: true, input });
     const rows = [];
     for (const [line, limits] of Object.entries(LINES)) {
       const server = await serveOver(
@@ -91,22 +91,4 @@ function row(line, page, { first, complete, points, bytes, requests }) {
     ...{ points, requests },
     "bytes a point": Number((bytes / points).toFixed(2)),
   };
-}
-
-function buildPages(source, outDir) {
-  return build({
-    root: source,
-    base: "./",
-    logLevel: "error",
-    configFile: false,
-    worker: { format: "es" },
-    build: {
-      outDir,
-      target: "es2022",
-      rollupOptions: {
-        input: PAGES.map((name) => join(source, `${name}.html`)),
-        external: ["cesium"],
-      },
-    },
-  });
 }

@@ -40,11 +40,13 @@ export class CoreProgram {
    */
   async convert(scan: Bytes, onEvent: (event: CoreEvent) => void): Promise<CoreOutcome> {
     let fault: Fault | undefined;
+    let whole = false;
     let complaint = "";
     const onLine = (text: string) => {
       const line = JSON.parse(text) as Line;
       if (line.event === "error") fault ??= line;
-      else if (line.event !== "done") onEvent(line);
+      else if (line.event === "done") whole = true;
+      else onEvent(line);
     };
     const folder = new GrowingFolder(new Map([[INPUT, new BytesFile(scan)]]));
     const place = new PreopenDirectory(".", folder.contents);
@@ -73,7 +75,7 @@ export class CoreProgram {
     }
     if (fault) return { fault };
     const made = folder.contents.get(OUTPUT);
-    if (!(made instanceof BytesFile && made.bytes instanceof GrowingBytes)) return { complaint };
+    if (!(whole && made instanceof BytesFile && made.bytes instanceof GrowingBytes)) return { complaint };
     return { copc: made.bytes };
   }
 }

@@ -76,15 +76,23 @@ export function cesium(root) {
   };
 }
 
-function buildPage(source, outDir) {
+/**
+ * Builds the pages of a folder.
+ *
+ * @param {{ minify?: boolean, input?: string[] }} [how] input: the pages, where they are not `index.html`
+ */
+export function buildPage(source, outDir, { minify = false, input } = {}) {
   return build({
     root: source,
     base: "./",
     logLevel: "error",
     configFile: false,
     worker: { format: "es" },
-    // Cesium is served as it was built by its makers.
-    build: { outDir, target: "es2022", minify: false, rollupOptions: { external: ["cesium"] } },
+    build: {
+      ...{ outDir, minify, target: "es2022" },
+      // Cesium is served as it was built by its makers.
+      rollupOptions: { external: ["cesium"], ...(input && { input }) },
+    },
   });
 }
 
