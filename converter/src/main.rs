@@ -14,7 +14,6 @@ use groma_core::progress::JsonLines;
 use groma_core::sampling::Strategy;
 use groma_core::scan::Scan;
 use groma_core::scan::describe::Description;
-#[cfg(not(target_family = "wasm"))]
 use groma_core::temporary::folder;
 use groma_core::verify;
 use serde::Serialize;
@@ -121,6 +120,8 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
+            // A run that is being stopped fails because its files have gone; the signal's handler says what happened.
+            let _held = folder::hold();
             JsonLines::print(&error.wire());
             eprintln!("{error}");
             ExitCode::FAILURE
@@ -214,7 +215,7 @@ fn options(arguments: Convert) -> Result<Options> {
 fn stop_cleanly(output: PathBuf) {
     let handler = move || {
         let _held = folder::abandon_all();
-        JsonLines::print(&Error::interrupted(&output, "the conversion was stopped").wire());
+        let _last = JsonLines::print_last(&Error::interrupted(&output, "the conversion was stopped").wire());
         std::process::exit(130);
     };
     // Without a handler the process ends as it would anyway, leaving the unfinished file.

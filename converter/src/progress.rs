@@ -2,7 +2,7 @@
 
 use crate::error::steers;
 use serde::Serialize;
-use std::io::Write;
+use std::io::{StdoutLock, Write};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -52,6 +52,13 @@ impl JsonLines {
         let line = escaped(serde_json::to_string(event).unwrap_or_default());
         let mut out = std::io::stdout().lock();
         let _ = writeln!(out, "{line}").and_then(|()| out.flush());
+    }
+
+    /// Prints the last event of a process that ends next: while what it returns lives, other threads that print wait.
+    pub fn print_last(event: &impl Serialize) -> StdoutLock<'static> {
+        let out = std::io::stdout().lock();
+        Self::print(event);
+        out
     }
 }
 
@@ -135,5 +142,15 @@ mod tests {
         let line = escaped(serde_json::to_string(&Line::Warning { text }).unwrap());
         assert!(!line.chars().any(steers), "{line}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&line).unwrap()["text"], text);
+    }
+
+    #[test]
+    fn nothing_is_printed_after_the_last_word() {
+        let last = JsonLines::print_last(&"last");
+        let late = std::thread::spawn(|| JsonLines.warn("late"));
+        std::thread::sleep(Duration::from_millis(50));
+        assert!(!late.is_finished());
+        drop(last);
+        late.join().unwrap();
     }
 }
