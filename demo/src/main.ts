@@ -1,14 +1,14 @@
 import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
-import { CrsError } from "@groma/georef";
-import { type PointCloud, type PointCloudLayer, SharedBudget, type SharedView } from "@groma/layer/cesium";
+import { type PointCloud, type PointCloudLayer, SharedBudget } from "@groma/layer/cesium";
 import { PointNavigation } from "@groma/layer/navigation";
 import { Cartesian3, type Viewer } from "cesium";
-import { cloudAddress, type NamedCloud, nameClouds, type PageOptions, readPageOptions } from "./address.js";
+import { cloudAddress, type PageOptions, readPageOptions } from "./address.js";
+import { CloudOpener } from "./cloud-opener.js";
 import { Clouds, type OpenCloud } from "./clouds/clouds.js";
 import type { OpenOptions } from "./clouds/open-layer.js";
-import { i18n } from "./language/i18n.js";
 import { Beside } from "./map/beside.js";
+import { addressed, nameIn, rememberClouds } from "./named-clouds.js";
 import type { Groma } from "./page-global.js";
 import { Chooser } from "./panel/chooser.js";
 import { Classes } from "./panel/classes.js";
@@ -19,7 +19,6 @@ import { Drawing } from "./panel/drawing.js";
 import { byId } from "./panel/elements.js";
 import { ExportPoints } from "./panel/export-points.js";
 import { clearTitle, showFacts } from "./panel/facts.js";
-import { tellFailures } from "./panel/failures.js";
 import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
 import { connectLanguage } from "./panel/language-choice.js";
@@ -27,7 +26,7 @@ import { Ledger } from "./panel/ledger.js";
 import { connectLook } from "./panel/look.js";
 import { madeOctree } from "./panel/made-octree.js";
 import { Measuring } from "./panel/measuring.js";
-import { Message, type ToldFault } from "./panel/message.js";
+import { Message } from "./panel/message.js";
 import { Moving } from "./panel/moving.js";
 import { Picked } from "./panel/picked.js";
 import { Progress } from "./panel/progress.js";
@@ -54,15 +53,13 @@ function start(viewer: Viewer): void {
   const list = new CloudList({
     choose: (cloud) => {
       clouds.choose(cloud);
-      followProgress();
-      groma.layer = clouds.layer;
+      followLayer();
       rememberClouds(clouds);
     },
     goTo: ({ layer }) => void goToCloud(viewer, layer, flight("oblique", way("fly"))),
     remove: (cloud) => {
       clouds.remove(cloud);
-      followProgress();
-      groma.layer = clouds.layer;
+      followLayer();
       rememberClouds(clouds);
     },
   });
@@ -133,15 +130,25 @@ function start(viewer: Viewer): void {
     writeTo: (page) => nameIn(page, clouds),
   });
   new Screenshot({ viewer, clouds, beside, tool: measuring.tool }, (thrown) => message.show(thrown));
-  const heights = new Heights(reopen);
+  const heights = new Heights((vertical) => opener.reopen(vertical));
   const chooser = new Chooser({
-    files: (files) => void chooseAll(files),
+    files: (files) => void opener.openChosen(files),
     address: (text) => {
       try {
-        void chooseAll([cloudAddress(text, location.href)]);
+        void opener.openChosen([cloudAddress(text, location.href)]);
       } catch (thrown) {
         message.show(thrown);
       }
+    },
+  });
+  const opener = new CloudOpener({
+    ...{ clouds, chooser, message, progress, share, how, goTo },
+    ended: followLayer,
+    broughtBack: ({ layer }) => {
+      chooser.fold();
+      foldIfNarrow();
+      drawing.refresh();
+      classes.attach(layer);
     },
   });
   connectFold();
@@ -164,7 +171,7 @@ function start(viewer: Viewer): void {
   }
   if (options.shown) beside.show(options.shown, options.linked);
   chooser.alone = options.clouds.length === 0;
-  void openNamed(options.clouds);
+  void opener.openNamed(options.clouds, options.color);
 
   /** Shows the record of a point that a tool leads to, as if it had been clicked. */
   async function readHit(cloud: PointCloud, node: string, record: number): Promise<void> {
@@ -175,85 +182,8 @@ function start(viewer: Viewer): void {
     picking.show({ ...found, layer, cloud, position: new Cartesian3(x, y, z) });
   }
 
-  /** Opens the clouds that the page's address names; the view that it asks for is one of the first. */
-  async function openNamed([first, ...others]: readonly NamedCloud[]): Promise<void> {
-    if (!first) return;
-    chooser.fill(new URL(location.href).searchParams.get("cloud") ?? "");
-    const faults: ToldFault[] = [];
-    const tell = (thrown: unknown) => {
-      faults.push({ thrown });
-      message.showAll(faults);
-    };
-    let view: SharedView | undefined;
-    let unread: unknown;
-    try {
-      view = Share.wanted();
-    } catch (thrown) {
-      unread = thrown;
-    }
-    await bringBack(first, view, { faults, tell });
-    // What cannot be brought back is told; the clouds are there all the same.
-    if (unread !== undefined) tell(unread);
-    for (const [at, cloud] of others.entries()) {
-      const opened = await open(cloud.address, howNamed(cloud), "stay", faults);
-      try {
-        if (opened) Object.assign(opened.layer, view?.others?.[at]);
-      } catch (thrown) {
-        tell(thrown);
-      }
-    }
-  }
-
-  function howNamed({ crs, vertical, georef }: NamedCloud): OpenOptions {
-    const { color } = options;
-    const style = { ...lasting().style, ...(color && { color }) };
-    return { ...lasting(), style, crs, vertical, transformation: georef };
-  }
-
-  /** Opens a cloud and shows it as the link to the page asks for. */
-  async function bringBack(
-    named: NamedCloud,
-    view: SharedView | undefined,
-    { faults, tell }: { readonly faults: ToldFault[]; readonly tell: (thrown: unknown) => void },
-  ): Promise<void> {
-    const opened = await open(named.address, howNamed(named), view?.camera ? "stay" : undefined, faults);
-    if (!opened) return;
-    try {
-      if (view) await share.show(view);
-    } catch (thrown) {
-      tell(thrown);
-    }
-    chooser.fold();
-    foldIfNarrow();
-    drawing.refresh();
-    classes.attach(opened.layer);
-  }
-
-  /** Opens what the reader chose, one after the other; the camera goes to the first. */
-  async function chooseAll(chosen: readonly (string | File)[]): Promise<void> {
-    message.clear();
-    const faults: ToldFault[] = [];
-    for (const [at, from] of chosen.entries()) {
-      const how = { ...lasting(), crsIfMissing: chooser.crs };
-      const opened = await open(from, how, at > 0 ? "stay" : undefined, faults);
-      if (opened) rememberClouds(clouds);
-    }
-  }
-
-  /** Opens the chosen cloud with another height reference, seen from where the camera stands. */
-  async function reopen(vertical: string | undefined): Promise<boolean> {
-    const { chosen } = clouds;
-    if (!chosen) return false;
-    message.clear();
-    const { from, how, crs } = chosen;
-    const { style, filter, heightOffset, show } = chosen.layer;
-    const opened = await open(from, { ...how, style, filter, heightOffset, show, crs, vertical }, "stay");
-    if (opened) rememberClouds(clouds);
-    return opened !== undefined;
-  }
-
-  /** What holds for every cloud that is opened, not only for those in the page's address. */
-  function lasting(): OpenOptions {
+  /** How every cloud is opened, whether the page's address names it or the reader chooses it. */
+  function how(): OpenOptions {
     const { budget: points = 1_000_000, size } = options;
     return {
       ...{ clips: box.clips, budget, pointBudget: points },
@@ -271,41 +201,6 @@ function start(viewer: Viewer): void {
     return { aspect, free: freeArea(), way: by };
   }
 
-  /**
-   * Opens a cloud beside the others.
-   * @param wanted how the camera goes there; "stay": it does not, nor is the cloud chosen where another one is
-   * @param faults of clouds that were opened with it, which are told with its own
-   * @returns undefined where it cannot be opened, which is told, or was given up
-   */
-  async function open(
-    from: string | File,
-    how: OpenOptions,
-    wanted: Flight["way"] | "stay" = clouds.layer ? "fly" : "descend",
-    faults: ToldFault[] = [],
-  ): Promise<OpenCloud | undefined> {
-    const name = typeof from === "string" ? from : from.name;
-    progress.opening(name);
-    try {
-      const opened = await clouds.open(from, how, {
-        waits: (wait) => progress.openingWaits(name, wait),
-        indexing: (done) => progress.indexing(name, done),
-      });
-      if (opened) {
-        tellFailures(opened.layer, message);
-        if (wanted !== "stay") await goTo(opened, wanted);
-      }
-      return opened;
-    } catch (thrown) {
-      const give = { label: i18n.t("Give it here"), run: () => chooser.askForCrs() };
-      faults.push({ thrown, action: thrown instanceof CrsError ? give : undefined });
-      message.showAll(faults);
-      return undefined;
-    } finally {
-      followProgress();
-      groma.layer = clouds.layer;
-    }
-  }
-
   /** Chooses a cloud and takes the camera there. */
   async function goTo(cloud: OpenCloud, by: Flight["way"]): Promise<void> {
     clouds.choose(cloud);
@@ -319,6 +214,12 @@ function start(viewer: Viewer): void {
     const { layer } = clouds;
     if (layer) progress.follow(layer);
     else progress.rest();
+  }
+
+  /** Has progress, and who drives the page from outside, follow the chosen cloud's layer. */
+  function followLayer(): void {
+    followProgress();
+    groma.layer = clouds.layer;
   }
 
   /** Has the page speak of the chosen cloud. */
@@ -360,29 +261,6 @@ function start(viewer: Viewer): void {
     profile.leave();
     progress.rest();
   }
-}
-
-/** Keeps the page's address in step with what it shows, so that it can be reloaded and passed on: the chosen cloud first. */
-function rememberClouds(clouds: Clouds): void {
-  const page = new URL(location.href);
-  nameIn(page, clouds);
-  // A link to a view is one of the cloud that it was made for.
-  page.hash = "";
-  history.replaceState(null, "", page);
-}
-
-/** The clouds that an address can name, which a file of the reader's disk has none of: the chosen one first. */
-function addressed({ all, chosen }: Clouds): (OpenCloud & { readonly from: string })[] {
-  const order = [...(chosen ? [chosen] : []), ...all.filter((one) => one !== chosen)];
-  return order.flatMap((cloud) => (typeof cloud.from === "string" ? [{ ...cloud, from: cloud.from }] : []));
-}
-
-function nameIn(page: URL, clouds: Clouds): void {
-  const named = addressed(clouds).map(({ from, crs, how: { vertical, transformation } }): NamedCloud => {
-    const georef = typeof transformation === "string" ? transformation : undefined;
-    return { address: from, crs, vertical, georef };
-  });
-  nameClouds(page, named);
 }
 
 try {
