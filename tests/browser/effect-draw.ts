@@ -71,6 +71,8 @@ export interface Draw {
   readonly facts?: Partial<SceneFacts>;
   readonly node?: Partial<DrawnNode>;
   readonly columns: Readonly<Record<string, readonly number[]>>;
+  /** Values in place of the view's. */
+  readonly view?: Readonly<Partial<Record<keyof typeof VIEW, number | readonly number[]>>>;
   readonly textures?: readonly PlainTexture[];
   readonly pass?: PointPass;
 }
@@ -78,7 +80,7 @@ export interface Draw {
 /** Draws points, or only takes what the vertex shader makes of them. */
 export async function draw(
   page: Page,
-  { style, facts, node, columns, textures = [], pass = "color" }: Draw,
+  { style, facts, node, columns, view, textures = [], pass = "color" }: Draw,
   outputs: readonly string[] | undefined,
 ): Promise<GpuResult & { plan: EffectPlan }> {
   const whole = styleOf(style);
@@ -91,12 +93,13 @@ export async function draw(
     declared: shader.uniforms,
     uniforms: {
       ...VIEW,
+      ...view,
       ...layerUniforms(plan),
       ...nodeUniforms(plan, { ...NODE, ...node }),
     },
     textures: [...styleTextures(plan).map(plain), ...textures],
-    attributes: columnsOf(shader, columns),
-    count: columns.position.length / 3,
+    attributes: columnsOf(shader, columns, node?.step !== undefined),
+    count: columns.position.length / (node?.step === undefined ? 3 : 4),
     wanted: outputs ? { kind: "vertices", outputs } : { kind: "picture", size: SIZE, primitive: "points" },
   });
   return { ...result, plan };

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { encodeVisibleOctree } from "../../layer/src/effects/index.js";
+import { encodeVisibleOctree, inSteps } from "../../layer/src/effects/index.js";
 import type { VoxelKey } from "../../layer/src/octree/index.js";
 import { draw, random, SIZE, usePage } from "./effect-draw.js";
 
@@ -79,5 +79,30 @@ describe("the visible octree on the GPU", () => {
         expect(values[4 * point + 3]).toBeCloseTo(Math.max(1, width), 4);
       });
     }
+  });
+});
+
+describe("positions at whole steps on the GPU", () => {
+  it("are seen where the same in metres are, bit for bit", async () => {
+    const next = random(12);
+    const step = 2 ** -9;
+    const turn = [0.6, 0.64, -0.48, 0, 0, 0.6, 0.8, 0, 0.8, -0.48, 0.36, 0];
+    const ends = [-(2 ** 20) + 1, 2 ** 20 - 1, -65_536, 65_536, -65_537, 65_535, -1, 0, 1];
+    const whole = Array.from({ length: 3 * 1000 }, (_, at) =>
+      at < 27 ? ends[(at * 5) % 9] : Math.round((2 * next() - 1) * (2 ** 20 - 1)),
+    );
+    const metres = whole.map((steps) => steps * step);
+    const rgb = new Array(4 * 1000).fill(1);
+    const modelView = (per: number) => [...turn.map((value) => value * per), 100.25, -7, -1500, 1];
+    const of = (position: readonly number[], per: number, node?: { step: number }) =>
+      draw(
+        page(),
+        { columns: { position, rgb }, view: { u_modelView: modelView(per) }, ...(node && { node }) },
+        ["gl_Position"],
+      );
+    const exact = await of(metres, 1);
+    const stored = await of([...inSteps(Float32Array.from(metres), step)], step, { step });
+    expect(new Set(exact.values).size).toBeGreaterThan(2000);
+    expect(stored.values).toEqual(exact.values);
   });
 });

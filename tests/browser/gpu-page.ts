@@ -33,15 +33,19 @@ export interface GpuRun {
 /** Vertex outputs one point after the other; or RGBA and depth of each pixel, row by row from below. */
 export type GpuResult = { readonly values: number[]; readonly depths: number[] };
 
-/** Attributes of a composed program from columns of plain numbers, normalised where the program wants it. */
+/**
+ * Attributes of a composed program from columns of plain numbers, normalised where the program wants it.
+ * @param inSteps whether positions are stored at whole steps, in four numbers; else in metres, three
+ */
 export function columnsOf(
   shader: PointShader,
   columns: Readonly<Record<string, readonly number[]>>,
+  inSteps = false,
 ): GpuRun["attributes"] {
   return shader.attributes.map(({ name, location, column, components, normalized }) => ({
     name,
     location,
-    components,
+    components: column === "position" && !inSteps ? 3 : components,
     data: normalized ? columns[column].map((value) => value / 255) : columns[column],
   }));
 }

@@ -43,6 +43,45 @@ describe.skipIf(pythonMissing)(
       expect(warnings).toHaveLength(1);
     });
 
+    it("look the same with positions of 8 bytes and of 12, whichever the tolerance asks for", {
+      timeout: 30_000,
+    }, async () => {
+      const drawn = await stage.page.evaluate(async (pose) => {
+        const stage = new window.page.Stage();
+        const seen = [];
+        for (const tolerance of [0.001, 1e-5]) {
+          const style = { pointSize: 5, size: "adaptive" } as const;
+          const layer = await stage.show("steps", { style, tolerance });
+          stage.look(pose);
+          await stage.settle();
+          const row = (name: string) => layer.ledger.find(({ effect }) => effect === name);
+          seen.push({
+            picture: stage.picture(),
+            bytes: layer.statistics.bytesPerPoint,
+            storage: row("storage")?.why,
+            metres: row("placing")?.magnitude,
+            pixels: row("placingOnScreen")?.magnitude,
+          });
+        }
+        const errors = stage.errors();
+        stage.destroy();
+        return { seen, errors };
+      }, OBLIQUE);
+      expect(drawn.errors).toEqual([]);
+      const [steps, floats] = drawn.seen;
+      expect([steps!.bytes, floats!.bytes]).toEqual([12, 16]);
+      expect(steps!.storage).toMatch(/[1-9]\d* at whole steps \(8 bytes a point\), 0 as float32/);
+      expect(floats!.storage).toMatch(/ 0 at whole steps \(8 bytes a point\), [1-9]\d* as float32/);
+      for (const { metres, pixels } of drawn.seen) {
+        expect(metres).toBeLessThan(1e-4);
+        expect(pixels).toBeLessThan(0.05);
+      }
+      expect(steps!.metres).toBeGreaterThan(floats!.metres!);
+      const pictures = drawn.seen.map(({ picture }, at) => decode(picture, `scene-bytes-${at}`));
+      // Points that are 0.05 px beside their place show in a few pixels at their edges.
+      expect(difference(pictures[0]!, pictures[1]!)).toBeLessThan(0.005);
+    });
+
     it("fill a picture of another size after a resize", { timeout: 30_000 }, async () => {
       const result = await stage.page.evaluate(async (pose) => {
         const stage = new window.page.Stage();

@@ -1,3 +1,4 @@
+import { bytesPerPoint } from "../drawing/drawn-node.js";
 import type { GpuMilliseconds, LayerFrames } from "../drawing/frame.js";
 import { type GpuCounts, NO_OBJECTS } from "../drawing/gpu.js";
 import type { LayerRenderer } from "./layer-renderer.js";
@@ -18,6 +19,8 @@ export interface LayerStatistics {
   readonly requestsPending: number;
   /** Bytes of buffers and textures on the GPU. */
   readonly gpuBytes: number;
+  /** Bytes of vertices that a point takes there: positions 8, or 12 where the tolerance asks for it, and colours 4. */
+  readonly bytesPerPoint: number;
   /** GPU objects alive, by kind; all 0 after `destroy()`. */
   readonly gpuObjects: GpuCounts;
   /** GPU milliseconds of the points and of the pass over the picture; undefined where the browser does not say. */
@@ -42,6 +45,7 @@ export function statisticsOf(
     budgetReached: limited,
     requestsPending,
     gpuBytes: renderer?.objects.bytes ?? 0,
+    bytesPerPoint: bytesPerPoint(nodes),
     gpuObjects: renderer?.objects.counts ?? NO_OBJECTS,
     gpuMilliseconds: renderer?.gpuMilliseconds ?? { points: undefined, picture: undefined },
   };

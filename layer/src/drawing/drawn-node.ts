@@ -56,6 +56,16 @@ export function pointOf<Node extends Pick<DrawnNode, "firstId" | "count">>(
   return drawn && index < drawn.count ? { drawn, index } : undefined;
 }
 
+/** Bytes of vertices that a point of these nodes takes on the GPU, the mean of all; 0 where there are none. */
+export function bytesPerPoint(nodes: readonly Pick<DrawnNode, "uploaded">[]): number {
+  let [bytes, points] = [0, 0];
+  for (const { uploaded } of nodes) {
+    bytes += uploaded.bytes;
+    points += uploaded.vertices.count;
+  }
+  return points > 0 ? bytes / points : 0;
+}
+
 /** Nodes by what they are drawn in, each group's by rising row. */
 export type GroupedNodes<V extends ViewTypes> = Iterable<readonly [DrawnWith<V>, readonly DrawnNode<V>[]]>;
 

@@ -4,7 +4,7 @@ import type { Column, NodeVertices } from "../workers/index.js";
 export interface DrawnVertices
   extends Pick<
     NodeVertices,
-    "positions" | "count" | "order" | "frame" | "box" | "bound" | "toCube" | "onGlobe"
+    "positions" | "count" | "order" | "frame" | "box" | "bound" | "step" | "toCube" | "onGlobe"
   > {
   readonly columns: {
     /** An attribute by name; always the same object until the points look different. */

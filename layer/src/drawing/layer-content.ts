@@ -225,10 +225,10 @@ export class LayerContent<V extends ViewTypes> {
     const clipRecords = material.showClips(drawn);
     drawn.forEach((one, index) => {
       const { node, uploaded, firstId } = one;
-      const { columns, toCube } = uploaded.vertices;
+      const { columns, toCube, step } = uploaded.vertices;
       one.values = nodeUniforms(plan, {
         // Programs count from the first vertex of the page.
-        ...{ columns, toCube, firstId: firstId - uploaded.first },
+        ...{ columns, toCube, step, firstId: firstId - uploaded.first },
         level: node.key.depth,
         spacing: node.bounds?.spacing ?? 0,
         octreeIndex: octreeIndices?.[index] ?? 0,

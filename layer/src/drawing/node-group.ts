@@ -77,8 +77,9 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
     for (let copy = 0; copy < copies; copy++) {
       for (const node of this.#nodes) {
         const row = copy * this.rows + node.row;
-        this.#table.write(row, this.#values[node.row]);
-        this.#table.write(row, place(node, copy));
+        const { step } = node.uploaded.vertices;
+        this.#table.write(row, this.#values[node.row], step);
+        this.#table.write(row, place(node, copy), step);
       }
     }
     this.uniforms.setTexture(NODE_TABLE, this.#table.upload());

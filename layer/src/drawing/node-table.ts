@@ -23,9 +23,9 @@ export class NodeTable<T extends GpuTypes> {
     }
   }
 
-  /** Values of a row; those not named stay. */
-  write(row: number, values: NodeValues): void {
-    writeNode(this.#layout, this.#data, row, values);
+  /** Values of a row; those not named stay. @param step metres that the positions of its node are stored in */
+  write(row: number, values: NodeValues, step: number | undefined): void {
+    writeNode(this.#layout, this.#data, row, values, step);
   }
 
   /** The table as it was written. */

@@ -1,15 +1,17 @@
-import type { Column } from "../workers/index.js";
+import { inSteps } from "../effects/index.js";
+import type { Column, ColumnData } from "../workers/index.js";
 import type { DrawnVertices } from "./drawn-vertices.js";
 import type { GpuTypes, VertexInput } from "./gpu.js";
 import { type AttributeSet, POSITION, storedConstant } from "./vertex-attributes.js";
 import { bytesOf, numbersFor, numbersOf, repeated, type VertexNumbers } from "./vertex-numbers.js";
-import type { PageSlot, PageTenant, VertexPages } from "./vertex-pages.js";
+import type { PagePositions, PageSlot, PageTenant, VertexPages } from "./vertex-pages.js";
 
 /** A column that a node has in its page. */
 interface PagedColumn {
   /** Name of the page's buffer. */
   readonly buffer: string;
   readonly numbers: VertexNumbers;
+  readonly components: number;
   /** Bytes that the node's points take there. */
   readonly bytes: number;
 }
@@ -56,6 +58,11 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     return this.#slot?.page;
   }
 
+  /** How its positions are stored: four uint16 where they lie at whole steps, else three float32. */
+  get positions(): PagePositions {
+    return this.vertices.step === undefined ? "float32" : "uint16";
+  }
+
   /** Its first vertex in the page. */
   get first(): number {
     return this.#slot?.first ?? 0;
@@ -75,14 +82,14 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   arrayOf(set: AttributeSet): T["vertexArray"] {
     const found = this.#arrays.get(set.signature);
     if (found) return found.array;
-    const slot = this.#slot ?? this.#pages.reserve(this.vertices.count, this);
+    const slot = this.#slot ?? this.#pages.reserve(this.vertices.count, this, this.positions);
     this.#slot = slot;
     const { page } = slot;
     const inputs = set.attributes.map((attribute): VertexInput<T["buffer"]> => {
-      const { location, components, normalized, column } = attribute;
+      const { location, normalized, column } = attribute;
       const paged = this.#columns.get(column) ?? this.#write(slot, attribute);
-      if (!paged) return { location, value: storedConstant(components, undefined) };
-      const { buffer, numbers } = paged;
+      if (!paged) return { location, value: storedConstant(attribute.components, undefined) };
+      const { buffer, numbers, components } = paged;
       return { location, components, normalized, numbers, buffer: page.bufferOf(buffer) };
     });
     const stored = set.columns.map((column) => this.#columns.get(column)?.numbers ?? "");
@@ -134,10 +141,14 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     slot: PageSlot<T>,
     { column: name, components, normalized }: AttributeSet["attributes"][number],
   ): PagedColumn | undefined {
-    const { positions, columns, count } = this.vertices;
+    const { positions, step, columns, count } = this.vertices;
+    if (name === POSITION) {
+      if (step === undefined) return this.#put(slot, name, 3, "float32", positions);
+      return this.#put(slot, name, 4, "uint16", inSteps(positions, step));
+    }
     const column = columns.get(name);
-    const recorded = name === POSITION ? positions : column?.data;
-    if (!recorded || (recorded.length === 0 && !column?.constant)) return undefined;
+    const recorded = column?.data;
+    if (!recorded || (recorded.length === 0 && !column.constant)) return undefined;
     let numbers = numbersOf(recorded);
     let data = recorded;
     if (recorded.length === 0) {
@@ -147,8 +158,18 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
       numbers = slot.page.numbersOf(name, fit) ?? fit[0] ?? "uint8";
       data = repeated(values, count, numbers);
     }
+    return this.#put(slot, name, components, numbers, data);
+  }
+
+  #put(
+    slot: PageSlot<T>,
+    name: string,
+    components: number,
+    numbers: VertexNumbers,
+    data: ColumnData,
+  ): PagedColumn {
     const buffer = slot.page.write(slot, name, components, numbers, data);
-    const paged = { buffer, numbers, bytes: count * components * bytesOf(numbers) };
+    const paged = { buffer, numbers, components, bytes: slot.count * components * bytesOf(numbers) };
     this.#columns.set(name, paged);
     this.#bytes += paged.bytes;
     return paged;

@@ -2,7 +2,7 @@ import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import type { Column } from "../workers/index.js";
 import { attributeSet } from "./vertex-attributes.js";
-import { type PageSlot, type PageTenant, VertexPages } from "./vertex-pages.js";
+import { type PagePositions, type PageSlot, type PageTenant, VertexPages } from "./vertex-pages.js";
 import { TestGpu, TestNode, type TestTypes } from "./view.fixture.js";
 
 const read = (column: string, location: number, components: 1 | 3 | 4 = 1) => ({
@@ -14,13 +14,15 @@ const CLASSES = attributeSet([read("position", 0, 3), read("classification", 1)]
 class Tenant implements PageTenant {
   slot: PageSlot<TestTypes> | undefined;
   readonly #pages: VertexPages<TestTypes>;
+  readonly #positions: PagePositions;
 
-  constructor(pages: VertexPages<TestTypes>) {
+  constructor(pages: VertexPages<TestTypes>, positions: PagePositions = "float32") {
     this.#pages = pages;
+    this.#positions = positions;
   }
 
   take(count: number): void {
-    this.slot = this.#pages.reserve(count, this);
+    this.slot = this.#pages.reserve(count, this, this.#positions);
   }
 
   move(to: PageSlot<TestTypes>): void {
@@ -58,7 +60,10 @@ describe("VertexPages", () => {
     fc.assert(
       fc.property(steps, (changes) => {
         const pages = new VertexPages<TestTypes>(new TestGpu());
-        const tenants = Array.from({ length: 41 }, () => new Tenant(pages));
+        const tenants = Array.from(
+          { length: 41 },
+          (_, index) => new Tenant(pages, index % 3 === 0 ? "float32" : "uint16"),
+        );
         for (const [which, count] of changes) {
           const tenant = tenants[which]!;
           if (tenant.slot) tenant.leave();
@@ -70,8 +75,14 @@ describe("VertexPages", () => {
         expect(taken(tenants).size).toBe(pages.pages.length);
         const wanted = tenants.reduce((all, { slot }) => all + (slot?.count ?? 0), 0);
         expect(sum("used")).toBe(wanted);
-        const most = Math.max(0, ...pages.pages.map(({ capacity }) => capacity));
-        expect(sum("capacity")).toBeLessThanOrEqual(2 * wanted + most);
+        // Each kind has a page that may be far from full.
+        const most = (["float32", "uint16"] as const).map((kind) =>
+          pages.pages.reduce((all, page) => Math.max(all, page.positions === kind ? page.capacity : 0), 0),
+        );
+        expect(sum("capacity")).toBeLessThanOrEqual(2 * wanted + most[0]! + most[1]!);
+        for (const { slot } of tenants.filter((_, index) => index % 3 === 0)) {
+          if (slot) expect(slot.page.positions).toBe("float32");
+        }
         for (const tenant of tenants) tenant.leave();
         expect(pages.pages).toEqual([]);
       }),
@@ -95,9 +106,14 @@ describe("VertexPages", () => {
 });
 
 describe("nodes in pages", () => {
-  const node = (pages: VertexPages<TestTypes>, count: number, columns: readonly Column[] = []) =>
+  const node = (
+    pages: VertexPages<TestTypes>,
+    count: number,
+    columns: readonly Column[] = [],
+    step?: number,
+  ) =>
     new TestNode(pages, {
-      ...{ positions: new Float32Array(3 * count).fill(count), count },
+      ...{ positions: new Float32Array(3 * count).fill(count), count, step },
       columns: new Map(columns.map((column) => [column.name, column])),
     } as unknown as ConstructorParameters<typeof TestNode>[1]);
   const classes = (count: number, constant?: number): Column => ({
@@ -126,6 +142,20 @@ describe("nodes in pages", () => {
     const other = node(pages, 5, [classes(5, -0.5)]);
     expect(other.arrayOf(CLASSES)).not.toBe(nodes[0]!.arrayOf(CLASSES));
     expect(other.page).toBe(nodes[0]!.page);
+  });
+
+  it("take 8 bytes for positions at whole steps and 12 for others, in pages of their own", () => {
+    const gpu = new TestGpu();
+    const pages = new VertexPages<TestTypes>(gpu);
+    const nodes = [0.5, undefined, 0.25].map((step) => node(pages, 10, [], step));
+    const arrays = nodes.map((each) => each.arrayOf(PLAIN));
+    expect(nodes.map(({ bytes }) => bytes)).toEqual([80, 120, 80]);
+    expect(arrays[2]).toBe(arrays[0]);
+    expect(arrays[1]).not.toBe(arrays[0]);
+    const [steps] = gpu.buffersOf(arrays[0]!);
+    // 10 m in half metres, then in quarters.
+    expect([...steps!.written(Uint16Array, 36, 8)]).toEqual([20, 20, 20, 0, 40, 40, 40, 0]);
+    expect(steps!.sizeInBytes).toBe(8 * pages.pages[0]!.capacity);
   });
 
   it("have no buffer for what the data set has not", () => {

@@ -9,11 +9,16 @@ const LARGEST = 262_144;
 /** Pages are made fewer once less than this share of their vertices is in use. */
 const LEAST_USE = 0.5;
 
+const KINDS: readonly PagePositions[] = ["uint16", "float32"];
+
 /** Who lies in a page. */
 export interface PageTenant {
   /** Goes to another place, since its page is given up. */
   move(to: PageSlot<GpuTypes>): void;
 }
+
+/** How the positions of a page are stored, which is the same for all of its nodes. */
+export type PagePositions = Extract<VertexNumbers, "uint16" | "float32">;
 
 /** A run of the vertices of a page. */
 export interface PageSlot<T extends GpuTypes> {
@@ -41,6 +46,7 @@ interface Shared<Thing> {
  */
 export class VertexPage<T extends GpuTypes> {
   readonly capacity: number;
+  readonly positions: PagePositions;
   readonly #gpu: Gpu<T>;
   readonly #gaps: Gap[];
   readonly #tenants = new Map<PageSlot<T>, PageTenant>();
@@ -48,9 +54,10 @@ export class VertexPage<T extends GpuTypes> {
   readonly #arrays = new Map<string, Shared<T["vertexArray"]>>();
   #used = 0;
 
-  constructor(gpu: Gpu<T>, capacity: number) {
+  constructor(gpu: Gpu<T>, capacity: number, positions: PagePositions) {
     this.#gpu = gpu;
     this.capacity = capacity;
+    this.positions = positions;
     this.#gaps = [{ first: 0, count: capacity }];
   }
 
@@ -163,7 +170,8 @@ function share<Thing>(things: Map<string, Shared<Thing>>, name: string, make: ()
 
 /**
  * The vertices of a layer's nodes on the GPU, in pages that nodes share: buffers as few as they can be, and no more than
- * twice as large as what lies in them once {@link tidy} has done its work, but for one page.
+ * twice as large as what lies in them once {@link tidy} has done its work, but for one page of each kind: positions are stored
+ * in 8 bytes or in 12, and what a call draws is stored in one way.
  */
 export class VertexPages<T extends GpuTypes> {
   readonly #gpu: Gpu<T>;
@@ -180,12 +188,14 @@ export class VertexPages<T extends GpuTypes> {
   }
 
   /** Vertices for a tenant: in a page that has as many left in a row, else in a new one. */
-  reserve(count: number, tenant: PageTenant): PageSlot<T> {
-    for (const page of this.#pages) {
+  reserve(count: number, tenant: PageTenant, positions: PagePositions): PageSlot<T> {
+    const pages = this.#of(positions);
+    for (const page of pages) {
       const slot = page.reserve(count, tenant);
       if (slot) return slot;
     }
-    return reserved(this.#add(Math.max(count, grown(this.#capacity))), count, tenant);
+    const capacity = Math.max(count, grown(sumOf(pages, "capacity")));
+    return reserved(this.#add(capacity, positions), count, tenant);
   }
 
   /** Takes vertices back; a page that is empty is given up. */
@@ -196,39 +206,46 @@ export class VertexPages<T extends GpuTypes> {
   }
 
   /**
-   * Moves the nodes of the two pages that are least full into one, where much of all is empty. To be called before what is
-   * drawn in a frame is listed.
+   * Moves the nodes of the two pages that are least full into one, where much of all that store positions alike is empty. To be
+   * called before what is drawn in a frame is listed.
    */
   tidy(): void {
     if (!this.#released) return;
-    const used = this.#pages.reduce((sum, page) => sum + page.used, 0);
-    if (used >= LEAST_USE * this.#capacity) {
-      this.#released = false;
-      return;
-    }
-    const emptiest = [...this.#pages].sort((a, b) => a.used / a.capacity - b.used / b.capacity).slice(0, 2);
-    const moved = emptiest.reduce((sum, page) => sum + page.used, 0);
-    const capacity = Math.max(SMALLEST, moved);
-    if (capacity >= emptiest.reduce((sum, page) => sum + page.capacity, 0)) {
-      this.#released = false;
-      return;
-    }
-    const page = this.#add(capacity);
+    // Both kinds have their turn.
+    this.#released = KINDS.map((positions) => this.#join(positions)).includes(true);
+  }
+
+  /** @returns whether pages were joined, so that there may be others to join */
+  #join(positions: PagePositions): boolean {
+    const pages = this.#of(positions);
+    if (sumOf(pages, "used") >= LEAST_USE * sumOf(pages, "capacity")) return false;
+    const emptiest = pages.sort((a, b) => a.used / a.capacity - b.used / b.capacity).slice(0, 2);
+    const capacity = Math.max(SMALLEST, sumOf(emptiest, "used"));
+    if (capacity >= sumOf(emptiest, "capacity")) return false;
+    const page = this.#add(capacity, positions);
     for (const { tenants } of emptiest) {
       for (const [{ count }, tenant] of [...tenants]) tenant.move(reserved(page, count, tenant));
     }
+    return true;
   }
 
-  /** Vertices that all pages have room for. */
-  get #capacity(): number {
-    return this.#pages.reduce((sum, page) => sum + page.capacity, 0);
+  #of(positions: PagePositions): VertexPage<T>[] {
+    return this.#pages.filter((page) => page.positions === positions);
   }
 
-  #add(capacity: number): VertexPage<T> {
-    const page = new VertexPage(this.#gpu, capacity);
+  #add(capacity: number, positions: PagePositions): VertexPage<T> {
+    const page = new VertexPage(this.#gpu, capacity, positions);
     this.#pages.push(page);
     return page;
   }
+}
+
+/** Vertices that pages have room for, or that are used of them. */
+function sumOf(
+  pages: readonly Pick<VertexPage<GpuTypes>, "used" | "capacity">[],
+  of: "used" | "capacity",
+): number {
+  return pages.reduce((sum, page) => sum + page[of], 0);
 }
 
 /** Vertices of the page after so many. */

@@ -17,6 +17,7 @@ import {
 import { type EffectPlan, effectsOf, passesOf } from "./effect-plan.js";
 import { NODE_UNIFORMS, type NodeLayout, nodeLayout } from "./node-layout.js";
 import { readBy, shaderText, stagedStatements, unique } from "./shader-text.js";
+import { STEP, STORED } from "./stored-positions.js";
 
 /**
  * The program of a set of effects: what each of them adds, in the order of the stages, and nothing of the others.
@@ -104,14 +105,14 @@ function base({ target, pass, offscreen }: Omit<PartContext<unknown>, "variant">
   // A quad that shows the picture corrects its colours.
   const output = `out_FragColor = ${offscreen ? color : target.colour(color)};`;
   return {
-    attributes: [{ column: POSITION, components: 3, normalized: false }],
-    uniforms: [{ name: "u_firstId", type: "int", scope: "node" }],
+    attributes: [{ column: POSITION, components: 4, normalized: false }],
+    uniforms: [{ name: "u_firstId", type: "int", scope: "node" }, STEP],
     varyings: [
       ...(shown ? [{ name: "v_color", type: "vec3" } as const] : []),
       ...(pass === "id" ? [{ name: "v_id", type: "uint", flat: true } as const] : []),
     ],
     vertex: {
-      locate: "vec4 eye = $modelView * vec4(a_position, 1.0);",
+      locate: `${STORED}\nvec4 eye = $modelView * vec4(stored, 1.0);`,
       project: "gl_Position = $projection * eye;",
       ...(target.vertexDepth && { deepen: target.vertexDepth }),
       ...(shown && { hand: "v_color = color;" }),

@@ -81,7 +81,10 @@ const OF_NODES = EFFECTS.filter(({ nodeValues }) => nodeValues !== undefined);
 
 /** Values of the uniforms of one node. Form them when the node, the style or the view's nodes change. */
 export function nodeUniforms(plan: EffectPlan, node: DrawnNode): UniformValues {
-  const values: Record<string, number | readonly number[]> = { u_firstId: node.firstId };
+  const values: Record<string, number | readonly number[]> = {
+    u_firstId: node.firstId,
+    u_step: node.step ?? 1,
+  };
   for (const effect of OF_NODES) {
     if (plan.active.has(effect.name)) Object.assign(values, effect.nodeValues?.(plan.scene, node));
   }

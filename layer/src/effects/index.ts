@@ -75,5 +75,6 @@ export {
   withoutClips,
 } from "./plan.js";
 export { type PaintStyle, type PointPaint, pointPaint } from "./point-paint.js";
+export { inSteps } from "./stored-positions.js";
 export { completeStyle, defaultStyle, type StyleParts } from "./style.js";
 export { WEBGL2 } from "./webgl2-target.js";

@@ -53,13 +53,20 @@ export function nodeLayout(uniforms: readonly UniformDeclaration[]): NodeLayout 
 /**
  * Writes values of a node; those not named stay.
  * @param row number of the node in the table
+ * @param step metres that its positions are stored in: its matrices are given for metres, and told for stored positions
  */
-export function writeNode(layout: NodeLayout, table: Float32Array, row: number, values: NodeValues): void {
+export function writeNode(
+  layout: NodeLayout,
+  table: Float32Array,
+  row: number,
+  values: NodeValues,
+  step = 1,
+): void {
   const begin = 4 * layout.texels * row;
   for (const { name, type, at } of layout.fields) {
     const value = values[name];
     if (value === undefined) continue;
-    if (type === "mat4") writeMatrix(table, begin + at, value as ArrayLike<number>);
+    if (type === "mat4") writeMatrix(table, begin + at, value as ArrayLike<number>, step);
     else if (type === "int") {
       const parts = Math.floor((value as number) / PART);
       table[begin + at] = parts;
@@ -70,9 +77,12 @@ export function writeNode(layout: NodeLayout, table: Float32Array, row: number, 
 }
 
 /** The rows of an affine matrix that is given column by column. */
-function writeMatrix(table: Float32Array, at: number, columns: ArrayLike<number>): void {
+function writeMatrix(table: Float32Array, at: number, columns: ArrayLike<number>, step: number): void {
   for (let row = 0; row < 3; row++) {
-    for (let column = 0; column < 4; column++) table[at + 4 * row + column] = columns[4 * column + row];
+    for (let column = 0; column < 3; column++) {
+      table[at + 4 * row + column] = columns[4 * column + row] * step;
+    }
+    table[at + 4 * row + 3] = columns[12 + row];
   }
 }
 

@@ -24,6 +24,8 @@ export interface PlacedNode {
   readonly bound: number;
   /** Least and greatest position in its frame: min x, y, z, max x, y, z, metres. */
   readonly box: ArrayLike<number>;
+  /** Length that its positions are stored in whole multiples of, metres; undefined where they are float32. */
+  readonly step?: number | undefined;
 }
 
 /** What holds for a data set whatever is drawn of it. */
@@ -63,15 +65,20 @@ export function cloudPlacing(cloud: PlacedCloud, tolerance = TOLERANCE): CloudPl
 /** The same with the nodes that are drawn. */
 export function placingFacts(cloud: CloudPlacing, nodes: Iterable<PlacedNode>): PlacingFacts {
   const schemes: Record<string, number> = {};
-  let [nodeEdge, bound, reach] = [0, 0, 0];
+  let [nodeEdge, bound, storageBound, steps, floats] = [0, 0, 0, 0, 0];
   for (const node of nodes) {
+    const { box, step } = node;
     schemes[node.scheme] = (schemes[node.scheme] ?? 0) + 1;
+    if (step === undefined) floats++;
+    else steps++;
     bound = Math.max(bound, node.bound);
+    let reach = 0;
     for (let axis = 0; axis < 3; axis++) {
-      nodeEdge = Math.max(nodeEdge, node.box[axis + 3] - node.box[axis]);
-      reach = Math.max(reach, Math.abs(node.box[axis]), Math.abs(node.box[axis + 3]));
+      nodeEdge = Math.max(nodeEdge, box[axis + 3] - box[axis]);
+      reach = Math.max(reach, Math.abs(box[axis]), Math.abs(box[axis + 3]));
     }
+    // Half a unit in the last place of each of three coordinates, and half a step.
+    storageBound = Math.max(storageBound, Math.sqrt(3) * (reach * 2 ** -24 + (step ?? 0) / 2));
   }
-  // Half a unit in the last place of each of three coordinates.
-  return { ...cloud, schemes, nodeEdge, bound, storageBound: Math.sqrt(3) * reach * 2 ** -24 };
+  return { ...cloud, schemes, nodeEdge, bound, storageBound, stored: { steps, floats } };
 }

@@ -16,7 +16,7 @@ it("tells what is known of the placing, from the data set's own map", () => {
     accuracy: { parts: [{ name: "datum operation", metres: null }] },
   };
   const nodes = [
-    { scheme: "affine", bound: 4e-4, box: [-50, -50, 0, 50, 50, 20] },
+    { scheme: "affine", bound: 4e-4, box: [-50, -50, 0, 50, 50, 20], step: 2 ** -12 },
     { scheme: "cubic", bound: 2e-6, box: [-1000, -1000, 0, 1000, 900, 20] },
   ];
   const placing = placingFacts(cloudPlacing(placed), nodes);
@@ -30,7 +30,13 @@ it("tells what is known of the placing, from the data set's own map", () => {
   expect(row("curvature").magnitude).toBeCloseTo(2000 ** 2 / 8 / 6_371_009, 6);
   expect(row("curvature")).toMatchObject({ active: true, threshold: 0.001, unit: "m" });
   expect(row("placing").magnitude).toBe(4e-4);
-  expect(row("storage").magnitude).toBeCloseTo(Math.sqrt(3) * 1000 * 2 ** -24, 9);
+  // Half the steps of the narrow node are more than what float32 costs in the wide one.
+  expect(row("storage").magnitude).toBeCloseTo(Math.sqrt(3) * (2 ** -13 + 50 * 2 ** -24), 9);
+  expect(row("storage").why).toContain("1 at whole steps (8 bytes a point), 1 as float32 (12 bytes)");
+  expect(placingFacts(cloudPlacing(placed), nodes.slice(1)).storageBound).toBeCloseTo(
+    Math.sqrt(3) * 1000 * 2 ** -24,
+    9,
+  );
   expect(row("datum operation").magnitude).toBeNaN();
   expect(row("placingOnScreen")).toMatchObject({ magnitude: 0.2, threshold: 0.05, unit: "px", active: true });
   const far = planEffects(styleOf(), richFacts({ placing, placingPixels: 0.01 })).ledger;

@@ -31,17 +31,21 @@ function rowsOf(placing: PlacingFacts): Row[] {
       ...stated("placing", placing.bound, placing.tolerance, "worst certified bound of a drawn node"),
       why: "certified for each node",
     },
-    stated(
-      "storage",
-      placing.storageBound,
-      placing.tolerance,
-      "rounding to float32 in the node's frame, √3 · 2⁻²⁴ · half-width; part of the bound above",
-    ),
+    storage(placing),
     ...placing.parts.map(({ name, metres, note }) => ({
       ...stated(name, metres ?? Number.NaN, placing.tolerance, "part of the stated accuracy"),
       why: note ?? (metres === null ? "not known" : "stated"),
     })),
   ];
+}
+
+function storage({ storageBound, tolerance, stored: { steps, floats } }: PlacingFacts): Row {
+  const source =
+    "rounding in the node's frame: to float32, √3 · 2⁻²⁴ · half-width, and where that leaves room to 2²⁰ steps a side, √3 / 2 · step; part of the bound above";
+  return {
+    ...stated("storage", storageBound, tolerance, source),
+    why: `positions of drawn nodes: ${steps} at whole steps (8 bytes a point), ${floats} as float32 (12 bytes)`,
+  };
 }
 
 function curvature({ nodeEdge, schemes, tolerance }: PlacingFacts): Row {

@@ -9,7 +9,7 @@ export const WEBGL2: ShaderTarget = {
     projection: "u_projection",
     viewport: "u_viewport",
     pixelRatio: "u_pixelRatio",
-    onGlobe: "(u_onGlobe * vec4(a_position, 1.0)).xyz",
+    onGlobe: "(u_onGlobe * vec4(stored, 1.0)).xyz",
   },
   uniforms: [
     { name: "u_modelView", type: "mat4", scope: "node" },

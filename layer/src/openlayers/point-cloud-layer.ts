@@ -3,6 +3,7 @@ import type OlLayerRenderer from "ol/renderer/Layer.js";
 import type { ClipSet } from "../clips/index.js";
 import type { PointCloud, PointRecord } from "../cloud/index.js";
 import type { PickOptions } from "../drawing/drawing-options.js";
+import { bytesPerPoint } from "../drawing/drawn-node.js";
 import { type GpuCounts, NO_OBJECTS } from "../drawing/gpu.js";
 import type { Forced, LedgerRow, PointCloudStyle, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
@@ -26,6 +27,8 @@ export interface LayerStatistics {
   readonly framesDrawn: number;
   /** Bytes of buffers and textures on the GPU. */
   readonly gpuBytes: number;
+  /** Bytes of vertices that a point takes there: positions 8, or 12 where the tolerance asks for it, and colours 4. */
+  readonly bytesPerPoint: number;
   /** GPU objects alive, by kind. */
   readonly gpuObjects: GpuCounts;
 }
@@ -143,6 +146,7 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
       budgetReached: placed?.frames.limited ?? false,
       framesDrawn: placed?.renderer.framesDrawn ?? 0,
       gpuBytes: placed?.renderer.objects.bytes ?? 0,
+      bytesPerPoint: bytesPerPoint(nodes),
       gpuObjects: placed?.renderer.objects.counts ?? NO_OBJECTS,
     };
   }

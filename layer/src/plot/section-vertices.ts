@@ -40,6 +40,7 @@ export class SectionVertices implements DrawnVertices {
   readonly frame: Frame;
   readonly box: Float32Array;
   readonly bound: number;
+  readonly step = undefined;
   /** The plot has no cubes: nothing that reads them is drawn in it. */
   readonly toCube = new Float32Array(12);
   readonly onGlobe = undefined;

@@ -105,6 +105,25 @@ describe("runNodeJob", () => {
     expect(distance).toBeLessThanOrEqual(bound);
   });
 
+  it("moves positions to whole steps where the tolerance has room for that, and fits closer to make room", async () => {
+    const at = (tolerance: number) => runNodeJob(prepareDataSet({ ...plain, tolerance }), job, decoders);
+    const [coarse, close, fine] = await Promise.all([0.1, 0.0005, 0.0001].map(at));
+    // 500 m to each side are 2²⁰ steps of half a millimetre.
+    expect([coarse.step, close.step, fine.step]).toEqual([2 ** -11, 2 ** -11, undefined]);
+    const whole = (positions: Float32Array) => positions.every((value) => Number.isInteger(value * 2 ** 11));
+    expect([coarse, close, fine].map(({ positions }) => whole(positions))).toEqual([true, true, false]);
+    expect([coarse.scheme, close.scheme]).toEqual(["affine", "quadratic"]);
+    for (const tolerance of [0.1, 0.0005, 0.0001]) {
+      const { distance, bound } = await worst({ ...plain, tolerance });
+      expect(bound).toBeLessThanOrEqual(tolerance);
+      expect(distance).toBeLessThanOrEqual(bound);
+    }
+    // The box is that of the places as they are drawn.
+    expect(whole(coarse.box)).toBe(true);
+    const away = coarse.positions.map((value, index) => Math.abs(value - fine.positions[index]));
+    expect(Math.max(...away)).toBeGreaterThan(1e-4);
+  });
+
   it("draws points on both sides of 180° in a frame amid them", async () => {
     const given = { given: "+proj=longlat +datum=WGS84", givenVertical: "ellipsoidal" };
     const degrees = resolveCrs({ file: FILE, ...given });

@@ -4,6 +4,7 @@ import {
   eastNorthUp,
   fitPlacement,
   levelFrame,
+  type Placement,
   type PointTransform,
   placeIntegers,
   pointTransform,
@@ -12,13 +13,14 @@ import {
   truthOnMap,
 } from "@groma/georef";
 import { badChunk } from "./chunk-layout.js";
-import { cubeMap } from "./cube-map.js";
+import { cubeMap, localOf } from "./cube-map.js";
 import { type Decoders, decode } from "./decoders.js";
 import { drawingOrder } from "./drawing-order.js";
 import { onGlobe } from "./globe-map.js";
 import { cellGrid } from "./morton-sort.js";
 import { makeArrays } from "./node-columns.js";
 import { checkNodeSize } from "./node-size.js";
+import { reachOf, stepBound, stepOver, toSteps } from "./position-steps.js";
 import type {
   ChunkJob,
   DataSetSpec,
@@ -63,24 +65,53 @@ export async function runNodeJob(
   checkInCube(domain, job, spec);
   const frameAt = spec.plane ? levelFrame : eastNorthUp;
   const { scale, offset, tolerance } = spec;
-  const fitted = fitPlacement(truth, domain, tolerance, spec.file, frameAt);
+  const fit = (tolerance: number) => fitPlacement(truth, domain, tolerance, spec.file, frameAt);
+  const fitted = withRoomForSteps(fit, tolerance);
   const placement = aroundPoints(fitted, { xyz, count }, scale, offset, tolerance, frameAt);
-  const { frame, bound, scheme } = placement;
+  const { frame, bound: placed, scheme } = placement;
   const place = (positions: Float32Array) => {
     placeIntegers(placement, drawn(xyz, order), count, scale, offset, positions);
   };
   const heights = [box[2], box[5]] as const;
-  const points = { xyz, count, order, heights, frame, bound, place };
+  const points = { xyz, count, order, heights, frame, bound: placed, place };
   const arrays = makeArrays(spec, attributes, points, job.appearance);
+  const step = stepWithin(tolerance, placed, arrays.positions);
+  // Heights are of the places as they were before.
+  if (step) toSteps(arrays.positions, step);
+  const bound = placed + (step ? stepBound(step) : 0);
   const local = positionBox(arrays.positions);
   const { minX, minY, minZ, maxX, maxY, maxZ } = domain;
   return {
     ...arrays,
-    ...{ count, frame, bound, scheme, box: local, bytes: arrays.buffer.byteLength },
+    ...{ count, frame, bound, step, scheme, box: local, bytes: arrays.buffer.byteLength },
     extent: Float64Array.of(minX, minY, minZ, maxX, maxY, maxZ),
     ...cubeMap(placement, job.cube, spec, { xyz, order }, arrays.positions, local),
     ...(globe && { onGlobe: onGlobe(globe, placement, domain, job.cube[3]) }),
   };
+}
+
+/**
+ * A fit that leaves of the tolerance what positions at whole steps take, where there is one that needs no projection of each
+ * point; else the cheapest.
+ */
+function withRoomForSteps(fit: (tolerance: number) => Placement, tolerance: number): Placement {
+  const cheapest = fit(tolerance);
+  const { minX, minY, minZ, maxX, maxY, maxZ } = cheapest.domain;
+  const corners = [minX, maxX].flatMap((x) =>
+    [minY, maxY].flatMap((y) => [minZ, maxZ].flatMap((z) => localOf(cheapest, [x, y, z]))),
+  );
+  const taken = stepBound(stepOver(reachOf(corners)));
+  // Those that project each point are as good as can be.
+  if (cheapest.bound + taken <= tolerance || taken >= tolerance || cheapest.scheme === "exact")
+    return cheapest;
+  const closer = fit(tolerance - taken);
+  return closer.scheme !== "exact" && closer.bound + taken <= tolerance ? closer : cheapest;
+}
+
+/** The step that positions can be moved to without leaving the tolerance; undefined where there is none. */
+function stepWithin(tolerance: number, bound: number, positions: Float32Array): number | undefined {
+  const step = stepOver(reachOf(positionBox(positions)));
+  return bound + stepBound(step) <= tolerance ? step : undefined;
 }
 
 /**

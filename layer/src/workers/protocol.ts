@@ -126,6 +126,11 @@ export interface NodeVertices {
   readonly extent: Float64Array;
   /** Certified distance of a stored position from its exact place, metres. */
   readonly bound: number;
+  /**
+   * Length that all coordinates of positions are whole multiples of, less than 2²⁰ of them, metres: a power of two, so that
+   * they go to the GPU in 8 bytes a point without a further error. Undefined where steps would leave the tolerance.
+   */
+  readonly step: number | undefined;
   readonly scheme: Scheme;
   /** Affine map, 3 rows of 4: node frame metres → the node's cube in the octree, [0, 1] per axis. */
   readonly toCube: Float32Array;

@@ -23,6 +23,8 @@ export interface StageOptions {
 
 /** Options of a layer as they cross from a test to the page. */
 export interface LayerOptions extends Omit<PointCloudLayerOptions, "clips" | "budget"> {
+  /** Of the cloud, metres. */
+  readonly tolerance?: number;
   readonly clips?: readonly Clip[];
 }
 

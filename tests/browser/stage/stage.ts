@@ -66,10 +66,11 @@ export class Stage {
   }
 
   /** Shows a scan of the server besides what is shown. */
-  async add(name: string, { clips, ...options }: LayerOptions = {}): Promise<PointCloudLayer> {
+  async add(name: string, { clips, tolerance, ...options }: LayerOptions = {}): Promise<PointCloudLayer> {
+    const key = `${name} ${tolerance}`;
     const cloud =
-      clouds.get(name) ?? PointCloud.fromUrl(`/clouds/${name}.copc.laz`, { workers: { size: 1 } });
-    clouds.set(name, cloud);
+      clouds.get(key) ?? PointCloud.fromUrl(`/clouds/${name}.copc.laz`, { workers: { size: 1 }, tolerance });
+    clouds.set(key, cloud);
     this.layer = PointCloudLayer.fromCloud(await cloud, {
       ...options,
       ...(clips && { clips: new ClipSet(clips) }),

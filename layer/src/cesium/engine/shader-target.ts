@@ -54,7 +54,7 @@ export const CESIUM: ShaderTarget = {
     projection: "czm_projection",
     viewport: "czm_viewport",
     pixelRatio: "czm_pixelRatio",
-    onGlobe: "a_position",
+    onGlobe: "(u_step * stored)",
   },
   nodeTable: true,
   uniforms: [

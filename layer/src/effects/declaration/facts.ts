@@ -12,8 +12,10 @@ export interface PlacingFacts {
   readonly schemes: Readonly<Record<string, number>>;
   /** Worst certified bound of a drawn node. */
   readonly bound: number;
-  /** Of that, what rounding to float32 may cost. */
+  /** Of that, what rounding to float32 may cost, and to whole steps where positions are stored so. */
   readonly storageBound: number;
+  /** Number of drawn nodes whose positions are stored at whole steps, 8 bytes a point, and as float32, 12 bytes. */
+  readonly stored: { readonly steps: number; readonly floats: number };
   /** What heights are measured from. */
   readonly heights: "ellipsoidal" | "geoid" | "unknown";
   /** Height over the ellipsoid of source height 0, at the data set's middle. */
@@ -83,6 +85,8 @@ export interface DrawnNode {
   readonly spacing: number;
   /** Its texel in the texture of the visible octree. */
   readonly octreeIndex: number;
+  /** Length that its positions are stored in, metres; undefined where they are metres. */
+  readonly step?: number | undefined;
   /** 3 × 4, row by row: node frame → its own cube, 0 to 1. */
   readonly toCube: ArrayLike<number>;
   /** First texel and number of its records in the texture of clips. */

@@ -49,7 +49,7 @@ export const OCTREE_READING = {
     { name: "u_toCube", type: "mat4", scope: "node" },
   ] satisfies UniformDeclaration[],
   functions: VISIBLE_LEVELS,
-  locate: "vec2 visible = visibleLevels((u_toCube * vec4(a_position, 1.0)).xyz);",
+  locate: "vec2 visible = visibleLevels((u_toCube * vec4(stored, 1.0)).xyz);",
   values: ({ octreeIndex, toCube }: DrawnNode): UniformValues => ({
     u_octreeIndex: octreeIndex,
     u_toCube: columnMajor(toCube),

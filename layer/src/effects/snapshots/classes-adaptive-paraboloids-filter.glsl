@@ -1,7 +1,7 @@
 // classes, adaptive paraboloids, filter: classification, adaptiveSize, paraboloid, filter
 
 // color: vertex
-in vec3 a_position;
+in vec4 a_position;
 in float a_classification;
 in float a_returnNumber;
 in float a_numberOfReturns;
@@ -61,9 +61,10 @@ void main() {
   u_modelView = transpose(mat4(node3, node4, node5, vec4(0.0, 0.0, 0.0, 1.0)));
   u_octreeIndex = int(node6.z) * 65536 + int(node6.w);
   u_range0 = node7.xy;
-  u_nodeSize = node7.z;
-  vec4 eye = u_modelView * vec4(a_position, 1.0);
-  vec2 visible = visibleLevels((u_toCube * vec4(a_position, 1.0)).xyz);
+  u_nodeSize = node7.w;
+  vec3 stored = a_position.xyz + 65536.0 * vec3((ivec3(int(a_position.w)) << ivec3(26, 21, 16)) >> 27);
+  vec4 eye = u_modelView * vec4(stored, 1.0);
+  vec2 visible = visibleLevels((u_toCube * vec4(stored, 1.0)).xyz);
   bool isFirst = a_returnNumber < 1.5;
   bool isLast = a_returnNumber > a_numberOfReturns - 0.5;
   int returnKind = isFirst ? (isLast ? 11 : 1) : (isLast ? 2 : 4);
@@ -116,7 +117,7 @@ void main() {
 }
 
 // id: vertex
-in vec3 a_position;
+in vec4 a_position;
 in float a_returnNumber;
 in float a_numberOfReturns;
 in float a_intensity;
@@ -173,9 +174,10 @@ void main() {
   u_firstId = int(node6.x) * 65536 + int(node6.y);
   u_octreeIndex = int(node6.z) * 65536 + int(node6.w);
   u_range0 = node7.xy;
-  u_nodeSize = node7.z;
-  vec4 eye = u_modelView * vec4(a_position, 1.0);
-  vec2 visible = visibleLevels((u_toCube * vec4(a_position, 1.0)).xyz);
+  u_nodeSize = node7.w;
+  vec3 stored = a_position.xyz + 65536.0 * vec3((ivec3(int(a_position.w)) << ivec3(26, 21, 16)) >> 27);
+  vec4 eye = u_modelView * vec4(stored, 1.0);
+  vec2 visible = visibleLevels((u_toCube * vec4(stored, 1.0)).xyz);
   bool isFirst = a_returnNumber < 1.5;
   bool isLast = a_returnNumber > a_numberOfReturns - 0.5;
   int returnKind = isFirst ? (isLast ? 11 : 1) : (isLast ? 2 : 4);

@@ -1,7 +1,7 @@
 // clips and highlight, levels blended with intensity: gradient, levelOfDetail, blend, fixedSize, opacity, clip, highlight
 
 // color: vertex
-in vec3 a_position;
+in vec4 a_position;
 in float a_intensity;
 out vec3 v_color;
 uniform highp sampler2D u_gradient;
@@ -18,6 +18,7 @@ mat4 u_modelView;
 vec2 u_value1;
 int u_octreeIndex;
 vec2 u_clipRecords;
+float u_step;
 float u_nodeLevel;
 vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
@@ -118,10 +119,12 @@ void main() {
   u_value1 = node6.zw;
   u_octreeIndex = int(node7.x) * 65536 + int(node7.y);
   u_clipRecords = node7.zw;
-  u_nodeLevel = node8.x;
-  vec4 eye = u_modelView * vec4(a_position, 1.0);
-  vec2 visible = visibleLevels((u_toCube * vec4(a_position, 1.0)).xyz);
-  ivec4 roles = clipRoles(a_position);
+  u_step = node8.x;
+  u_nodeLevel = node8.y;
+  vec3 stored = a_position.xyz + 65536.0 * vec3((ivec3(int(a_position.w)) << ivec3(26, 21, 16)) >> 27);
+  vec4 eye = u_modelView * vec4(stored, 1.0);
+  vec2 visible = visibleLevels((u_toCube * vec4(stored, 1.0)).xyz);
+  ivec4 roles = clipRoles((u_step * stored));
   if (roles.z > 0 || (roles.x > 0 && roles.y == 0)) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 1.0;
@@ -154,7 +157,7 @@ void main() {
 }
 
 // id: vertex
-in vec3 a_position;
+in vec4 a_position;
 flat out highp uint v_id;
 uniform float u_pointSize;
 uniform highp sampler2D u_clips;
@@ -163,6 +166,7 @@ uniform int u_node;
 mat4 u_modelView;
 int u_firstId;
 vec2 u_clipRecords;
+float u_step;
 vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
 vec4 clipTexel(int index) {
@@ -226,11 +230,14 @@ void main() {
   vec4 node5 = nodeValues(ofNode + 5);
   vec4 node6 = nodeValues(ofNode + 6);
   vec4 node7 = nodeValues(ofNode + 7);
+  vec4 node8 = nodeValues(ofNode + 8);
   u_modelView = transpose(mat4(node3, node4, node5, vec4(0.0, 0.0, 0.0, 1.0)));
   u_firstId = int(node6.x) * 65536 + int(node6.y);
   u_clipRecords = node7.zw;
-  vec4 eye = u_modelView * vec4(a_position, 1.0);
-  ivec4 roles = clipRoles(a_position);
+  u_step = node8.x;
+  vec3 stored = a_position.xyz + 65536.0 * vec3((ivec3(int(a_position.w)) << ivec3(26, 21, 16)) >> 27);
+  vec4 eye = u_modelView * vec4(stored, 1.0);
+  ivec4 roles = clipRoles((u_step * stored));
   if (roles.z > 0 || (roles.x > 0 && roles.y == 0)) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     gl_PointSize = 1.0;

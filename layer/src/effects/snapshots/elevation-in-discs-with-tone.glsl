@@ -1,7 +1,7 @@
 // elevation in discs with tone: gradient, tone, fixedSize, disc
 
 // color: vertex
-in vec3 a_position;
+in vec4 a_position;
 in float a_elevation;
 out vec3 v_color;
 uniform highp sampler2D u_gradient;
@@ -27,14 +27,15 @@ vec3 tone(vec3 value) {
   return vec3(tone(value.r), tone(value.g), tone(value.b));
 }
 void main() {
-  int ofNode = u_node * 4;
+  int ofNode = u_node * 5;
   vec4 node0 = nodeValues(ofNode + 0);
   vec4 node1 = nodeValues(ofNode + 1);
   vec4 node2 = nodeValues(ofNode + 2);
   vec4 node3 = nodeValues(ofNode + 3);
   u_modelView = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
   u_value0 = node3.zw;
-  vec4 eye = u_modelView * vec4(a_position, 1.0);
+  vec3 stored = a_position.xyz + 65536.0 * vec3((ivec3(int(a_position.w)) << ivec3(26, 21, 16)) >> 27);
+  vec4 eye = u_modelView * vec4(stored, 1.0);
   vec3 color = gradientColor(tone(clamp(a_elevation * u_value0.x + u_value0.y, 0.0, 1.0)));
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
@@ -62,7 +63,7 @@ void main() {
 }
 
 // id: vertex
-in vec3 a_position;
+in vec4 a_position;
 flat out highp uint v_id;
 uniform float u_pointSize;
 uniform highp sampler2D u_nodes;
@@ -72,14 +73,15 @@ int u_firstId;
 vec4 nodeValues(int texel) { return texelFetch(u_nodes, ivec2(texel % 256, texel / 256), 0); }
 
 void main() {
-  int ofNode = u_node * 4;
+  int ofNode = u_node * 5;
   vec4 node0 = nodeValues(ofNode + 0);
   vec4 node1 = nodeValues(ofNode + 1);
   vec4 node2 = nodeValues(ofNode + 2);
   vec4 node3 = nodeValues(ofNode + 3);
   u_modelView = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
   u_firstId = int(node3.x) * 65536 + int(node3.y);
-  vec4 eye = u_modelView * vec4(a_position, 1.0);
+  vec3 stored = a_position.xyz + 65536.0 * vec3((ivec3(int(a_position.w)) << ivec3(26, 21, 16)) >> 27);
+  vec4 eye = u_modelView * vec4(stored, 1.0);
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
   gl_PointSize = width;

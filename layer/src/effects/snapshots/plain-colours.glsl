@@ -1,7 +1,7 @@
 // plain colours: rgb, fixedSize
 
 // color: vertex
-in vec3 a_position;
+in vec4 a_position;
 in vec4 a_rgb;
 out vec3 v_color;
 uniform float u_pointSize;
@@ -16,7 +16,8 @@ void main() {
   vec4 node1 = nodeValues(ofNode + 1);
   vec4 node2 = nodeValues(ofNode + 2);
   u_modelView = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
-  vec4 eye = u_modelView * vec4(a_position, 1.0);
+  vec3 stored = a_position.xyz + 65536.0 * vec3((ivec3(int(a_position.w)) << ivec3(26, 21, 16)) >> 27);
+  vec4 eye = u_modelView * vec4(stored, 1.0);
   vec3 color = a_rgb.rgb;
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
@@ -41,7 +42,7 @@ void main() {
 }
 
 // id: vertex
-in vec3 a_position;
+in vec4 a_position;
 flat out highp uint v_id;
 uniform float u_pointSize;
 uniform highp sampler2D u_nodes;
@@ -58,7 +59,8 @@ void main() {
   vec4 node3 = nodeValues(ofNode + 3);
   u_modelView = transpose(mat4(node0, node1, node2, vec4(0.0, 0.0, 0.0, 1.0)));
   u_firstId = int(node3.x) * 65536 + int(node3.y);
-  vec4 eye = u_modelView * vec4(a_position, 1.0);
+  vec3 stored = a_position.xyz + 65536.0 * vec3((ivec3(int(a_position.w)) << ivec3(26, 21, 16)) >> 27);
+  vec4 eye = u_modelView * vec4(stored, 1.0);
   gl_Position = czm_projection * eye;
   float width = u_pointSize * czm_pixelRatio;
   gl_PointSize = width;
