@@ -15,7 +15,7 @@ function recorder() {
     (...given: unknown[]) =>
       void calls.push([name, ...given]);
   const gl = {
-    ...{ POINTS: 0, CURRENT_PROGRAM: 1, getParameter: () => program, getExtension: () => null },
+    ...{ POINTS: 0, CURRENT_PROGRAM: 1, getParameter: () => program, getSupportedExtensions: () => [] },
     getUniformLocation: (_: unknown, name: string) => name,
     uniform1i: record("number"),
     drawArrays: record("draw"),

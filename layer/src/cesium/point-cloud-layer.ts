@@ -103,6 +103,8 @@ export class PointCloudLayer {
       nodeFailed: (node, error) => this.nodeFailed.raiseEvent(node.name, error),
       nodeEvicted: (node) => this.#renderer?.content.free(node),
     });
+    // On their way while the layer waits for its first frame.
+    if (this.#show) cloud.stream.loadRoot();
   }
 
   /**

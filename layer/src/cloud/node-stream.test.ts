@@ -101,6 +101,22 @@ describe("NodeStream", () => {
     expect([calls.size, stream.active]).toEqual([2, 1]);
   });
 
+  it("loads the root before any view asks for it, once, and stops that when destroyed", async () => {
+    const { stream, calls, answer } = setUp();
+    stream.loadRoot();
+    stream.loadRoot();
+    expect([[...calls.keys()], stream.active]).toEqual([["0-0-0-0"], 1]);
+    const before = calls.get("0-0-0-0");
+    stream.update(viewer, viewAt(), traversal);
+    expect(calls.get("0-0-0-0")).toBe(before);
+    await answer("0-0-0-0");
+    expect(stream.progress(viewer)).toEqual({ wanted: 3, ready: 1, failed: 0, pending: 2 });
+    const other = setUp();
+    other.stream.loadRoot();
+    other.stream.destroy();
+    expect(other.calls.get("0-0-0-0")?.signal.aborted).toBe(true);
+  });
+
   it("never asks for more at once than it may", async () => {
     const { stream, calls } = setUp({ requests: 2 });
     stream.update(viewer, viewAt(), traversal);
@@ -132,13 +148,13 @@ describe("NodeStream", () => {
       maximumScreenSpaceError: spacing * Math.sqrt(4 / (1 + 3 * share)),
     });
     const { stream, store, calls, answer } = setUp();
-    const { nodes, counts } = stream.update(viewer, viewAt(), showing(0.05));
-    expect(counts.slice(1)).toEqual([250, 175]);
+    const { nodes, counts } = stream.update(viewer, viewAt(), showing(0.1));
+    expect(counts.slice(1)).toEqual([500, 415]);
     expect(nodes.map(({ name }) => name)).toEqual(["0-0-0-0", "1-0-0-0", "1-1-0-0"]);
     expect([...calls.keys()]).toEqual(["0-0-0-0"]);
     await answer("0-0-0-0");
     expect(stream.progress(viewer)).toEqual({ wanted: 1, ready: 1, failed: 0, pending: 0 });
-    stream.update(viewer, viewAt(), showing(0.2));
+    stream.update(viewer, viewAt(), showing(0.15));
     await answer("1-0-0-0");
     expect(store.closest({ depth: 1, x: 0, y: 0, z: 0 }).state).toBe("ready");
     stream.update(viewer, viewAt(), showing(0.05));

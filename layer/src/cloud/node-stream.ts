@@ -155,6 +155,14 @@ export class NodeStream {
     return selection;
   }
 
+  /** Loads the root's points before any view tells what it shows, since all of them draw those. */
+  loadRoot(): void {
+    const { root } = this.#source.store;
+    if (root.state !== "listed") return;
+    root.become("queued");
+    void this.#load(root);
+  }
+
   /** A view ends; what only it wanted is no longer loaded. */
   detach(viewer: object): void {
     this.#budgets.get(viewer)?.release(viewer);
@@ -205,6 +213,7 @@ export class NodeStream {
   /** Stops all loading and gives up everything. */
   destroy(): void {
     for (const viewer of [...this.#selections.keys()]) this.detach(viewer);
+    this.#cancelUnwanted();
     this.#cache.limits = { points: 0, bytes: 0 };
     this.trim();
     this.#budget?.cpu.report(this, 0);

@@ -12,6 +12,7 @@ function context(many: boolean) {
     void drawn.push({ array, row: row + id, first, count });
   const gl = {
     POINTS: 0,
+    getSupportedExtensions: () => (many ? ["WEBGL_multi_draw"] : []),
     getExtension: () => (many ? { multiDrawArraysWEBGL } : null),
     drawArrays: (_: number, first: number, count: number) => {
       calls++;
@@ -32,6 +33,7 @@ function context(many: boolean) {
     },
   };
   const draws = new PointDraws(gl as unknown as WebGL2RenderingContext);
+  draws.enable();
   return { drawn, binding, draws, calls: () => calls };
 }
 

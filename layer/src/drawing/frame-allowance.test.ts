@@ -41,9 +41,9 @@ describe("FrameAllowance", () => {
 
   it("grows with the length of frames, within bounds", () => {
     vi.spyOn(performance, "now").mockReturnValue(0);
-    const lasts = (frame: number, milliseconds: number) => {
+    const lasts = (frame: number, milliseconds: number, shown = true) => {
       vi.mocked(performance.now).mockReturnValue(0);
-      const allowance = FrameAllowance.after(frame);
+      const allowance = FrameAllowance.after(frame, shown);
       return [milliseconds - 0.01, milliseconds].map((time) => {
         vi.mocked(performance.now).mockReturnValue(time);
         return allowance.left;
@@ -53,6 +53,8 @@ describe("FrameAllowance", () => {
     expect(lasts(8, 4)).toEqual([true, false]);
     expect(lasts(60, 15)).toEqual([true, false]);
     expect(lasts(900, 25)).toEqual([true, false]);
+    expect(lasts(900, 225, false), "nothing is shown yet").toEqual([true, false]);
+    expect(lasts(8, 4, false)).toEqual([true, false]);
     vi.restoreAllMocks();
   });
 });

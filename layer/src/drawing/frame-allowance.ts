@@ -2,7 +2,7 @@
 const MILLISECONDS = 4;
 /** Where frames take long anyway, the share of their time that may go into it. */
 const SHARE = 1 / 4;
-/** Milliseconds that it takes at most, however long frames are. */
+/** Milliseconds that it takes at most, however long frames are, once there is a picture. */
 const MOST = 25;
 
 /**
@@ -28,9 +28,11 @@ export class FrameAllowance {
   /**
    * Begins a frame that follows one of so many milliseconds: otherwise a slow machine would prepare only one step per
    * frame.
+   * @param shown whether there is a picture, which is to move smoothly
    */
-  static after(frame: number): FrameAllowance {
-    return new FrameAllowance(undefined, Math.min(MOST, Math.max(MILLISECONDS, SHARE * frame)));
+  static after(frame: number, shown: boolean): FrameAllowance {
+    const most = shown ? MOST : Number.POSITIVE_INFINITY;
+    return new FrameAllowance(undefined, Math.min(most, Math.max(MILLISECONDS, SHARE * frame)));
   }
 
   /** The allowance of the frame's last part, which has at least half of the time however long the others took. */

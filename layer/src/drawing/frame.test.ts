@@ -34,16 +34,31 @@ async function setUp() {
 }
 
 describe("LayerFrames, in a view of no library at all", () => {
-  it("ends the first frames after the first run of each part, then draws what is here", async () => {
+  it("ends the first frames after the first run of each part where that takes long, then draws what is here", async () => {
     const { frame, settle, renderer, frames } = await setUp();
     const settings = settingsOf();
+    let now = 0;
+    const clock = vi.spyOn(performance, "now").mockImplementation(() => (now += 10));
     expect([frame(settings), frame(settings), frame(settings)]).toEqual(Array(3).fill("unfinished"));
+    clock.mockRestore();
     expect(renderer.drawn).toEqual([]);
     const report: FrameReport = await settle(settings);
     expect(report.progress).toEqual({ wanted: 1, ready: 1, failed: 0, pending: 0 });
     expect(renderer.drawn.at(-1)).toBe(POINTS);
     expect([frames.settled(true), frames.limited]).toEqual([true, false]);
     expect(frames.ledger(renderer.content.material?.plan.active).some(({ active }) => active)).toBe(true);
+  });
+
+  it("draws its first frame with what is here, where that takes no time", async () => {
+    const { cloud, frame, renderer } = await setUp();
+    const settings = settingsOf();
+    const clock = vi.spyOn(performance, "now").mockReturnValue(0);
+    const other = new LayerFrames<TestView>(cloud, {});
+    await cloud.loadNode("0-0-0-0");
+    expect(other.draw(settings, cameraOver(cloud, 100), () => new TestRenderer())).not.toBe("unfinished");
+    expect(frame(settings)).not.toBe("unfinished");
+    clock.mockRestore();
+    expect(renderer.drawn).toHaveLength(1);
   });
 
   it("finds out nothing anew for a view that stands still, until something that it rests on changes", async () => {

@@ -81,7 +81,7 @@ function roomIn(budget: SharedBudget | undefined): boolean {
 /** Milliseconds; what lies further apart are frames on demand, whose distance says nothing. */
 const LONGEST_FRAME = 1000;
 
-/** A part of a frame whose first run ends the frame. */
+/** A part of a frame whose first run takes long. */
 type Part = "selection" | "facts" | "plan";
 
 /**
@@ -104,8 +104,10 @@ export class LayerFrames<V extends ViewTypes> {
   #ledger: readonly LedgerRow[] = [];
   /** Effects that the last frame called for. */
   #active: ReadonlySet<EffectName> = new Set();
+  /** Whether a frame has shown points. */
+  #shown = false;
   #frameStart = 0;
-  /** Milliseconds from the frame before the last one to it; 0 where they did not follow each other. */
+  /** Milliseconds from the frame before this one to it; 0 where they did not follow each other. */
   #interval = 0;
 
   /**
@@ -168,7 +170,7 @@ export class LayerFrames<V extends ViewTypes> {
   ): FrameReport | "unfinished" | "blocked" {
     const { stream } = this.#octree;
     const { budget, style, clips: volumes } = settings;
-    const allowance = FrameAllowance.after(this.#interval);
+    const allowance = FrameAllowance.after(this.#passed(), this.#shown);
     const clips = this.#clips;
     clips.follow(volumes, this.#cloud, allowance);
     if (clips.blocked) return "blocked";
@@ -181,13 +183,13 @@ export class LayerFrames<V extends ViewTypes> {
       }
     }
     const selection = this.#select(settings, camera, allowance);
-    if (this.#isFirst("selection")) return "unfinished";
+    if (this.#tooLong("selection", allowance)) return "unfinished";
     const renderer = rendererOf();
     const facts = this.#facts(settings, camera, selection, renderer.silhouettes);
-    if (this.#isFirst("facts")) return "unfinished";
+    if (this.#tooLong("facts", allowance)) return "unfinished";
     const forced = renderer.blends ? settings.forced : { ...settings.forced, splats: false };
     const plan = this.#plan(style, facts, forced);
-    if (this.#isFirst("plan")) return "unfinished";
+    if (this.#tooLong("plan", allowance)) return "unfinished";
     const ground = this.#ground(settings, camera, renderer);
     const request = {
       ...{ selection, plan, clips, allowance, depth: camera.depth },
@@ -196,6 +198,7 @@ export class LayerFrames<V extends ViewTypes> {
     const { content } = renderer;
     const waiting = content.prepare(request);
     renderer.draw();
+    this.#shown ||= content.points > 0;
     const probing = renderer.probe(asksForSilhouettes(style, forced), request);
     if (budget) content.keepWithin(budget.gpu, this.#owner);
     this.#measure(renderer);
@@ -260,21 +263,26 @@ export class LayerFrames<V extends ViewTypes> {
   }
 
   /**
-   * True the first time that a part of a frame runs. The browser compiles its code then, which takes many times as long as
-   * a later run: the frame ends after it, so that no frame has two such parts. The next frame begins from the start.
+   * True the first time that a part of a frame runs, where that has taken what time the frame had. The browser compiles its
+   * code then, which takes many times as long as a later run: the frame ends after it, and the next one begins from the start.
    */
-  #isFirst(part: Part): boolean {
+  #tooLong(part: Part, allowance: FrameAllowance): boolean {
     if (this.#begun.has(part)) return false;
     this.#begun.add(part);
-    return true;
+    return !allowance.left;
   }
 
-  /** Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other. */
-  #measure({ content, measuresGpu, gpuMilliseconds }: LayerRenderer<V>): void {
+  /** Begins a frame. @returns milliseconds since the last one began; 0 where they do not follow each other */
+  #passed(): number {
     const now = performance.now();
     const interval = now - this.#frameStart;
     this.#frameStart = now;
     this.#interval = interval < LONGEST_FRAME ? interval : 0;
+    return this.#interval;
+  }
+
+  /** Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other. */
+  #measure({ content, measuresGpu, gpuMilliseconds }: LayerRenderer<V>): void {
     const { points: drawing, picture = 0 } = gpuMilliseconds;
     const plan = content.material?.plan;
     if (!plan) return;
@@ -282,7 +290,7 @@ export class LayerFrames<V extends ViewTypes> {
     if (drawing !== undefined) {
       this.#costs.note({ plan, points, milliseconds: drawing + picture, by: "timer query" });
     } else if (!measuresGpu && this.#interval > 0) {
-      this.#costs.note({ plan, points, milliseconds: interval, by: "frame difference" });
+      this.#costs.note({ plan, points, milliseconds: this.#interval, by: "frame difference" });
     }
   }
 }

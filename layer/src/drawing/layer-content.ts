@@ -145,8 +145,8 @@ export class LayerContent<V extends ViewTypes> {
       ? this.#uploads.upload(selection.nodes, vertices, this.#reads(drawn), allowance.last())
       : 0;
     const ready = materials.next && linked && unformed === 0 && (waiting === 0 || !materials.shown);
-    // The first frame of a material makes what it draws into.
-    if (ready && allowance.grants()) this.#change();
+    // The first frame of a material makes what it draws into; where nothing is drawn yet, nothing else is worth to be waited for.
+    if (ready && (!materials.shown || allowance.grants())) this.#change();
     if (unformed === 0 && materials.shown?.plan.key === plan.key) clips.advance();
     const { shown } = materials;
     if (shown === material) shown.update(plan);

@@ -12,6 +12,8 @@ interface MultiDraw {
   ): void;
 }
 
+const MULTI_DRAW = "WEBGL_multi_draw";
+
 /** How a program in use is told what is drawn. */
 export interface DrawBinding<VertexArray> {
   bind(array: VertexArray): void;
@@ -21,17 +23,22 @@ export interface DrawBinding<VertexArray> {
 
 /** Draws lists of nodes in one context of WebGL 2: many nodes in a call where the browser has `WEBGL_multi_draw`. */
 export class PointDraws {
+  /** Whether one call draws many; programs are to be made for that (`ShaderTarget.manyDraws`). */
+  readonly many: boolean;
   readonly #gl: WebGL2RenderingContext;
-  readonly #multi: MultiDraw | null;
+  #multi: MultiDraw | undefined;
 
   constructor(gl: WebGL2RenderingContext) {
     this.#gl = gl;
-    this.#multi = gl.getExtension("WEBGL_multi_draw") as MultiDraw | null;
+    this.many = gl.getSupportedExtensions()?.includes(MULTI_DRAW) ?? false;
   }
 
-  /** Whether one call draws many; programs are to be made for that (`ShaderTarget.manyDraws`). */
-  get many(): boolean {
-    return this.#multi !== null;
+  /**
+   * Turns on that one call draws many, without which no program for that compiles. A browser waits for the graphics card then,
+   * as it does for the compiler: called right before that it waits once.
+   */
+  enable(): void {
+    if (this.many) this.#multi ??= (this.#gl.getExtension(MULTI_DRAW) as MultiDraw | null) ?? undefined;
   }
 
   /** @param from row of the table that the rows of the list count from */

@@ -19,10 +19,11 @@ export interface TraversalOptions {
 }
 
 /**
- * Share of a node's points from which it is worth its bytes, all of which have to come. Below it, its points would be few
- * among those of the nodes above it; where it is here anyway, they are drawn from the first one on.
+ * Share of a node's points from which it is worth its bytes, all of which have to come. Left out below it, the points on the
+ * screen are up to √(1 + 3 · share) times as far apart as asked for, a sixth more ({@link shareOf}); where the node is here
+ * anyway, they are drawn from the first one on.
  */
-const LEAST_SHARE = 0.1;
+const LEAST_SHARE = 1 / 8;
 
 /** What one view wants of an octree. */
 export interface Selection {

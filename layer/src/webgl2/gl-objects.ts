@@ -128,6 +128,7 @@ export class GlObjects implements Gpu<GlTypes> {
   }
 
   program(shader: PointShader): GlProgram {
+    this.draws.enable();
     return this.own("programs", new GlProgram(this.gl, shader));
   }
 

@@ -26,7 +26,7 @@ describe("vertexAttribute", () => {
 
 describe("GpuObjects", () => {
   it("counts once what Cesium gave twice, and frees it as often as it was given", () => {
-    const objects = new GpuObjects({ _gl: { getExtension: () => null } } as unknown as Context, {});
+    const objects = new GpuObjects({ _gl: { getSupportedExtensions: () => [] } } as unknown as Context, {});
     let destroyed = 0;
     const program = { destroy: () => destroyed++ };
     objects.own("programs", program);

@@ -164,6 +164,7 @@ export class GpuObjects implements Gpu<CesiumTypes> {
     const command = new DrawCommand({ owner: this.#owner, shaderProgram: program });
     const derived = into === "scene" && logarithmic;
     const drawn = derived ? DerivedCommand.createLogDepthCommand(command, this.context).command : command;
+    this.draws.enable();
     // Asking waits for compiler and linker.
     void drawn.shaderProgram.numberOfVertexAttributes;
   }

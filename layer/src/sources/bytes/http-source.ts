@@ -31,14 +31,17 @@ export interface HttpOptions {
   readonly timeout?: number | undefined;
   /** Repeats while the server is busy, fails, is silent or out of reach. */
   readonly retry?: RetryPolicy | undefined;
-  /** Bytes that the opening request fetches at once. Default: 65,536. */
+  /** Bytes that the opening request fetches at once. Default: 131,072. */
   readonly headLength?: number | undefined;
   /** Called when the server begins to be waited for, for another reason or time, and with undefined once it answers. */
   readonly onWait?: ((wait: ServerWait | undefined) => void) | undefined;
 }
 
-/** Opening bytes of a COPC file: header, VLRs with the WKT and, in small files, the whole hierarchy. */
-const HEAD_LENGTH = 65_536;
+/**
+ * Opening bytes of a COPC file. In those of Groma: header, VLRs and first page, 65,536 at most (docs/record.md), and behind them
+ * the root's points, most of which are no longer than that. In those of others: header, VLRs with the WKT, and points.
+ */
+const HEAD_LENGTH = 131_072;
 
 /** Milliseconds for which redirects that led nowhere are not followed again. */
 const REDIRECTS_KEPT = 10_000;

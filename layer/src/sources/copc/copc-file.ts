@@ -48,7 +48,7 @@ const BEHIND = 256 * 1024;
 
 /**
  * Reads header, VLRs and COPC info. With an HTTP source of the usual kind this costs no request beyond the
- * opening one: everything lies in its first 64 KiB. Where something of it stands behind the points, one more request
+ * opening one: everything lies in what that brings. Where something of it stands behind the points, one more request
  * brings that together with the root page.
  * @throws SourceError, FormatError
  */
