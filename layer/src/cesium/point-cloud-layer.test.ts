@@ -70,6 +70,17 @@ function frame() {
   return { frameState: frameState as never, after: () => afterRender.map((call) => call()) };
 }
 
+describe("PointCloudLayer, before its first frame", () => {
+  it("has the root's points on their way, unless it is hidden", async () => {
+    const cloud = await open();
+    PointCloudLayer.fromCloud(cloud, { show: false });
+    expect(cloud.stream.active).toBe(0);
+    PointCloudLayer.fromCloud(cloud);
+    expect(cloud.stream.active).toBe(1);
+    cloud.destroy();
+  });
+});
+
 describe("PointCloudLayer.update", () => {
   it("never throws: what failed is told once after the frame, and the layer goes on when it can", async () => {
     const layer = PointCloudLayer.fromCloud(await open());
