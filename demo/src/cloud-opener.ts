@@ -136,7 +136,11 @@ export class CloudOpener {
       }
       return opened;
     } catch (thrown) {
-      const give = { label: i18n.t("Give it here"), run: () => chooser.askForCrs() };
+      const give = {
+        label: i18n.t("Give it here"),
+        fix: i18n.t("Give the coordinate system here, and open the cloud again."),
+        run: () => chooser.askForCrs(),
+      };
       faults.push({ thrown, action: thrown instanceof CrsError ? give : undefined });
       message.showAll(faults);
       return undefined;

@@ -20,6 +20,9 @@ const CATALOGUES = { de: german, es: spanish, fr: french, ja: japanese } as cons
 /** Words that no other language of the page has. */
 const ENGLISH = /(?<![\p{L}-])(the|of|and|with|from|this|are|is|not|by|unknown|heights?|click)(?![\p{L}-])/iu;
 
+/** What one English word says, "Share", is another word where it means to pass on than where it is a part of a whole. */
+const TO_SHARE = { de: "Teilen", es: "Compartir", fr: "Partager", ja: "共有" } as const;
+
 /** A line in the coordinates of the cloud that is opened. */
 const LINE =
   "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n7\n90\n3\n70\n0\n10\n200\n20\n500\n10\n500\n20\n600\n10\n800\n20\n500\n0\nENDSEC\n0\nEOF\n";
@@ -165,6 +168,7 @@ it.each(Object.keys(CATALOGUES) as (keyof typeof CATALOGUES)[])(
   async (code) => {
     const page = await open(code);
     expect(await page.getAttribute("html", "lang")).toBe(code);
+    expect(await page.textContent("#share h2")).toBe(TO_SHARE[code]);
     const translated = CATALOGUES[code] as Readonly<Record<string, unknown>>;
     const texts = await said(page);
     expect(texts.length).toBeGreaterThan(300);

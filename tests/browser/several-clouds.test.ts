@@ -6,11 +6,14 @@ import { convert } from "../converted.js";
 import { BadServer } from "../faults/bad-server.js";
 import { lasOf } from "../faults/las-bytes.js";
 import { projectRoot } from "../project.js";
-import { settle } from "./globe.js";
+import { ecef, lookDown, settle } from "./globe.js";
 import { openPage, screenshot, sharedBrowser, type View, view } from "./harness.js";
 
 const folder = join(projectRoot, "tests/artifacts/several");
 const PLACE = ["--crs", "EPSG:32632", "--vertical", "ellipsoidal"];
+
+/** A name longer than a row of the list. */
+const THIRD = "third-survey-of-the-river-north-of-the-bridge";
 
 /** Frames of a busy machine come seldom. */
 const SLOW = { timeout: 60_000 };
@@ -22,19 +25,19 @@ let elsewhere: BadServer;
 let page: Page;
 
 /** A scan of 20,000 points some metres beside or below another one. */
-function survey(name: string, steps: readonly [number, number, number]): string {
+function survey(name: string, steps: readonly [number, number, number], place = PLACE): string {
   const bytes = lasOf(20_000);
   const data = new DataView(bytes.buffer);
   for (const [axis, step] of steps.entries()) data.setFloat64(155 + 8 * axis, step, true);
   const [scan, copc] = ["las", "copc.laz"].map((ending) => join(folder, `${name}.${ending}`));
   writeFileSync(scan!, bytes);
-  convert(scan!, copc!, PLACE);
+  convert(scan!, copc!, place);
   return copc!;
 }
 
 beforeAll(async () => {
   mkdirSync(folder, { recursive: true });
-  survey("third", [0, 1500, 0]);
+  survey(THIRD, [0, 1500, 0], ["--crs", "+proj=utm +zone=32 +datum=WGS84 +units=us-ft"]);
   server = await view(survey("first", [500_000, 5_000_000, 0]));
   elsewhere = await BadServer.start(readFileSync(survey("second", [501_200, 5_000_000, 0])));
   browser = await sharedBrowser();
@@ -67,15 +70,40 @@ it("clouds come beside each other, from an address and from files", { timeout: 2
   expect(await chosen()).toBe("scan.copc.laz");
   expect(await page.textContent("#title")).toBe("scan.copc.laz");
 
-  await page.setInputFiles("#file", join(folder, "third.copc.laz"));
-  await page.waitForFunction(() => window.groma.layer?.cloud.name === "third.copc.laz");
-  expect(await chosen()).toBe("third.copc.laz");
+  await page.setInputFiles("#file", join(folder, `${THIRD}.copc.laz`));
+  await page.waitForFunction((name) => window.groma.layer?.cloud.name === `${name}.copc.laz`, THIRD);
+  expect(await chosen()).toBe(`${THIRD}.copc.laz`);
+  // It has the attributes of the others, in its own units.
+  const elevations = () => page.locator("#color option[value=elevation]").textContent();
+  expect(await elevations()).toBe("elevation (US survey foot)");
+  await page.click("#cloud-list li:first-child .name");
+  expect(await elevations()).toBe("elevation (metre)");
+  await page.click("#cloud-list li:last-child .name");
   // The same file again is the same cloud.
-  await page.setInputFiles("#file", join(folder, "third.copc.laz"));
+  await page.setInputFiles("#file", join(folder, `${THIRD}.copc.laz`));
   await page.waitForFunction(
-    () => document.querySelector("#stage")!.textContent !== "Opening third.copc.laz…",
+    (name) => document.querySelector("#stage")!.textContent !== `Opening ${name}.copc.laz…`,
+    THIRD,
   );
   expect(await names()).toHaveLength(3);
+});
+
+it("each row has room for its buttons, whatever the length of the names", async () => {
+  const panel = (await page.locator("#panel").boundingBox())!;
+  const buttons = page.locator("#cloud-list .icon-button");
+  expect(await buttons.count()).toBe(6);
+  for (const button of await buttons.all()) {
+    const { x, width } = (await button.boundingBox())!;
+    expect(x + width).toBeLessThan(panel.x + panel.width);
+  }
+  // What is cut of a name is told where it is pointed at.
+  expect(await page.getAttribute("#cloud-list li:first-child .name", "title")).toBe("first.copc.laz");
+});
+
+it("of one that is out of the view the panel says so, and waits for nothing", async () => {
+  await lookDown(page, ecef(-100, -40, 1000));
+  await page.click("#cloud-list li:nth-child(2) .name");
+  await expect.poll(() => page.textContent("#stage"), SLOW).toBe("No points in this view.");
 });
 
 it("each is shown, gone to and removed by itself; one is what the panel speaks of", {

@@ -60,6 +60,8 @@ export class CloudList {
     show.setAttribute("aria-label", i18n.t("Show {name}", { name }));
     const choose = textElement("button", name, "name");
     choose.type = "button";
+    // Where the row has too little room, the name is cut.
+    choose.title = choose.textContent;
     const count = textElement("small", countWords(pointCount));
     const row: Row = { element, choose, show, cloud };
     const button = (icon: IconName, label: string, wish: (one: OpenCloud) => void) => {

@@ -36,7 +36,9 @@ function slider(field: SliderField, apply: Apply): FieldView {
   const { id, least, most, step, unit = "", logarithmic = false } = field;
   const input = inputElement("range", id);
   const place = logarithmic ? Math.log10 : (value: number) => value;
-  const value = () => (logarithmic ? Math.round(10 ** input.valueAsNumber) : input.valueAsNumber);
+  // Of thousands and millions nobody needs more than two digits.
+  const value = () =>
+    logarithmic ? Number((10 ** input.valueAsNumber).toPrecision(2)) : input.valueAsNumber;
   input.min = String(place(least));
   input.max = String(place(most));
   input.step = String(step);
@@ -65,11 +67,12 @@ function choice(field: ChoiceField, apply: Apply): FieldView {
   return {
     element: labelled(field.label, select, "field"),
     show(layer) {
-      const options = field.options(layer);
-      const there = [...select.options].map(({ value }) => value).join("\n");
-      if (there !== options.map(({ value }) => value).join("\n")) {
-        select.replaceChildren(...options.map(({ value, label }) => optionElement({ value, label })));
-      }
+      const options = field.options(layer).map(optionElement);
+      // Another cloud may have the same values under other names, such as those of its units.
+      const same =
+        options.length === select.options.length &&
+        options.every((option, at) => option.isEqualNode(select.options[at] ?? null));
+      if (!same) select.replaceChildren(...options);
       select.value = field.read(layer);
     },
   };

@@ -81,7 +81,6 @@ export class Heights {
     const take = textElement("button", i18n.t("Take {name}", { name: first.name }));
     take.type = "button";
     take.value = `EPSG:${first.code}`;
-    take.className = "quiet";
     this.#note.append(" ", take);
   }
 }

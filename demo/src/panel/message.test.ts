@@ -21,6 +21,13 @@ describe("the place where faults are told", () => {
     }
   });
 
+  it("says what to do in the page's own words, where the page can do it", () => {
+    const thrown = new GromaError({ code: "CRS_MISSING", file: "a.laz", cause: "none", fix: "pass --crs" });
+    new Message().show(thrown, { label: "Give it", fix: "Give it here.", run: () => undefined });
+    expect(place.querySelector(".fix")?.textContent).toBe("Give it here.");
+    expect(place.textContent).not.toContain("--crs");
+  });
+
   it("tells all faults of several files, and how many more there are of very many", () => {
     const faults = Array.from({ length: 7 }, (_, at) => ({
       thrown: new GromaError({ code: "FORMAT_MAGIC", file: `${at}.laz`, cause: "no", fix: "take another" }),

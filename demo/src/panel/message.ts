@@ -7,6 +7,8 @@ import { sentenceFor } from "./fault-words.js";
 export interface Action {
   readonly label: string;
   readonly run: () => void;
+  /** What to do, in the page's words: in place of those of the library, which speak to programmers too. */
+  readonly fix?: string;
 }
 
 /** A fault, and what the reader can do about it. */
@@ -42,7 +44,7 @@ export class Message {
     if (action) buttons.append(this.#button(action));
     buttons.append(this.#button({ label: i18n.t("Dismiss"), run: () => undefined }));
     this.#place.replaceChildren(
-      ...faults.slice(0, MOST).flatMap(({ thrown }) => partsOf(thrown)),
+      ...faults.slice(0, MOST).flatMap(partsOf),
       ...(left > 0
         ? [
             textElement(
@@ -71,15 +73,14 @@ export class Message {
 }
 
 /** Code, sentence, place with cause, and fix of a fault. */
-function partsOf(thrown: unknown): HTMLElement[] {
+function partsOf({ thrown, action }: ToldFault): HTMLElement[] {
   const { code, file, cause, fix } = faultOf(thrown);
-  const detail = [
-    isolated(file, ": ", sentence(cause)),
-    textElement("p", sentence(fix.charAt(0).toUpperCase() + fix.slice(1)), "fix"),
-  ];
+  const remedy = action?.fix ?? sentence(fix.charAt(0).toUpperCase() + fix.slice(1));
+  const detail = [isolated(file, ": ", sentence(cause)), textElement("p", remedy, "fix")];
   const told = sentenceFor(thrown);
   // What stays English is read out as English.
-  if (told !== undefined) for (const element of detail) element.lang = "en";
+  const english = action?.fix === undefined ? detail : detail.slice(0, 1);
+  if (told !== undefined) for (const element of english) element.lang = "en";
   const stable = textElement("p", code, "code");
   stable.translate = false;
   return [stable, ...(told === undefined ? [] : [textElement("p", told, "told")]), ...detail];

@@ -95,9 +95,11 @@ export class Progress {
 
   #tell(layer: PointCloudLayer, progress: StreamProgress): void {
     const instead = this.#instead();
-    const { pointsDrawn, budgetReached } = instead ?? layer.statistics;
-    const { wanted, ready, failed, pending, waiting } = instead ? progressOf(instead) : progress;
     const settled = instead !== undefined || layer.settled;
+    const drawn = instead ?? layer.statistics;
+    const { pointsDrawn, budgetReached } = drawn;
+    // A layer that has nothing to load tells nothing: out of the view it is settled all the same.
+    const { wanted, ready, failed, pending, waiting } = settled ? progressOf(drawn) : progress;
     const waits = pending > 0 || (wanted > failed && pointsDrawn === 0 && !settled);
     this.#bar.hidden = !waits;
     this.#bar.max = Math.max(wanted, 1);

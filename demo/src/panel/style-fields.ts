@@ -221,7 +221,7 @@ function blendShare(): SliderField {
   return {
     kind: "slider",
     id: "blend-share",
-    label: i18n.t("Share"),
+    label: i18n.t("Share blended in"),
     least: 0,
     most: 1,
     step: 0.05,
