@@ -47,7 +47,7 @@ export class Share {
    */
   static wanted(): SharedView | undefined {
     const { hash } = location;
-    return hash.startsWith(NAME) ? readPermalink(decodeURIComponent(hash.slice(NAME.length))) : undefined;
+    return hash.startsWith(NAME) ? readPermalink(decoded(hash.slice(NAME.length))) : undefined;
   }
 
   /** Brings a view back, all of it that can be. @throws what could not be, the first of several */
@@ -110,5 +110,14 @@ export class Share {
         ? i18n.t("The link is copied; the address bar has it too.")
         : i18n.t("The address bar has the link."),
     );
+  }
+}
+
+/** Part of an address without its escapes; as it is where they are damaged, which its reader tells better. */
+function decoded(part: string): string {
+  try {
+    return decodeURIComponent(part);
+  } catch {
+    return part;
   }
 }

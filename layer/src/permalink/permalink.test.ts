@@ -108,6 +108,8 @@ describe("a permalink", () => {
     ["1~c1_2_3_4_5", "LINK_BROKEN", "camera"],
     ["1~c1_92_3_4_5_6", "LINK_BROKEN", "camera"],
     ["1~c1_2_3_4_5_", "LINK_BROKEN", "camera"],
+    ["1~c9_45_1e300_0_-90_0", "LINK_BROKEN", "camera"],
+    ["1~c9_45_-6370000_0_-90_0", "LINK_BROKEN", "camera"],
     ["1~s!!!", "LINK_BROKEN", "style"],
     ["1~fMTc", "LINK_BROKEN", "filter"],
     ["1~ke30", "LINK_BROKEN", "clips"],

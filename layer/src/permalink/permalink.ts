@@ -1,4 +1,4 @@
-import { CAMERA_VIEW, type CameraView } from "../camera/index.js";
+import { CAMERA_VIEW, type CameraView, isCameraView } from "../camera/index.js";
 import { type Clip, checkClip } from "../clips/index.js";
 import { defaultStyle, type PointCloudStyle, type PointFilter, type StyleParts } from "../effects/index.js";
 import { LinkError } from "../errors/index.js";
@@ -174,14 +174,13 @@ function cameraText(camera: CameraView): string {
 
 function cameraOf(text: string): CameraView {
   const numbers = text.split("_").map((part) => (part === "" ? Number.NaN : Number(part)));
-  if (numbers.length !== CAMERA_VIEW.length || !numbers.every(Number.isFinite) || Math.abs(numbers[1]) > 90) {
-    throw broken("camera", `it is not the six numbers ${CAMERA_VIEW.join(", ")}`);
-  }
   const [longitude, latitude, height, heading, pitch, roll] = numbers;
-  return {
+  const camera = {
     ...{ longitude: longitude * DEGREE, latitude: latitude * DEGREE, height },
     ...{ heading: heading * DEGREE, pitch: pitch * DEGREE, roll: roll * DEGREE },
   };
+  if (numbers.length === CAMERA_VIEW.length && isCameraView(camera)) return camera;
+  throw broken("camera", `it is not the six numbers ${CAMERA_VIEW.join(", ")} of a camera`);
 }
 
 function selectedOf(text: string): NonNullable<SharedView["selected"]> {

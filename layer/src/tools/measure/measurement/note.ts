@@ -1,4 +1,4 @@
-import { CAMERA_VIEW, type CameraView } from "../../../camera/index.js";
+import { type CameraView, isCameraView } from "../../../camera/index.js";
 import { isObject } from "./volume-settings.js";
 
 /** What an annotation says. */
@@ -21,8 +21,7 @@ export function noteOf(saved: unknown): Note | undefined {
 
 function cameraOf(saved: unknown): CameraView | undefined {
   if (!isObject(saved)) return undefined;
-  // Own names: those of the list above.
-  const numbers = CAMERA_VIEW.map((name) => [name, saved[name]] as const);
-  if (!numbers.every(([, value]) => Number.isFinite(value))) return undefined;
-  return Object.fromEntries(numbers) as unknown as CameraView;
+  const { longitude, latitude, height, heading, pitch, roll } = saved;
+  const camera = { longitude, latitude, height, heading, pitch, roll };
+  return isCameraView(camera) ? camera : undefined;
 }

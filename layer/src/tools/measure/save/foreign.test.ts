@@ -111,6 +111,12 @@ describe("GeoJSON of other programs", () => {
   });
 
   it.each<[string, object, RegExp]>([
+    ["a height beyond all views", { type: "Point", coordinates: [7, 47, 1e300] }, /heights in metres/],
+    [
+      "a height below the middle of the earth",
+      { type: "Point", coordinates: [7, 47, -7e6] },
+      /heights in metres/,
+    ],
     ["metres", { type: "LineString", coordinates: [[2600000, 1200000], [2600010, 1200000]] }, /no longitudes and latitudes/], // biome-ignore format: positions
     ["holes", { type: "Polygon", coordinates: [square, square] }, /polygon has holes/],
     ["one vertex", { type: "LineString", coordinates: [[7, 47]] }, /too few positions/],

@@ -163,7 +163,8 @@ class Reader {
   }
 }
 
-const NO_PLACE = "its coordinates are no longitudes and latitudes of WGS 84 in degrees";
+const NO_PLACE =
+  "its coordinates are no longitudes and latitudes of WGS 84 in degrees, with heights in metres if any";
 
 function nameOf({ properties }: Readonly<Record<string, unknown>>): string | undefined {
   return isObject(properties) && typeof properties.name === "string" ? properties.name : undefined;

@@ -103,8 +103,15 @@ describe("measurements saved and read again", () => {
     const [feature] = JSON.parse(text).features;
     expect(feature.properties).toEqual({ name: "Crack <b>", kind: "annotation", text: note.text });
     // A camera that is none does not take the text with it; a text that is none is told.
-    const odd = readMeasurements(text.replace('"height":700', '"height":null'), [cloud]);
-    expect(odd.measurements).toEqual([{ ...before, note: { text: note.text } }]);
+    for (const wrong of [
+      '"height":null',
+      '"height":1e300',
+      '"height":-6.37e6',
+      '"height":700,"latitude":5',
+    ]) {
+      const odd = readMeasurements(text.replace('"height":700', wrong), [cloud]);
+      expect([wrong, odd.measurements]).toEqual([wrong, [{ ...before, note: { text: note.text } }]]);
+    }
     const none = readMeasurements(text.replace(JSON.stringify({ note }).slice(1, -1), '"note":7'), [cloud]);
     expect([none.measurements[0]!.note, none.notes]).toEqual([
       undefined,

@@ -1,4 +1,5 @@
 import { PlacementError, type Vector } from "@groma/georef";
+import { HEIGHTS } from "../../../camera/index.js";
 import { isObject } from "../measurement/volume-settings.js";
 import { type DatasetName, datasetAmong, whyNotAmong } from "../vertex/dataset.js";
 import {
@@ -95,6 +96,7 @@ export function placeOf(position: unknown): Vertex | undefined {
   const height = given ?? 0;
   if (![longitude, latitude, height].every(Number.isFinite)) return undefined;
   if (Math.abs(latitude) > 90 || Math.abs(longitude) > MOST_LONGITUDE) return undefined;
+  if (height < HEIGHTS[0] || height > HEIGHTS[1]) return undefined;
   return placeVertex((longitude * Math.PI) / 180, (latitude * Math.PI) / 180, height);
 }
 
