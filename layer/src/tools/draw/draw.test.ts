@@ -16,7 +16,7 @@ import { Awaited } from "./awaited.js";
 import { courseOf, wayOf } from "./course.js";
 import { figuresOf } from "./figures.js";
 import { checkChange, checkKind, checkMeasurement } from "./given.js";
-import { freshName, grown, History, isSame, withChange } from "./history.js";
+import { freshName, grown, History, isSame, withAdded, withChange } from "./history.js";
 import { KnownValues } from "./known-values.js";
 import { Placing } from "./placing.js";
 import { aroundPole } from "./pole-ring.js";
@@ -58,6 +58,12 @@ describe("the way back and forth", () => {
         }
       }),
     );
+  });
+
+  it("adds each measurement under an id of its own, those of one file too", () => {
+    const all = withAdded([line], [line, { ...line, id: "2" }, { ...line, id: "2", name: "Line 3" }]);
+    expect(all.map(({ name }) => name)).toEqual(["Line 1", "Line 1", "Line 1", "Line 3"]);
+    expect([all[0]!.id, all[2]!.id, new Set(all.map(({ id }) => id)).size]).toEqual(["1", "2", 4]);
   });
 
   it("has no step for a figure without a vertex", () => {

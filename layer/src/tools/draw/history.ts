@@ -105,6 +105,20 @@ export function grown(
   return { vertices: [...vertices, vertex], ends: vertices.length + 1 === most };
 }
 
+/** Measurements with others behind them. One whose `id` is taken gets another: two of one file may have the same. */
+export function withAdded(
+  measurements: readonly Measurement[],
+  added: readonly Measurement[],
+): readonly Measurement[] {
+  const taken = new Set(measurements.map(({ id }) => id));
+  const fresh = added.map((one) => {
+    const id = taken.has(one.id) ? crypto.randomUUID() : one.id;
+    taken.add(id);
+    return { ...one, id };
+  });
+  return [...measurements, ...fresh];
+}
+
 /** Measurements of which one is changed. */
 export function withChange(
   measurements: readonly Measurement[],

@@ -17,7 +17,7 @@ import { checkPrecision } from "../measure/worth/point-errors.js";
 import { Awaited } from "./awaited.js";
 import { figuresOf } from "./figures.js";
 import { checkChange, checkKind, checkMeasurement, type MeasureToolOptions } from "./given.js";
-import { freshName, grown, History, type MeasurementChange, withChange } from "./history.js";
+import { freshName, grown, History, type MeasurementChange, withAdded, withChange } from "./history.js";
 import { KnownValues } from "./known-values.js";
 import { commandOf } from "./pointer.js";
 import { Surface } from "./surface.js";
@@ -288,9 +288,7 @@ export class MeasureTool {
   add(added: readonly Measurement[]): void {
     for (const one of added) checkMeasurement(one);
     const { measurements, draft } = this.#history.present;
-    const ids = new Set(measurements.map(({ id }) => id));
-    const fresh = added.map((one) => (ids.has(one.id) ? { ...one, id: crypto.randomUUID() } : one));
-    this.#history.go({ measurements: [...measurements, ...fresh], draft });
+    this.#history.go({ measurements: withAdded(measurements, added), draft });
     this.#changed();
   }
 
