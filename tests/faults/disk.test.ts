@@ -1,9 +1,19 @@
 import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import {
+  closeSync,
+  existsSync,
+  mkdirSync,
+  openSync,
+  readFileSync,
+  rmSync,
+  symlinkSync,
+  writeFileSync,
+} from "node:fs";
 import { join } from "node:path";
 import { afterAll, afterEach, beforeAll, describe, expect, it, test } from "vitest";
 import { titled } from "../interop/comparison.js";
 import { convert, coreMissing, filesOf, makeFolder, type Outcome } from "../interop/core.js";
+import { projectRoot } from "../project.js";
 import { lasOf } from "./las-bytes.js";
 
 const folder = makeFolder();
@@ -99,4 +109,20 @@ describe.skipIf(coreMissing || process.platform !== "linux")("a disk that is too
     expect(outcome.events.at(-1)!.code).toMatch(/^(OUTPUT_WRITE|TEMP_SPACE)$/);
     expect(filesOf(mount)).toEqual([]);
   });
+});
+
+const noFull = existsSync("/dev/full") ? "" : " (skipped: this system has no /dev/full)";
+it.skipIf(noFull)(`output that has no room is told in one sentence${noFull}`, () => {
+  const main = join(projectRoot, "converter/dist/main.js");
+  const full = openSync("/dev/full", "w");
+  for (const args of [["info", path("in.las")], ["info", path("in.las"), "--json"], ["--help"]]) {
+    const { status, stderr } = spawnSync(process.execPath, [main, ...args], {
+      ...{ stdio: ["ignore", full, "pipe"], encoding: "utf8" },
+    });
+    expect([status, stderr]).toEqual([
+      1,
+      "OUTPUT_WRITE: output of groma: it cannot be written (ENOSPC: no space left on device, write). Free space, or send it elsewhere.\n",
+    ]);
+  }
+  closeSync(full);
 });

@@ -39,13 +39,21 @@ export function labelled(rows: readonly (readonly [label: string, text: string])
 }
 
 /**
- * Ends the command quietly once whoever reads its output has gone, as `head` does after its last line. Work that has to
- * tidy up is stopped as by a signal.
+ * Ends the command quietly once whoever reads its output has gone, as `head` does after its last line, and with
+ * OUTPUT_WRITE once it cannot be written otherwise: the disk is full, say. Work that has to tidy up is stopped as by a
+ * signal.
  */
 export function endWithReader(): void {
+  let ended = false;
   for (const stream of [process.stdout, process.stderr]) {
-    stream.on("error", (error: NodeJS.ErrnoException) => {
-      if (error.code !== "EPIPE") throw error;
+    stream.on("error", ({ code, message }: NodeJS.ErrnoException) => {
+      if (ended) return;
+      ended = true;
+      if (code !== "EPIPE") {
+        process.exitCode = 1;
+        const cause = `it cannot be written (${message})`;
+        complain([`OUTPUT_WRITE: output of groma: ${cause}. Free space, or send it elsewhere.`]);
+      }
       if (process.listenerCount("SIGTERM") > 0) process.emit("SIGTERM");
       else process.exit();
     });
