@@ -76,11 +76,15 @@ export class CloudOpener {
     }
   }
 
-  /** Opens what the reader chose, one after the other; the camera goes to the first. */
-  async openChosen(chosen: readonly (string | File)[]): Promise<void> {
+  /**
+   * Opens what the reader chose, one after the other; the camera goes to the first.
+   * @param refused faults of what was chosen with it and is not opened
+   */
+  async openChosen(chosen: readonly (string | File)[], refused: readonly unknown[] = []): Promise<void> {
     const { message, chooser, clouds, how } = this.#parts;
     message.clear();
-    const faults: ToldFault[] = [];
+    const faults: ToldFault[] = refused.map((thrown) => ({ thrown }));
+    message.showAll(faults);
     for (const [at, from] of chosen.entries()) {
       const wanted = at > 0 ? "stay" : undefined;
       const opened = await this.#open(from, { ...how(), crsIfMissing: chooser.crs }, wanted, faults);

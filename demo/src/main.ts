@@ -19,6 +19,7 @@ import { Drawing } from "./panel/drawing.js";
 import { byId } from "./panel/elements.js";
 import { ExportPoints } from "./panel/export-points.js";
 import { clearTitle, showFacts } from "./panel/facts.js";
+import { tellUncaught } from "./panel/failures.js";
 import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
 import { connectLanguage } from "./panel/language-choice.js";
@@ -41,6 +42,7 @@ import { Screenshot } from "./screenshot/screenshot.js";
 import { addBaseMap, addTerrain, createViewer, watchDrawing } from "./viewer.js";
 
 const message = new Message();
+tellUncaught(message);
 
 /** The page once its globe stands. */
 function start(viewer: Viewer): void {
@@ -132,7 +134,7 @@ function start(viewer: Viewer): void {
   new Screenshot({ viewer, clouds, beside, tool: measuring.tool }, (thrown) => message.show(thrown));
   const heights = new Heights((vertical) => opener.reopen(vertical));
   const chooser = new Chooser({
-    files: (files) => void opener.openChosen(files),
+    files: (files, folders) => void opener.openChosen(files, folders),
     address: (text) => {
       try {
         void opener.openChosen([cloudAddress(text, location.href)]);

@@ -2,6 +2,7 @@ import {
   buildModuleUrl,
   CesiumTerrainProvider,
   ImageryLayer,
+  Resource,
   ScreenSpaceEventType,
   TileMapServiceImageryProvider,
   Viewer,
@@ -89,6 +90,10 @@ export async function addBaseMap(viewer: Viewer): Promise<void> {
  */
 export async function addTerrain(viewer: Viewer, address: string): Promise<void> {
   try {
+    // Cesium takes a folder without one for a terrain of old, and the globe stays smooth without a word.
+    const folder = new Resource({ url: address });
+    folder.appendForwardSlash();
+    await folder.getDerivedResource({ url: "layer.json" }).fetchJson();
     viewer.terrainProvider = await CesiumTerrainProvider.fromUrl(address);
   } catch {
     throw new PageError({

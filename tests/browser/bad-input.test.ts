@@ -163,6 +163,41 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
     },
   );
 
+  it("a damaged link is told, and the globe draws on", { timeout: 180_000 }, async () => {
+    const link = (view: string) => `${new URL(good.address)}&fly=0&budget=50000#view=${view}`;
+    for (const view of ["1~c9_45_1e300_0_-90_0", "1~c9_45_%"]) {
+      await page.goto("about:blank");
+      await page.goto(link(view));
+      expect(await told()).toBe("LINK_BROKEN");
+      expect(await drawn()).toBeGreaterThan(1000);
+    }
+    expect(watch.errors).toEqual([]);
+  });
+
+  it("PAGE_TERRAIN: no terrain where the address says; what nobody caught is told too", {
+    timeout: 180_000,
+  }, async () => {
+    await page.goto(`${new URL("/", good.address)}?terrain=/none`);
+    expect(await told()).toBe("PAGE_TERRAIN");
+    await page.evaluate(() => void Promise.reject(new Error("the cause")));
+    await page.locator("#message:has-text('PAGE_FAILED')").waitFor();
+    expect(await page.textContent("#message")).toContain("the cause");
+    await page.evaluate(() => setTimeout(() => window.groma.measure.add([{} as never])));
+    await page.locator("#message:has-text('MEASURE_OPTION')").waitFor();
+  });
+
+  it("another language that the browser does not keep is told, and the page stays", async () => {
+    await page.addInitScript(() => {
+      Storage.prototype.setItem = () => {
+        throw new DOMException("full", "QuotaExceededError");
+      };
+    });
+    await page.goto(new URL("/", good.address).href);
+    await page.selectOption("#language", "fr");
+    await page.locator("#language-note:has-text('allow this site to store data')").waitFor();
+    expect(await page.inputValue("#language")).toBe("en");
+  });
+
   it("an address that is none of a cloud is not followed", { timeout: 60_000 }, async () => {
     await show("javascript:alert(1)");
     expect(await told()).toMatch(/^PAGE_/);

@@ -107,6 +107,50 @@ it("of a damaged scan the core's own code is told", async () => {
   expect(await names()).toEqual([]);
 });
 
+it("one that is given up while its header is read is gone at once", async () => {
+  await page.evaluate(() => {
+    const read = Blob.prototype.arrayBuffer;
+    // The header comes when the opening has been given up.
+    Blob.prototype.arrayBuffer = async function (this: Blob) {
+      const bytes = await read.call(this);
+      if (this.size !== 375) return bytes;
+      const button = document.querySelector<HTMLButtonElement>("[aria-label^='Give up']")!;
+      button.click();
+      Blob.prototype.arrayBuffer = read;
+      return bytes;
+    };
+  });
+  await page.route(/groma-core.*\.wasm/, () => undefined);
+  await page.setInputFiles("#file", file("scan.las"));
+  await expect.poll(() => page.evaluate(() => /native/.test(`${Blob.prototype.arrayBuffer}`))).toBe(true);
+  await expect.poll(names).toEqual([]);
+  await page.unrouteAll();
+});
+
+it("one that is written to while it is read is told as that, and not as damaged", async () => {
+  writeFileSync(file("other.las"), lasOf(POINTS));
+  await page.route(/groma-core.*\.wasm/, async (route) => {
+    writeFileSync(file("other.las"), "something else");
+    await route.continue();
+  });
+  await page.setInputFiles("#file", file("other.las"));
+  await expect.poll(codes, { timeout: 60_000 }).toEqual(["SOURCE_CHANGED"]);
+  expect(await page.textContent("#message")).toContain("Choose the file again");
+  await page.unrouteAll();
+});
+
+it("a folder that is dropped is told as one, and the file beside it is opened", async () => {
+  const session = await page.context().newCDPSession(page);
+  mkdirSync(file("tiles"), { recursive: true });
+  const data = { items: [], files: [file("tiles"), file("placed.copc.laz")], dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "drop"] as const)
+    await session.send("Input.dispatchDragEvent", { type, x: 320, y: 240, data });
+  await settle(page);
+  expect(await names()).toEqual(["placed.copc.laz"]);
+  expect(await page.textContent("#message")).toMatch(/PAGE_FOLDER.*tiles: this is a folder/);
+  await page.click("#cloud-list [aria-label^=Remove]");
+});
+
 it("one that is given up meanwhile ends its worker, and leaves nothing", async () => {
   await listen("2 of 3");
   await page.setInputFiles("#file", file("scan.las"));

@@ -2,7 +2,7 @@ import core from "../../../converter/target/wasm32-wasip1/release/groma-core.was
 import { checkAnnounced } from "./announced.js";
 import type { CoreEvent } from "./core-run.js";
 import type { IndexAnswer, IndexTask } from "./index.worker.js";
-import { IndexError } from "./index-error.js";
+import { changed, IndexError } from "./index-error.js";
 
 /** A scan that was indexed in the page. */
 export interface Indexed {
@@ -19,14 +19,15 @@ export type IndexProgress = Extract<CoreEvent, { event: "progress" }>;
  * Makes a COPC file of a LAS or LAZ file: by the converter's core, in a worker, in memory. The file's bytes are read
  * when they are needed.
  *
- * @throws IndexError with the core's code (`INPUT_…`), INDEX_POINTS, INDEX_CORE, INDEX_FAILED; the signal's reason
+ * @throws IndexError with the core's code (`INPUT_…`), INDEX_POINTS, INDEX_CORE, INDEX_FAILED, SOURCE_CHANGED; the
+ *   signal's reason
  */
 export async function indexFile(
   scan: File,
   { onProgress, signal }: { onProgress: (progress: IndexProgress) => void; signal: AbortSignal },
 ): Promise<Indexed> {
-  signal.throwIfAborted();
   await checkAnnounced(scan);
+  signal.throwIfAborted();
   const worker = new Worker(new URL("./index.worker.ts", import.meta.url), {
     type: "module",
     name: "groma-index",
@@ -53,6 +54,7 @@ export async function indexFile(
   function failure(end: Exclude<IndexAnswer, CoreEvent | { event: "made" }>): IndexError {
     if (end.event === "error") return new IndexError({ ...end, file: scan.name });
     if (end.event === "absent") return absent(end.reason);
+    if (end.event === "unread") return changed(scan.name, end.reason);
     return new IndexError({
       code: "INDEX_FAILED",
       file: scan.name,

@@ -15,6 +15,8 @@ export type IndexAnswer =
   | { readonly event: "made"; readonly copc: Blob }
   | ({ readonly event: "error" } & Fault)
   | { readonly event: "broken"; readonly complaint: string }
+  /** The scan can no longer be read; the browser's name for that. */
+  | { readonly event: "unread"; readonly reason: string }
   /** The core cannot be loaded. */
   | { readonly event: "absent"; readonly reason: string };
 
@@ -32,8 +34,15 @@ async function work({ scan, core }: IndexTask): Promise<void> {
   } catch (thrown) {
     return answer({ event: "absent", reason: thrown instanceof Error ? thrown.message : String(thrown) });
   }
-  const outcome = await program.convert(bytesOf(scan), answer);
-  if ("copc" in outcome) answer({ event: "made", copc: outcome.copc.toBlob() });
+  let unread: string | undefined;
+  const outcome = await program.convert(
+    bytesOf(scan, (reason) => {
+      unread = reason;
+    }),
+    answer,
+  );
+  if (unread !== undefined) answer({ event: "unread", reason: unread });
+  else if ("copc" in outcome) answer({ event: "made", copc: outcome.copc.toBlob() });
   else if ("fault" in outcome) answer({ event: "error", ...outcome.fault });
   else answer({ event: "broken", complaint: outcome.complaint });
 }
@@ -45,10 +54,19 @@ async function load(core: string): Promise<WebAssembly.Module> {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** A file as it lies on disk: the parts that are asked for are read when they are. */
-function bytesOf(scan: Blob): Bytes {
+/**
+ * A file as it lies on disk: the parts that are asked for are read when they are.
+ * @param failed hears the browser's name for why one cannot be
+ */
+function bytesOf(scan: Blob, failed: (reason: string) => void): Bytes {
   const reader = new FileReaderSync();
-  const read = (begin: number, end: number) =>
-    new Uint8Array(reader.readAsArrayBuffer(scan.slice(begin, end)));
+  const read = (begin: number, end: number) => {
+    try {
+      return new Uint8Array(reader.readAsArrayBuffer(scan.slice(begin, end)));
+    } catch (thrown) {
+      failed(thrown instanceof Error ? thrown.name : "unknown");
+      throw thrown;
+    }
+  };
   return { size: scan.size, read };
 }

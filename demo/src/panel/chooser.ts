@@ -1,12 +1,15 @@
+import { i18n } from "../language/i18n.js";
 import { byId } from "./elements.js";
 import { unfold } from "./fold.js";
+import { PageError } from "./page-error.js";
 
 /** A small scan that comes with the page, in `demo/public`: of the kind that `demo/sample` makes, converted. */
 const SAMPLE = "sample.copc.laz";
 
 /** Ways of choosing clouds: files by button or by dropping them, and an address. */
 export interface Chosen {
-  files(files: readonly File[]): void;
+  /** @param folders faults of folders that were dropped with them */
+  files(files: readonly File[], folders: readonly PageError[]): void;
   address(text: string): void;
 }
 
@@ -22,7 +25,7 @@ export class Chooser {
       const files = [...(file.files ?? [])];
       // Without this the same file could not be chosen a second time, say after it was converted anew.
       file.value = "";
-      if (files.length > 0) chosen.files(files);
+      if (files.length > 0) chosen.files(files, []);
     });
     byId("by-address", HTMLFormElement).addEventListener("submit", (event) => {
       event.preventDefault();
@@ -76,7 +79,26 @@ function acceptDrops(chosen: Chosen): void {
     if (!hasFiles(event)) return;
     // Or the browser leaves the page to show the file.
     event.preventDefault();
-    const files = [...(event.dataTransfer?.files ?? [])];
-    if (files.length > 0) chosen.files(files);
+    const items = [...(event.dataTransfer?.items ?? [])].filter(({ kind }) => kind === "file");
+    const folderOf = (item: DataTransferItem) => {
+      const entry = item.webkitGetAsEntry();
+      return entry?.isDirectory ? [folder(entry.name)] : [];
+    };
+    const files = items.filter((item) => folderOf(item).length === 0);
+    const folders = items.flatMap(folderOf);
+    if (items.length > 0)
+      chosen.files(
+        files.flatMap((item) => item.getAsFile() ?? []),
+        folders,
+      );
+  });
+}
+
+function folder(name: string): PageError {
+  return new PageError({
+    code: "PAGE_FOLDER",
+    file: name,
+    cause: i18n.t("this is a folder"),
+    fix: i18n.t("Drop the files in it, or make one scan of them: groma convert FOLDER OUT.copc.laz"),
   });
 }

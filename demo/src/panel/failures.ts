@@ -15,3 +15,10 @@ export function tellFailures(layer: PointCloudLayer, message: Message): void {
     message.show(thrown, { label: i18n.t("Try again"), run: again });
   });
 }
+
+/** Tells what nobody caught: it is the page's fault, and the reader should not have to look into the console for it. */
+export function tellUncaught(message: Message): void {
+  // Without an error it is a remark of the browser's, on observers of sizes say.
+  addEventListener("error", ({ error }) => error && message.show(error));
+  addEventListener("unhandledrejection", ({ reason }) => message.show(reason));
+}

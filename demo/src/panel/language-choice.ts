@@ -17,8 +17,14 @@ export function connectLanguage(losing: () => boolean): void {
   }
   select.value = i18n.locale;
   const change = () => {
-    if (keepLanguage(select.value)) location.reload();
-    else select.value = i18n.locale;
+    if (keepLanguage(select.value)) return location.reload();
+    select.value = i18n.locale;
+    setText(
+      note,
+      i18n.t(
+        "The browser keeps nothing for this page, its language neither: allow this site to store data or free some.",
+      ),
+    );
   };
   select.addEventListener("change", () => {
     setText(note, "");

@@ -20,6 +20,7 @@ import { Compared } from "./compared.js";
 import { byId, optionElement, setText, textElement } from "./elements.js";
 import { MEASURE_WORDS, unitsOf } from "./measure-words.js";
 import { MeasurementList } from "./measurement-list.js";
+import { download } from "./save-file.js";
 
 /** Units that go together, by what the reader chooses. */
 const SYSTEMS = new Map<string, MeasureUnitsOptions>([
@@ -151,10 +152,12 @@ export class Measuring {
   #connectFiles(): void {
     byId("measure-save", HTMLButtonElement).addEventListener("click", () => {
       const document = measurementsToGeoJson(this.tool.measurements, this.#saving());
-      download("measurements.geojson", "application/geo+json", JSON.stringify(document, undefined, 1));
+      const text = JSON.stringify(document, undefined, 1);
+      download("measurements.geojson", new Blob([text], { type: "application/geo+json" }));
     });
     byId("measure-csv", HTMLButtonElement).addEventListener("click", () => {
-      download("measurements.csv", "text/csv", valuesToCsv(this.tool.measurements, this.#saving()));
+      const text = valuesToCsv(this.tool.measurements, this.#saving());
+      download("measurements.csv", new Blob([text], { type: "text/csv" }));
     });
     const file = byId("measure-file", HTMLInputElement);
     file.addEventListener("change", () => {
@@ -193,12 +196,4 @@ export class Measuring {
     this.#list.show();
     this.#annotations.show();
   }
-}
-
-function download(name: string, type: string, text: string): void {
-  const link = document.createElement("a");
-  link.download = name;
-  link.href = URL.createObjectURL(new Blob([text], { type }));
-  link.click();
-  URL.revokeObjectURL(link.href);
 }

@@ -92,7 +92,8 @@ function unsaved(name: string, thrown: unknown): unknown {
   return thrown;
 }
 
-function download(name: string, blob: Blob): void {
+/** Has the browser put a file where it puts downloads. */
+export function download(name: string, blob: Blob): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(blob);
   link.download = name;
