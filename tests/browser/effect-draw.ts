@@ -1,15 +1,18 @@
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll } from "vitest";
 import {
+  CLIP_RECORDS,
   composePointShader,
-  type DrawnNode,
   type EffectPlan,
+  FIRST_ID,
   layerUniforms,
   nodeUniforms,
+  OCTREE_INDEX,
   type PointCloudStyle,
   type PointPass,
   planEffects,
   type SceneFacts,
+  type StyledNode,
   styleTextures,
 } from "../../layer/src/effects/index.js";
 import { richFacts, styleOf } from "../../layer/src/effects/scene.fixture.js";
@@ -55,6 +58,14 @@ export const VIEW = {
   u_pixelRatio: 1,
 };
 
+/** A node, and what a frame says of it. */
+interface DrawnNode extends StyledNode {
+  readonly firstId: number;
+  readonly octreeIndex: number;
+  /** First texel and number of its records in the texture of clips. */
+  readonly clips: readonly [first: number, count: number];
+}
+
 const NODE: DrawnNode = {
   columns: { get: () => ({ scale: 1, offset: 0 }) },
   firstId: 0,
@@ -87,6 +98,7 @@ export async function draw(
   const scene = richFacts(facts);
   const plan = planEffects(whole, scene);
   const shader = composePointShader(plan, WEBGL2, pass);
+  const drawn = { ...NODE, ...node };
   const result = await run(page, {
     vertex: shader.vertex,
     fragment: shader.fragment,
@@ -95,7 +107,8 @@ export async function draw(
       ...VIEW,
       ...view,
       ...layerUniforms(plan),
-      ...nodeUniforms(plan, { ...NODE, ...node }),
+      ...nodeUniforms(plan, drawn),
+      ...{ [FIRST_ID]: drawn.firstId, [OCTREE_INDEX]: drawn.octreeIndex, [CLIP_RECORDS]: drawn.clips },
     },
     textures: [...styleTextures(plan).map(plain), ...textures],
     attributes: columnsOf(shader, columns, node?.step !== undefined),

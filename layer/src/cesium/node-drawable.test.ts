@@ -1,7 +1,10 @@
 import { eastNorthUp, geodeticToEcef } from "@groma/georef";
-import { Cartesian3, Matrix4 } from "cesium";
+import { Cartesian3, Matrix4, Transforms } from "cesium";
 import { describe, expect, it } from "vitest";
-import { matrixOf } from "./node-drawable.js";
+import type { DrawnVertices } from "../drawing/drawn-vertices.js";
+import type { VertexPages } from "../drawing/vertex-pages.js";
+import type { CesiumTypes } from "./engine/gpu-objects.js";
+import { matrixOf, NodeDrawable, writeToEye } from "./node-drawable.js";
 
 describe("matrixOf", () => {
   it("takes the node frame to ECEF without losing a nanometre", () => {
@@ -46,4 +49,20 @@ describe("matrixOf", () => {
     );
     expect([up.x, up.y, up.z].map((value) => Math.round(value * 1e12) / 1e12)).toEqual([0, 0, 1]);
   });
+});
+
+it("writes what takes stored positions to the eye, rounded once, in rows", () => {
+  const origin = new Float64Array(3);
+  geodeticToEcef(0.15, 0.82, 500, origin);
+  const frame = eastNorthUp(origin);
+  const vertices = { frame, box: [0, 0, 0, 1, 1, 1], columns: new Map(), step: 2 ** -10 };
+  const node = new NodeDrawable({} as VertexPages<CesiumTypes>, vertices as unknown as DrawnVertices, 7);
+  const eye = Cartesian3.fromRadians(0.1501, 0.8201, 900);
+  const view = Matrix4.inverseTransformation(Transforms.eastNorthUpToFixedFrame(eye), new Matrix4());
+  const table = new Float32Array(20).fill(9);
+  writeToEye(Float64Array.from(Matrix4.toArray(view)), node.toGlobe, table, 4);
+  const product = Matrix4.multiplyTransformation(view, matrixOf({ frame }, 7), new Matrix4());
+  const steps = Matrix4.multiplyByUniformScale(product, 2 ** -10, new Matrix4());
+  const rows = Matrix4.toArray(Matrix4.transpose(steps, new Matrix4())).slice(0, 12).map(Math.fround);
+  expect([...table]).toEqual([...Array(4).fill(9), ...rows, ...Array(4).fill(9)]);
 });

@@ -29,6 +29,11 @@ export class NodeDrawable extends PagedNode<CesiumTypes> implements UploadedNode
     return this.#place.modelMatrix;
   }
 
+  /** Positions as they are stored → ECEF, column by column: what its product with the view is formed from. */
+  get toGlobe(): Float64Array {
+    return this.#place.toGlobe;
+  }
+
   /** Sphere around the node as it is drawn, ECEF, metres. */
   get sphere(): BoundingSphere {
     return this.#place.sphere;
@@ -40,9 +45,13 @@ export class NodeDrawable extends PagedNode<CesiumTypes> implements UploadedNode
 }
 
 /** Where a node is drawn: so many metres above its place, along its own up. */
-function placeOf(node: Pick<DrawnVertices, "frame" | "box">, heightOffset: number) {
+function placeOf(node: Pick<DrawnVertices, "frame" | "box" | "step">, heightOffset: number) {
   const modelMatrix = matrixOf(node, heightOffset);
-  return { modelMatrix, sphere: sphereOf(node, modelMatrix) };
+  const { step = 1 } = node;
+  const toGlobe = Float64Array.from(Matrix4.toArray(modelMatrix), (value, at) =>
+    at < 12 ? step * value : value,
+  );
+  return { modelMatrix, toGlobe, sphere: sphereOf(node, modelMatrix) };
 }
 
 /**
@@ -61,6 +70,25 @@ export function matrixOf(
     ...([ez, nz, uz, origin[2] + heightOffset * uz] as const),
     ...([0, 0, 0, 1] as const),
   );
+}
+
+/**
+ * Writes the product of two affine matrices, which are given column by column, row by row from a component on: stored
+ * positions → eye, composed in float64 and only then rounded.
+ * @param view ECEF → eye
+ * @param model positions as they are stored → ECEF
+ */
+export function writeToEye(view: Float64Array, model: Float64Array, table: Float32Array, at: number): void {
+  for (let row = 0; row < 3; row++) {
+    const x = view[row];
+    const y = view[row + 4];
+    const z = view[row + 8];
+    const to = at + 4 * row;
+    table[to] = x * model[0] + y * model[1] + z * model[2];
+    table[to + 1] = x * model[4] + y * model[5] + z * model[6];
+    table[to + 2] = x * model[8] + y * model[9] + z * model[10];
+    table[to + 3] = x * model[12] + y * model[13] + z * model[14] + view[row + 12];
+  }
 }
 
 /** Sphere around a node's box, ECEF, metres: what Cesium culls by and fits its near and far planes to. */

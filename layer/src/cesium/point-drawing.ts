@@ -10,7 +10,7 @@ import { type Command, type FrameState, Pass, type PickId } from "./engine/cesiu
 import type { GpuObjects } from "./engine/gpu-objects.js";
 import { GpuTimer, hookCommand } from "./engine/gpu-timer.js";
 import type { RenderStates } from "./engine/render-states.js";
-import type { CesiumNode, CesiumView } from "./node-drawable.js";
+import { type CesiumNode, type CesiumView, writeToEye } from "./node-drawable.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
 import { OffscreenTarget, PictureUniforms } from "./offscreen-target.js";
 import { PointBatch } from "./point-batch.js";
@@ -88,12 +88,13 @@ export class PointDrawing {
 
   /** Has the nodes seen by a camera, in float64, in whatever is drawn of them next. */
   place({ groups }: LayerContent<CesiumView>, { viewMatrix }: Camera): void {
-    const toEye = new Matrix4();
     const by = Matrix4.toArray(viewMatrix);
+    const view = Float64Array.from(by);
     for (const group of groups) {
-      group.place(1, by, ({ uploaded: { modelMatrix } }) => ({
-        u_modelView: Matrix4.multiplyTransformation(viewMatrix, modelMatrix, toEye) as ArrayLike<number>,
-      }));
+      const toEye = group.placeIn("u_modelView") ?? 0;
+      group.place(1, by, ({ uploaded }, _, table, begin) => {
+        writeToEye(view, uploaded.toGlobe, table, begin + toEye);
+      });
     }
   }
 

@@ -121,9 +121,10 @@ export class ClipAnswers {
 
   /**
    * Holds volumes against nodes, as far as the frame allows: those that hold, then those that are to hold next.
+   * @param nodes undefined: not here yet
    * @returns nodes that have to wait
    */
-  form(nodes: readonly DrawnVertices[], allowance: FrameAllowance): number {
+  form(nodes: readonly (DrawnVertices | undefined)[], allowance: FrameAllowance): number {
     return this.#answer(this.#now, nodes, allowance) || this.#answer(this.#next, nodes, allowance);
   }
 
@@ -188,9 +189,14 @@ export class ClipAnswers {
     }
   }
 
-  #answer(answers: Answers | undefined, nodes: readonly DrawnVertices[], allowance: FrameAllowance): number {
+  #answer(
+    answers: Answers | undefined,
+    nodes: readonly (DrawnVertices | undefined)[],
+    allowance: FrameAllowance,
+  ): number {
     if (!answers?.volumes) return 0;
-    const open = nodes.filter((node) => !answers.nodes.has(node));
+    const open: DrawnVertices[] = [];
+    for (const node of nodes) if (node && !answers.nodes.has(node)) open.push(node);
     // What was begun is finished first, whatever the order is now.
     const begun = open.findIndex((node) => answers === this.#forming?.answers && node === this.#forming.node);
     if (begun > 0) open.unshift(...open.splice(begun, 1));

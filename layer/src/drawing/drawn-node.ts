@@ -37,6 +37,10 @@ export interface DrawnNode<V extends ViewTypes = ViewTypes> {
   readonly group: DrawnWith<V>;
   /** Its index among them, by which those of one page follow each other. */
   readonly row: number;
+  /** Its texel in the texture of the visible octree; 0 where no effect reads that. */
+  readonly octreeIndex: number;
+  /** First texel and number of its records in the texture of clips. */
+  readonly clipRecords: readonly [first: number, count: number];
 }
 
 /** The node and the index in its drawing order that a number among all points drawn stands for, counted from 0. */
@@ -85,11 +89,27 @@ export function byGroup<V extends ViewTypes>(nodes: Iterable<DrawnNode<V>>): Gro
 export function byPage<Node extends { readonly uploaded: Pick<UploadedNode, "page"> }>(
   nodes: readonly Node[],
 ): Node[] {
-  const pages = new Map<object | undefined, Node[]>();
-  for (const node of nodes) {
-    const there = pages.get(node.uploaded.page);
-    if (there) there.push(node);
-    else pages.set(node.uploaded.page, [node]);
+  const numbers = new Map<object | undefined, number>();
+  const pageOf = new Int32Array(nodes.length);
+  /** Of each page its nodes, then the index of the next one of them. */
+  const next: number[] = [];
+  for (let index = 0; index < nodes.length; index++) {
+    const { page } = nodes[index].uploaded;
+    let number = numbers.get(page);
+    if (number === undefined) {
+      number = next.push(0) - 1;
+      numbers.set(page, number);
+    }
+    pageOf[index] = number;
+    next[number]++;
   }
-  return [...pages.values()].flat();
+  let begin = 0;
+  for (let number = 0; number < next.length; number++) {
+    const own = next[number];
+    next[number] = begin;
+    begin += own;
+  }
+  const ordered = nodes.slice();
+  for (let index = 0; index < nodes.length; index++) ordered[next[pageOf[index]]++] = nodes[index];
+  return ordered;
 }

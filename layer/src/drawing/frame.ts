@@ -14,7 +14,8 @@ import {
   planEffects,
   type SceneFacts,
 } from "../effects/index.js";
-import type { NodeBounds, OctreeNode, Selection, SharedBudget } from "../octree/index.js";
+import type { NodeBounds, Selection, SharedBudget } from "../octree/index.js";
+import type { NodeVertices } from "../workers/index.js";
 import { ClipAnswers } from "./clip-answers.js";
 import { Completion, type FrameChange } from "./completion.js";
 import { CostMeter } from "./cost-meter.js";
@@ -185,16 +186,15 @@ export class LayerFrames<V extends ViewTypes> {
     const selection = this.#select(settings, camera, allowance);
     if (this.#tooLong("selection", allowance)) return "unfinished";
     const renderer = rendererOf();
-    const facts = this.#facts(settings, camera, selection, renderer.silhouettes);
+    const vertices = this.#verticesOf(selection);
+    const facts = this.#facts(settings, camera, selection, vertices, renderer.silhouettes);
     if (this.#tooLong("facts", allowance)) return "unfinished";
     const forced = renderer.blends ? settings.forced : { ...settings.forced, splats: false };
     const plan = this.#plan(style, facts, forced);
     if (this.#tooLong("plan", allowance)) return "unfinished";
     const ground = this.#ground(settings, camera, renderer);
-    const request = {
-      ...{ selection, plan, clips, allowance, depth: camera.depth },
-      vertices: (node: OctreeNode) => stream.vertices(node),
-    };
+    const { depth } = camera;
+    const request = { selection, vertices, changes: stream.changes, plan, clips, allowance, depth };
     const { content } = renderer;
     const waiting = content.prepare(request);
     renderer.draw();
@@ -234,24 +234,30 @@ export class LayerFrames<V extends ViewTypes> {
     return this.#selection;
   }
 
+  /** What is here of a selection's nodes, at the same indices: looked up once in a frame. */
+  #verticesOf({ nodes }: Selection): (NodeVertices | undefined)[] {
+    const { stream } = this.#octree;
+    const vertices: (NodeVertices | undefined)[] = [];
+    for (let index = 0; index < nodes.length; index++) vertices.push(stream.vertices(nodes[index]));
+    return vertices;
+  }
+
   #facts(
     { filter }: LayerSettings,
     camera: FrameCamera,
     selection: Selection,
+    vertices: readonly (NodeVertices | undefined)[],
     silhouettes: number | undefined,
   ): SceneFacts {
     const { attributes } = this.#cloud;
-    const { stream } = this.#octree;
     const { volumes } = this.#clips;
-    const verticesOf = (node: OctreeNode) => stream.vertices(node);
-    const here = selection.nodes.flatMap((node) => verticesOf(node) ?? []);
-    return sceneFacts(camera, selection, verticesOf, {
+    return sceneFacts(camera, selection, vertices, {
       attributes,
       clips: volumes?.cutting ?? 0,
       highlights: volumes?.highlighting ?? 0,
       filter,
       silhouettes,
-      placing: placingFacts(this.#placing, here),
+      placing: placingFacts(this.#placing, vertices),
     });
   }
 

@@ -1,10 +1,4 @@
-import {
-  type EffectPlan,
-  type NodeValues,
-  nodeUniforms,
-  widestPoint,
-  withoutClips,
-} from "../effects/index.js";
+import { type EffectPlan, widestPoint, withoutClips } from "../effects/index.js";
 import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
 import type { ClipAnswers } from "./clip-answers.js";
 import { byPage, type DrawnNode, type GroupedNodes, type ViewTypes } from "./drawn-node.js";
@@ -14,7 +8,7 @@ import type { Gpu } from "./gpu.js";
 import type { Material } from "./material.js";
 import { Materials } from "./materials.js";
 import type { NodeGroup } from "./node-group.js";
-import { NodeUploads } from "./node-uploads.js";
+import { isReady, NodeUploads } from "./node-uploads.js";
 import { type LogarithmicDepth, pointProgramsOf, programsOf } from "./program-needs.js";
 import { Programs } from "./programs.js";
 import type { AttributeSet } from "./vertex-attributes.js";
@@ -23,8 +17,10 @@ import { VertexPages } from "./vertex-pages.js";
 /** What a frame is to show. */
 export interface ContentRequest {
   readonly selection: Pick<Selection, "nodes" | "counts">;
-  /** What is here of a node. */
-  readonly vertices: (node: OctreeNode) => DrawnVertices | undefined;
+  /** What is here of these nodes, at the same indices. */
+  readonly vertices: readonly (DrawnVertices | undefined)[];
+  /** Another number than before whenever points that are here may look different. */
+  readonly changes: number;
   readonly plan: EffectPlan;
   readonly clips: Pick<ClipAnswers, "form" | "of" | "advance">;
   readonly depth: LogarithmicDepth;
@@ -35,8 +31,11 @@ export interface ContentRequest {
 /** A node of a frame that is being put together. */
 interface Drawing<V extends ViewTypes> extends DrawnNode<V> {
   row: number;
-  values: NodeValues;
+  octreeIndex: number;
+  clipRecords: readonly [first: number, count: number];
 }
+
+const NO_RECORDS = [0, 0] as const;
 
 /** What a layer has on the GPU of one context, and what of it the last frame shows. */
 export class LayerContent<V extends ViewTypes> {
@@ -131,28 +130,27 @@ export class LayerContent<V extends ViewTypes> {
    * @returns steps that wait for a later frame: nodes to be uploaded or held against volumes, and a new material
    */
   prepare(request: ContentRequest): number {
-    const { selection, vertices, plan, clips, depth, allowance } = request;
+    const { selection, vertices, changes, plan, clips, depth, allowance } = request;
+    const { nodes } = selection;
     this.#depth = depth;
     this.#pages.tidy();
     this.programs.nextFrame();
     const materials = this.#materials;
     const material = materials.want(plan);
     const linked = this.programs.prepare(programsOf(material.plan, depth), allowance);
-    const here = selection.nodes.flatMap((node) => vertices(node) ?? []);
-    const unformed = clips.form(here, allowance);
+    const unformed = clips.form(vertices, allowance);
     const drawn = linked ? material : materials.shown;
-    const waiting = drawn
-      ? this.#uploads.upload(selection.nodes, vertices, this.#reads(drawn), allowance.last())
-      : 0;
+    const wanted = { nodes, vertices, uploaded: this.#uploads.of(nodes) };
+    const waiting = drawn ? this.#uploads.upload(wanted, this.#reads(drawn), allowance.last(), changes) : 0;
     const ready = materials.next && linked && unformed === 0 && (waiting === 0 || !materials.shown);
     // The first frame of a material makes what it draws into; where nothing is drawn yet, nothing else is worth to be waited for.
     if (ready && (!materials.shown || allowance.grants())) this.#change();
     if (unformed === 0 && materials.shown?.plan.key === plan.key) clips.advance();
     const { shown } = materials;
     if (shown === material) shown.update(plan);
-    this.#nodes = shown ? this.#collect(shown, request) : [];
-    this.#points = this.#nodes.reduce((sum, { count }) => sum + count, 0);
-    this.#undrawn = shown ? Math.max(waiting, unformed) : here.length;
+    this.#nodes = shown ? this.#collect(shown, request, wanted.uploaded) : [];
+    this.#points = pointsOf(this.#nodes);
+    this.#undrawn = shown ? Math.max(waiting, unformed) : vertices.filter(Boolean).length;
     return waiting + unformed + (materials.next ? 1 : 0);
   }
 
@@ -172,9 +170,10 @@ export class LayerContent<V extends ViewTypes> {
 
   /** Frees what the last frame did not show until the layers that share a budget keep it. */
   keepWithin(budget: ByteLedger, owner: object): void {
-    const shown = new Set(this.#nodes.map(({ node }) => node));
     budget.report(owner, this.#gpu.bytes);
-    for (const node of budget.excess > 0 ? this.#uploads.idle(shown) : []) {
+    if (budget.excess === 0) return;
+    const shown = new Set(this.#nodes.map(({ node }) => node));
+    for (const node of this.#uploads.idle(shown)) {
       this.#uploads.free(node);
       budget.report(owner, this.#gpu.bytes);
       if (budget.excess === 0) return;
@@ -201,50 +200,63 @@ export class LayerContent<V extends ViewTypes> {
     return this.programs.reads(pointProgramsOf(plan, this.#depth));
   }
 
-  #collect(material: Material<V>, { selection, clips: answers }: ContentRequest): DrawnNode<V>[] {
+  /** @param uploaded what is on the GPU of the selection's nodes, at the same indices */
+  #collect(
+    material: Material<V>,
+    { selection, clips: answers }: ContentRequest,
+    uploaded: readonly (V["node"] | undefined)[],
+  ): DrawnNode<V>[] {
     const reads = this.#reads(material);
     const { plan } = material;
     const plain = withoutClips(plan);
+    const cut = { group: material.groupOf(plan), plan, nodes: [] as Drawing<V>[] };
+    const whole =
+      plain === plan ? cut : { group: material.groupOf(plain), plan: plain, nodes: [] as Drawing<V>[] };
     const drawn: Drawing<V>[] = [];
-    const members = new Map<NodeGroup<V>, Drawing<V>[]>();
-    for (const each of [plan, plain]) members.set(material.groupOf(each), []);
+    const { nodes, counts } = selection;
     let firstId = 0;
-    selection.nodes.forEach((node, index) => {
-      const uploaded = this.#uploads.ready(node, reads);
-      const clips = uploaded && answers.of(uploaded.vertices);
-      if (!uploaded || !clips || clips.state === "out") return;
-      const count = Math.min(selection.counts[index], uploaded.vertices.count);
-      const group = material.groupOf(clips.state === "in" ? plain : plan);
-      const nodes = members.get(group) ?? [];
-      const one = { node, uploaded, count, firstId, clips, group, row: 0, values: {} };
-      nodes.push(one);
+    for (let index = 0; index < nodes.length; index++) {
+      const there = uploaded[index];
+      if (!there || !isReady(there, reads)) continue;
+      const clips = answers.of(there.vertices);
+      if (!clips || clips.state === "out") continue;
+      const count = Math.min(counts[index], there.vertices.count);
+      const { group, nodes: members } = clips.state === "in" ? whole : cut;
+      // Spread into one another, objects would take longer than all else that is done for a node.
+      const one: Drawing<V> = {
+        node: nodes[index],
+        uploaded: there,
+        count,
+        firstId,
+        clips,
+        group,
+        row: 0,
+        octreeIndex: 0,
+        clipRecords: NO_RECORDS,
+      };
+      members.push(one);
       drawn.push(one);
       firstId += count;
-    });
+    }
     const octreeIndices = material.showOctree(drawn);
     const clipRecords = material.showClips(drawn);
-    drawn.forEach((one, index) => {
-      const { node, uploaded, firstId } = one;
-      const { columns, toCube, step } = uploaded.vertices;
-      one.values = nodeUniforms(plan, {
-        // Programs count from the first vertex of the page.
-        ...{ columns, toCube, step, firstId: firstId - uploaded.first },
-        level: node.key.depth,
-        spacing: node.bounds?.spacing ?? 0,
-        octreeIndex: octreeIndices?.[index] ?? 0,
-        clips: clipRecords[index] ?? [0, 0],
-      });
-    });
+    for (let index = 0; octreeIndices && index < drawn.length; index++) {
+      drawn[index].octreeIndex = octreeIndices[index];
+    }
+    for (let index = 0; index < clipRecords.length; index++) drawn[index].clipRecords = clipRecords[index];
     this.#groups = [];
-    for (const [group, nodes] of members) {
-      const ordered = byPage(nodes);
-      ordered.forEach((one, row) => {
-        one.row = row;
-      });
-      const values = ordered.map((one) => one.values);
-      group.take(group.plan.key === plan.key ? plan : plain, ordered, values);
-      if (nodes.length > 0) this.#groups.push(group);
+    for (const { group, plan, nodes: members } of whole === cut ? [cut] : [cut, whole]) {
+      const ordered = byPage(members);
+      for (let row = 0; row < ordered.length; row++) ordered[row].row = row;
+      group.take(plan, ordered);
+      if (ordered.length > 0) this.#groups.push(group);
     }
     return drawn;
   }
+}
+
+function pointsOf(nodes: readonly Pick<DrawnNode, "count">[]): number {
+  let points = 0;
+  for (let index = 0; index < nodes.length; index++) points += nodes[index].count;
+  return points;
 }

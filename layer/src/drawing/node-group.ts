@@ -1,4 +1,4 @@
-import { type EffectPlan, NODE_NUMBER, NODE_TABLE, type NodeValues, nodeLayoutOf } from "../effects/index.js";
+import { type EffectPlan, NODE_NUMBER, NODE_TABLE, nodeLayoutOf, nodeUniforms } from "../effects/index.js";
 import type { OctreeNode } from "../octree/index.js";
 import type { DrawnNode, DrawnWith, ViewTypes } from "./drawn-node.js";
 import type { Gpu } from "./gpu.js";
@@ -12,7 +12,9 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
   readonly #table: NodeTable<V>;
   #plan: EffectPlan;
   #nodes: readonly DrawnNode<V>[] = [];
-  #values: readonly NodeValues[] = [];
+  #rows = 0;
+  /** What the values of nodes follow from besides themselves; another object once that is another. */
+  #styled: StyledBy | undefined;
   /** What the table on the GPU was written for. */
   #placed: FrameGround | undefined;
 
@@ -30,7 +32,7 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
   }
 
   get rows(): number {
-    return this.#values.length;
+    return this.#rows;
   }
 
   /** Those of the last frame that are still there, by rising row; the same array until they, or their places, are others. */
@@ -41,12 +43,18 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
   /**
    * Takes the nodes of a frame; the row of each is its index.
    * @param plan one with the same key
-   * @param values what the effects say of each node
    */
-  take(plan: EffectPlan, nodes: readonly DrawnNode<V>[], values: readonly NodeValues[]): void {
+  take(plan: EffectPlan, nodes: readonly DrawnNode<V>[]): void {
     this.#plan = plan;
     this.#nodes = nodes;
-    this.#values = values;
+    this.#rows = nodes.length;
+    const {
+      style,
+      facts: { filter, attributes },
+    } = plan.scene;
+    const by = this.#styled;
+    if (by?.style === style && by.filter === filter && by.attributes === attributes) return;
+    this.#styled = { style, filter, attributes };
   }
 
   /** Draws a node no more; the rows of the others stay. */
@@ -63,29 +71,56 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
    * Says where the nodes are drawn, and puts the table on the GPU where it is not there already.
    * @param copies how often each is drawn: row `copy · nodes + index` is that of a copy
    * @param by what all places follow from besides the nodes: numbers, and objects that never change
-   * @param place what the view says of a copy of a node: its matrices
+   * @param place writes what the view says of a copy of a node, its matrices, into a row of the table
    */
   place(
     copies: number,
     by: readonly unknown[],
-    place: (node: DrawnNode<V>, copy: number) => NodeValues,
+    place: (node: DrawnNode<V>, copy: number, table: Float32Array, begin: number) => void,
   ): void {
     const ground = [this.#nodes, copies, ...by];
     if (sameGround(ground, this.#placed)) return;
     this.#placed = ground;
-    this.#table.reserve(copies * this.rows);
+    const table = this.#table;
+    table.reserve(copies * this.#rows);
+    const { data } = table;
     for (let copy = 0; copy < copies; copy++) {
-      for (const node of this.#nodes) {
-        const row = copy * this.rows + node.row;
-        const { step } = node.uploaded.vertices;
-        this.#table.write(row, this.#values[node.row], step);
-        this.#table.write(row, place(node, copy), step);
+      for (let index = 0; index < this.#nodes.length; index++) {
+        const node = this.#nodes[index];
+        const row = copy * this.#rows + node.row;
+        table.write(row, this.#valuesOf(node), node);
+        place(node, copy, data, table.beginOf(row));
       }
     }
-    this.uniforms.setTexture(NODE_TABLE, this.#table.upload());
+    this.uniforms.setTexture(NODE_TABLE, table.upload());
+  }
+
+  /** Where a value that the view writes begins in a row; undefined where programs read none of that name. */
+  placeIn(name: string): number | undefined {
+    return this.#table.placeIn(name);
   }
 
   destroy(): void {
     this.#table.destroy();
   }
+
+  /** What effects say of a node, formed once for a style. */
+  #valuesOf({ node, uploaded }: DrawnNode<V>): Float32Array {
+    const by = this.#styled;
+    const { styled } = uploaded;
+    if (styled && styled.by === by) return styled.row;
+    const { columns, toCube, step } = uploaded.vertices;
+    const values = nodeUniforms(this.#plan, {
+      ...{ columns, toCube, step },
+      level: node.key.depth,
+      spacing: node.bounds?.spacing ?? 0,
+    });
+    const row = this.#table.rowOf(values, step);
+    uploaded.styled = { by, row };
+    return row;
+  }
 }
+
+/** What of a scene the values of nodes follow from. */
+type StyledBy = Pick<EffectPlan["scene"], "style"> &
+  Pick<EffectPlan["scene"]["facts"], "filter" | "attributes">;

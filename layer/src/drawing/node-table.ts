@@ -1,16 +1,59 @@
-import { NODE_TABLE_WIDTH, type NodeLayout, type NodeValues, writeNode } from "../effects/index.js";
+import {
+  CLIP_RECORDS,
+  FIRST_ID,
+  NODE_TABLE_WIDTH,
+  type NodeLayout,
+  type NodeValues,
+  OCTREE_INDEX,
+  placeIn,
+  writeInteger,
+  writeNode,
+} from "../effects/index.js";
+import type { DrawnNode } from "./drawn-node.js";
 import type { Gpu, GpuTypes } from "./gpu.js";
 
 /** What belongs to each of the nodes that are drawn together, as a texture that their programs read. */
 export class NodeTable<T extends GpuTypes> {
   readonly #gpu: Gpu<T>;
   readonly #layout: NodeLayout;
+  /** Where the values begin that each frame says anew. */
+  readonly #firstId: number | undefined;
+  readonly #octreeIndex: number | undefined;
+  readonly #clipRecords: number | undefined;
   #data = new Float32Array(0);
   #texture: T["texture"] | undefined;
 
   constructor(gpu: Gpu<T>, layout: NodeLayout) {
     this.#gpu = gpu;
     this.#layout = layout;
+    this.#firstId = placeIn(layout, FIRST_ID);
+    this.#octreeIndex = placeIn(layout, OCTREE_INDEX);
+    this.#clipRecords = placeIn(layout, CLIP_RECORDS);
+  }
+
+  /** Where a value begins in a row; undefined where programs read none of that name. */
+  placeIn(name: string): number | undefined {
+    return placeIn(this.#layout, name);
+  }
+
+  /** The rows, one after the other; another array once more rows are reserved. */
+  get data(): Float32Array {
+    return this.#data;
+  }
+
+  /** First component of a row. */
+  beginOf(row: number): number {
+    return 4 * this.#layout.texels * row;
+  }
+
+  /**
+   * A row with these values, to be copied into the table as long as they hold; all others are 0.
+   * @param step metres that the positions of its node are stored in
+   */
+  rowOf(values: NodeValues, step: number | undefined): Float32Array {
+    const row = new Float32Array(4 * this.#layout.texels);
+    writeNode(this.#layout, row, 0, values, step);
+    return row;
   }
 
   /** Makes room for so many rows, which are all to be written then. */
@@ -23,9 +66,23 @@ export class NodeTable<T extends GpuTypes> {
     }
   }
 
-  /** Values of a row; those not named stay. @param step metres that the positions of its node are stored in */
-  write(row: number, values: NodeValues, step: number | undefined): void {
-    writeNode(this.#layout, this.#data, row, values, step);
+  /**
+   * Writes a row but for what the view says of it.
+   * @param values of the node, as {@link rowOf} gives them
+   */
+  write(row: number, values: Float32Array, node: DrawnNode): void {
+    const data = this.#data;
+    const begin = this.beginOf(row);
+    for (let at = 0; at < values.length; at++) data[begin + at] = values[at];
+    // Programs count from the first vertex of the page.
+    if (this.#firstId !== undefined) {
+      writeInteger(data, begin + this.#firstId, node.firstId - node.uploaded.first);
+    }
+    if (this.#octreeIndex !== undefined) writeInteger(data, begin + this.#octreeIndex, node.octreeIndex);
+    if (this.#clipRecords === undefined) return;
+    const { clipRecords } = node;
+    data[begin + this.#clipRecords] = clipRecords[0];
+    data[begin + this.#clipRecords + 1] = clipRecords[1];
   }
 
   /** The table as it was written. */

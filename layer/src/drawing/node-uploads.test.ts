@@ -4,9 +4,9 @@ import { OctreeNode } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
 import { FrameAllowance } from "./frame-allowance.js";
 import type { Gpu, GpuTypes } from "./gpu.js";
-import { NodeUploads } from "./node-uploads.js";
+import { isReady, NodeUploads } from "./node-uploads.js";
 import { PagedNode } from "./paged-node.js";
-import { attributeSet } from "./vertex-attributes.js";
+import { type AttributeSet, attributeSet } from "./vertex-attributes.js";
 import { VertexPages } from "./vertex-pages.js";
 
 const origin = new Float64Array(3);
@@ -39,7 +39,23 @@ function counted() {
     [...alive].filter((object) => (object as { kind: string }).kind === kind).length;
   const pages = new VertexPages(gpu);
   const uploads = new NodeUploads((vertices) => new Uploaded(pages, vertices));
-  return { uploads, count };
+  /** Uploads what a frame with time for so many steps allows. */
+  const upload = (
+    { nodes, vertices }: ReturnType<typeof nodesOf>,
+    set: AttributeSet,
+    steps: number,
+    changes = 0,
+  ) =>
+    uploads.upload(
+      { nodes, vertices: nodes.map(() => vertices), uploaded: uploads.of(nodes) },
+      [set],
+      frame(steps),
+      changes,
+    );
+  /** Those of the nodes that can be drawn. */
+  const ready = (nodes: readonly OctreeNode[], set: AttributeSet) =>
+    uploads.of(nodes).map((uploaded) => (uploaded && isReady(uploaded, [set]) ? uploaded : undefined));
+  return { uploads, upload, ready, count };
 }
 
 /** Nodes of so many points that are here. */
@@ -52,7 +68,7 @@ function nodesOf(count: number, points: number) {
     frame: eastNorthUp(origin),
     box: [0, 0, 0, 1, 1, 1],
   } as unknown as NodeVertices;
-  return { nodes, of: () => vertices };
+  return { nodes, vertices };
 }
 
 /** A frame with time for so many steps; for one at least. */
@@ -63,48 +79,55 @@ function frame(steps: number): FrameAllowance {
 
 describe("NodeUploads", () => {
   it("uploads as many nodes as a frame allows, in their order, and says how many wait", () => {
-    const { uploads, count } = counted();
-    const { nodes, of } = nodesOf(7, 10);
-    const waiting = [0, 3, 100].map((steps) => uploads.upload(nodes, of, [PLAIN], frame(steps)));
+    const { upload, ready, count } = counted();
+    const seven = nodesOf(7, 10);
+    const waiting = [0, 3, 100].map((steps) => upload(seven, PLAIN, steps));
     expect(waiting).toEqual([6, 3, 0]);
-    expect(nodes.every((node) => uploads.ready(node, [PLAIN]))).toBe(true);
+    expect(ready(seven.nodes, PLAIN)).not.toContain(undefined);
     // All lie in one page.
     expect([count("buffer"), count("array")]).toEqual([1, 1]);
   });
 
   it("uploads no more bytes in a frame than 4 MiB and what the last node is over", () => {
-    const { uploads } = counted();
-    const { nodes, of } = nodesOf(5, 150_000);
+    const { upload } = counted();
+    const five = nodesOf(5, 150_000);
     // 1.8 MB each.
-    expect(uploads.upload(nodes, of, [PLAIN], frame(100))).toBe(2);
-    expect(uploads.upload(nodes, of, [PLAIN], frame(100))).toBe(0);
+    expect(upload(five, PLAIN, 100)).toBe(2);
+    expect(upload(five, PLAIN, 100)).toBe(0);
   });
 
   it("draws a node in its former colours until it is whole in others, and frees those then", () => {
-    const { uploads, count } = counted();
-    const { nodes, of } = nodesOf(1, 10);
-    uploads.upload(nodes, of, [COLOURED], frame(100));
-    const former = uploads.ready(nodes[0], [COLOURED]);
-    (of().columns as Map<string, unknown>).set("rgb", { data: new Uint8Array(30) });
-    expect(uploads.ready(nodes[0], [COLOURED])).toBe(former);
-    expect(uploads.upload(nodes, of, [COLOURED], frame(100))).toBe(0);
-    const later = uploads.ready(nodes[0], [COLOURED]);
+    const { upload, ready, count } = counted();
+    const one = nodesOf(1, 10);
+    const other = nodesOf(1, 10);
+    upload(one, COLOURED, 100);
+    upload(other, COLOURED, 100);
+    const [former] = ready(one.nodes, COLOURED);
+    (one.vertices.columns as Map<string, unknown>).set("rgb", { data: new Uint8Array(30) });
+    expect(ready(one.nodes, COLOURED)).toEqual([former]);
+    // Nobody looks for other colours before points are said to have changed, then also once others were looked at.
+    upload(one, COLOURED, 100);
+    expect(ready(one.nodes, COLOURED)).toEqual([former]);
+    upload(other, COLOURED, 100, 1);
+    expect(upload(one, COLOURED, 100, 1)).toBe(0);
+    const [later] = ready(one.nodes, COLOURED);
     expect([later === undefined, later === former]).toEqual([false, false]);
     expect([count("buffer"), count("array")]).toEqual([2, 1]);
   });
 
   it("draws a node in a former style while it waits for what a new one reads, and frees that at last", () => {
-    const { uploads, count } = counted();
-    const { nodes, of } = nodesOf(3, 10);
-    uploads.upload(nodes, of, [COLOURED], frame(100));
-    expect(uploads.upload(nodes, of, [PLAIN], frame(0))).toBe(2);
-    expect(nodes.map((node) => uploads.ready(node, [COLOURED]) !== undefined)).toEqual([true, true, true]);
-    expect(nodes.map((node) => uploads.ready(node, [PLAIN]) !== undefined)).toEqual([true, false, false]);
-    uploads.upload(nodes, of, [PLAIN], frame(100));
+    const { uploads, upload, ready, count } = counted();
+    const three = nodesOf(3, 10);
+    const { nodes } = three;
+    upload(three, COLOURED, 100);
+    expect(upload(three, PLAIN, 0)).toBe(2);
+    expect(ready(nodes, COLOURED)).not.toContain(undefined);
+    expect(ready(nodes, PLAIN).map((uploaded) => uploaded !== undefined)).toEqual([true, false, false]);
+    upload(three, PLAIN, 100);
     expect(count("buffer")).toBe(2);
     uploads.keep([PLAIN]);
     expect([count("buffer"), count("array")]).toEqual([1, 1]);
-    expect(nodes.every((node) => uploads.ready(node, [PLAIN]))).toBe(true);
-    expect(uploads.ready(nodes[0], [COLOURED])).toBeUndefined();
+    expect(ready(nodes, PLAIN)).not.toContain(undefined);
+    expect(ready(nodes.slice(0, 1), COLOURED)).toEqual([undefined]);
   });
 });

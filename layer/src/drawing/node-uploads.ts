@@ -17,6 +17,8 @@ export interface UploadedNode {
   readonly outdated: boolean;
   /** Bytes of its page that it fills. */
   readonly bytes: number;
+  /** What effects say of it as a row of a table of nodes, and by which style, told apart by identity. */
+  styled: { readonly by: unknown; readonly row: Float32Array } | undefined;
   /** Whether programs that read these attributes can draw it. */
   has(set: AttributeSet): boolean;
   /** Puts on the GPU what programs with these attributes need. */
@@ -28,11 +30,29 @@ export interface UploadedNode {
   destroy(): void;
 }
 
+/** Nodes that a frame wants and, at the same indices, what there is of them. */
+export interface WantedNodes<Node> {
+  readonly nodes: readonly OctreeNode[];
+  /** Their points, as far as they are here. */
+  readonly vertices: readonly (DrawnVertices | undefined)[];
+  /** What is on the GPU of them. */
+  readonly uploaded: (Node | undefined)[];
+}
+
+/** Whether all that programs with these attributes need is on the GPU. */
+export function isReady(uploaded: UploadedNode, sets: readonly AttributeSet[]): boolean {
+  for (let index = 0; index < sets.length; index++) if (!uploaded.has(sets[index])) return false;
+  return true;
+}
+
 /** The nodes of a layer that are on the GPU. */
 export class NodeUploads<Node extends UploadedNode> {
   readonly #nodes = new Map<OctreeNode, Node>();
   readonly #make: (vertices: DrawnVertices, heightOffset: number) => Node;
   #heightOffset = 0;
+  /** The changes of points up to which nodes were looked through for outdated ones, and whether some were. */
+  #looked: number | undefined;
+  #outdated = false;
 
   /** @param make a node of which nothing is on the GPU yet, so many metres above its place */
   constructor(make: (vertices: DrawnVertices, heightOffset: number) => Node) {
@@ -49,29 +69,34 @@ export class NodeUploads<Node extends UploadedNode> {
     return this.#nodes.values();
   }
 
-  /** The node, where all that programs with these attributes need is on the GPU. */
-  ready(node: OctreeNode, sets: readonly AttributeSet[]): Node | undefined {
-    const uploaded = this.#nodes.get(node);
-    return uploaded && sets.every((set) => uploaded.has(set)) ? uploaded : undefined;
+  /** What is on the GPU of nodes, at the same indices: looked up once in a frame. */
+  of(nodes: readonly OctreeNode[]): (Node | undefined)[] {
+    const uploaded: (Node | undefined)[] = [];
+    for (let index = 0; index < nodes.length; index++) uploaded.push(this.#nodes.get(nodes[index]));
+    return uploaded;
   }
 
   /**
    * Uploads what is here and not on the GPU yet, in the order given, as far as the frame allows.
+   * @param changes a number that is another one whenever points that are here may look different
    * @returns nodes that are here but have to wait for a later frame
    */
   upload(
-    nodes: Iterable<OctreeNode>,
-    vertices: (node: OctreeNode) => DrawnVertices | undefined,
+    wanted: WantedNodes<Node>,
     sets: readonly AttributeSet[],
     allowance: FrameAllowance,
+    changes: number,
   ): number {
+    const { nodes, vertices, uploaded: all } = wanted;
     let left = BYTES;
     let waiting = 0;
-    for (const node of nodes) {
-      const there = this.#nodes.get(node);
-      if (there && !there.outdated && this.ready(node, sets)) continue;
-      const content = there?.vertices ?? vertices(node);
+    const outdated = this.#someOutdated(changes);
+    for (let index = 0; index < nodes.length; index++) {
+      const there = all[index];
+      if (there && !(outdated && there.outdated) && isReady(there, sets)) continue;
+      const content = there?.vertices ?? vertices[index];
       if (!content) continue;
+      const node = nodes[index];
       if (waiting > 0 || left <= 0 || !allowance.grants()) {
         waiting++;
         continue;
@@ -83,6 +108,7 @@ export class NodeUploads<Node extends UploadedNode> {
       for (const set of sets) uploaded.upload(set);
       if (!kept) there?.destroy();
       this.#nodes.set(node, uploaded);
+      all[index] = uploaded;
       left -= uploaded.bytes - before;
     }
     return waiting;
@@ -116,5 +142,14 @@ export class NodeUploads<Node extends UploadedNode> {
   destroy(): void {
     for (const uploaded of this.#nodes.values()) uploaded.destroy();
     this.#nodes.clear();
+  }
+
+  /** Whether any node is outdated, in view or not: found out when points may have changed, and while some are. */
+  #someOutdated(changes: number): boolean {
+    if (changes === this.#looked && !this.#outdated) return false;
+    this.#looked = changes;
+    this.#outdated = false;
+    for (const uploaded of this.#nodes.values()) this.#outdated ||= uploaded.outdated;
+    return this.#outdated;
   }
 }

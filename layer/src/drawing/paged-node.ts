@@ -34,6 +34,8 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   readonly #colours: Column | undefined;
   readonly #columns = new Map<string, PagedColumn>();
   readonly #arrays = new Map<string, PagedArray<T>>();
+  /** What effects say of it, kept by whoever draws it. */
+  styled: { readonly by: unknown; readonly row: Float32Array } | undefined;
   #slot: PageSlot<T> | undefined;
   #bytes = 0;
 

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { OctreeNode, type Selection, type VoxelKey } from "../octree/index.js";
 import type { FrameCamera } from "./frame-camera.js";
 import { sceneFacts } from "./scene-facts.js";
-import type { VerticesOf } from "./spacing-facts.js";
+import type { NodeShape } from "./spacing-facts.js";
 
 const HALF = Math.SQRT1_2;
 
@@ -61,7 +61,12 @@ function verticesOf({ key: { depth } }: OctreeNode) {
   return { box: [0, 0, 0, edge, edge, 1], toCube, bound: 1e-3, frame: frameAt([20, 0, 0]) };
 }
 
-function factsOf(nodes: OctreeNode[], counts: number[], spacings: number[], of: VerticesOf = verticesOf) {
+function factsOf(
+  nodes: OctreeNode[],
+  counts: number[],
+  spacings: number[],
+  of: (node: OctreeNode) => NodeShape | undefined = verticesOf,
+) {
   const selection: Selection = {
     ...{
       nodes,
@@ -75,7 +80,7 @@ function factsOf(nodes: OctreeNode[], counts: number[], spacings: number[], of: 
     },
     points: counts.reduce((sum, count) => sum + count, 0),
   };
-  return sceneFacts(camera, selection, of, layer);
+  return sceneFacts(camera, selection, nodes.map(of), layer);
 }
 
 describe("what is known of the spacing", () => {
@@ -115,6 +120,17 @@ describe("what is known of the spacing", () => {
     const facts = factsOf(nodes, [100, 100, 100], [4, 2, 2], rootOnly);
     expect([facts.groundSpacing, facts.levels]).toEqual([1.6, [1, 1]]);
     expect(factsOf([], [], []).groundSpacing).toBe(0);
+  });
+
+  it("goes by its own list of nodes, whatever lists of other views have them too", () => {
+    const { root, children } = square();
+    const [first, , second] = children as [OctreeNode, OctreeNode, OctreeNode, OctreeNode];
+    const own = () => factsOf([root, first], [25, 100], [4, 2]);
+    const alone = own();
+    factsOf([second, first, root], [100, 100, 100], [2, 2, 4]);
+    expect(own()).toEqual(alone);
+    expect(factsOf([first], [100], [2]).levels).toEqual([1, 1]);
+    expect(factsOf([root], [100], [4]).levels).toEqual([0, 0]);
   });
 
   it("says nothing of pixels around the camera", () => {

@@ -1,52 +1,56 @@
-import { drawnSpacing, footprint, groundSpacing, type Patch } from "../effects/index.js";
-import { type NodeBounds, type OctreeNode, outsideFrustum, type Selection } from "../octree/index.js";
+import { drawnSpacing, footprint, groundSpacing } from "../effects/index.js";
+import { type OctreeNode, outsideFrustum, type Selection } from "../octree/index.js";
 import type { NodeVertices } from "../workers/index.js";
 import type { FrameCamera } from "./frame-camera.js";
 
 /** Of a node's points: their box in the node's frame, metres, and the map from there to the node's cube. */
 type Extents = Readonly<Record<keyof Pick<NodeVertices, "box" | "toCube">, ArrayLike<number>>>;
 
-/** What is known of a node's points once they are here; undefined until then. */
-export type VerticesOf = (node: OctreeNode) => (Extents & Pick<NodeVertices, "frame" | "bound">) | undefined;
+/** What is known of a node's points once they are here. */
+export type NodeShape = Extents & Pick<NodeVertices, "frame" | "bound">;
 
 /** Of a node whose points are not here. */
 const NO_BOX: readonly number[] = [];
 
-/** How far apart the points lie where nothing finer is drawn over them. */
+/**
+ * How far apart the points lie where nothing finer is drawn over them.
+ * @param shapes of the selection's nodes, at the same indices, as far as they are here
+ */
 export function spacingFacts(
   { view, width }: FrameCamera,
-  { nodes, counts, spacings }: Selection,
-  verticesOf: VerticesOf,
+  selection: Selection,
+  shapes: readonly (NodeShape | undefined)[],
 ) {
+  const { nodes, counts, spacings } = selection;
   const picture = width * view.height;
-  const inView = (bounds: NodeBounds) => !outsideFrustum(view, bounds);
-  const wanted = new Set(nodes);
-  const drawn = nodes.filter((node) => verticesOf(node));
-  const all = drawn.length === nodes.length;
-  const here = all ? wanted : new Set(drawn);
+  let all = true;
+  for (let index = 0; index < nodes.length; index++) {
+    nodes[index].index = index;
+    if (!shapes[index]) all = false;
+  }
   const spacing = new Extent();
   const level = new Extent();
   const ground = new Extent();
   const scale = new Extent();
-  const patches: Patch[] = [];
-  nodes.forEach((node, index) => {
-    const { bounds, key, pointCount, children } = node;
-    if (!bounds) return;
-    const vertices = verticesOf(node);
-    const leaf = !children?.some((child) => child !== undefined);
-    // No objects spread into another: for a thousand nodes in each frame they would take a millisecond.
+  const patches = { spacings: new Float64Array(nodes.length), pixels: new Float64Array(nodes.length) };
+  let patched = 0;
+  for (let index = 0; index < nodes.length; index++) {
+    const node = nodes[index];
+    const { bounds, key } = node;
+    if (!bounds) continue;
+    const shape = shapes[index];
     const apart = drawnSpacing({
       key,
-      points: pointCount,
+      points: node.pointCount,
       count: counts[index],
       spacing: bounds.spacing,
       // What is not here yet is expected to be as its level says.
-      leaf: vertices !== undefined && leaf,
-      box: vertices?.box ?? NO_BOX,
+      leaf: shape !== undefined && isLeaf(node),
+      box: shape ? shape.box : NO_BOX,
     });
     const pixelsPerMetre = spacings[index] / bounds.spacing;
-    const octants = vertices ? octantsUnder(vertices) : 1;
-    const bare = shareInSight(node, octants, wanted, inView);
+    const octants = shape ? octantsUnder(shape) : 1;
+    const bare = shareInSight(node, octants, view, nodes, undefined);
     if (bare > 0) {
       level.add(key.depth);
       ground.add(apart);
@@ -56,38 +60,52 @@ export function spacingFacts(
       }
     }
     // Sizes are for what is drawn now.
-    if (!vertices) return;
-    const share = all ? bare : shareInSight(node, octants, here, inView);
-    if (share === 0) return;
-    const pixels = Math.min(picture, footprint(vertices.box, bounds.spacing) * pixelsPerMetre ** 2);
-    patches.push({ spacing: apart, pixels: share * pixels });
-  });
+    if (!shape) continue;
+    const share = all ? bare : shareInSight(node, octants, view, nodes, shapes);
+    if (share === 0) continue;
+    const pixels = footprint(shape.box, bounds.spacing) * pixelsPerMetre * pixelsPerMetre;
+    patches.spacings[patched] = apart;
+    patches.pixels[patched++] = share * Math.min(picture, pixels);
+  }
   return {
     spacings: spacing.range,
     levels: level.range,
     groundSpacings: ground.range,
-    groundSpacing: groundSpacing(patches),
+    groundSpacing: groundSpacing(patches.spacings.subarray(0, patched), patches.pixels.subarray(0, patched)),
     pixelsPerMetre: scale.range[1],
   };
+}
+
+/** Whether the data set has no children of a node. */
+function isLeaf({ children }: OctreeNode): boolean {
+  if (!children) return true;
+  for (let octant = 0; octant < children.length; octant++) if (children[octant]) return false;
+  return true;
 }
 
 /**
  * Share of a node in which nothing finer is drawn: of the octants that its points pass, those without a child, and with
  * one that is in view and not drawn. What lies outside the picture is coarse, and nobody sees it.
  * @param octants that its points pass at least
+ * @param nodes that are drawn, each with its index
+ * @param shapes where only those of them are drawn that are here
  */
 function shareInSight(
-  { children = [] }: OctreeNode,
+  { children }: OctreeNode,
   octants: number,
-  drawn: ReadonlySet<OctreeNode>,
-  inView: (bounds: NodeBounds) => boolean,
+  view: FrameCamera["view"],
+  nodes: readonly OctreeNode[],
+  shapes: readonly (NodeShape | undefined)[] | undefined,
 ): number {
-  let [all, open] = [0, 0];
+  if (!children) return 1;
+  let all = 0;
+  let open = 0;
   for (let octant = 0; octant < children.length; octant++) {
     const child = children[octant];
     if (!child) continue;
     all++;
-    if (!drawn.has(child) && (!child.bounds || inView(child.bounds))) open++;
+    const drawn = nodes[child.index] === child && (!shapes || shapes[child.index] !== undefined);
+    if (!drawn && (!child.bounds || !outsideFrustum(view, child.bounds))) open++;
   }
   const bare = Math.max(0, octants - all);
   return (bare + open) / (bare + all);

@@ -6,10 +6,10 @@ import { OctreeNode, type Selection } from "../octree/index.js";
 import { reachOf, stepBound, stepOver, toSteps } from "../workers/position-steps.js";
 import { positionBox } from "../workers/records.js";
 import type { FrameCamera } from "./frame-camera.js";
-import type { Gpu, GpuTypes, Texels } from "./gpu.js";
+import type { Gpu, GpuTypes } from "./gpu.js";
 import { NodeTable } from "./node-table.js";
 import { sceneFacts } from "./scene-facts.js";
-import type { VerticesOf } from "./spacing-facts.js";
+import type { NodeShape } from "./spacing-facts.js";
 
 /** Axes as they are, about the origin. */
 const FRAME = { origin: new Float64Array(3), rotation: Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1) };
@@ -23,7 +23,7 @@ const view = (position: readonly [number, number, number]): FrameCamera => ({
 });
 
 /** What a node's points are stated to be off on screen. */
-function placingPixels(vertices: ReturnType<VerticesOf>, eye: readonly [number, number, number]): number {
+function placingPixels(vertices: NodeShape, eye: readonly [number, number, number]): number {
   const node = new OctreeNode({ depth: 0, x: 0, y: 0, z: 0 }, "listed");
   node.bounds = { x: 0, y: 0, z: 0, radius: 1, spacing: 1 };
   const selection = { nodes: [node], points: 1, counts: [1], spacings: [1] } as unknown as Selection;
@@ -31,7 +31,7 @@ function placingPixels(vertices: ReturnType<VerticesOf>, eye: readonly [number, 
     ...{ attributes: [], clips: 0, highlights: 0 },
     ...{ filter: undefined, silhouettes: undefined, placing: undefined },
   };
-  return sceneFacts(view(eye), selection, () => vertices, layer).placingPixels!;
+  return sceneFacts(view(eye), selection, [vertices], layer).placingPixels!;
 }
 
 it("states what whole steps and float32 do on the way to the eye, whatever the node and the camera", () => {
@@ -40,7 +40,7 @@ it("states what whole steps and float32 do on the way to the eye, whatever the n
   const points = fc.array(place, { minLength: 5, maxLength: 40 });
   const layout = nodeLayoutOf(planEffects(styleOf(), richFacts()), WEBGL2);
   const { at } = layout.fields.find(({ name }) => name === "u_modelView")!;
-  const toTexels = { dataTexture: (texels: Texels) => texels, free() {} } as unknown as Gpu<GpuTypes>;
+  const table = new NodeTable({} as Gpu<GpuTypes>, layout);
   let closest = 0;
   fc.assert(
     fc.property(number(-2, 4), number(-1, 7), place, place, points, (wide, far, turn, towards, shares) => {
@@ -58,10 +58,8 @@ it("states what whole steps and float32 do on the way to the eye, whatever the n
       ];
       const shift = rows.map((row) => -row.reduce((sum, value, axis) => sum + value * eye[axis]!, 0));
       const columns = [0, 1, 2].flatMap((column) => [...rows.map((row) => row[column]!), 0]);
-      const table = new NodeTable(toTexels, layout);
-      table.reserve(1);
-      table.write(0, { u_modelView: [...columns, ...shift, 1] }, step);
-      const matrix = (table.upload() as unknown as Texels).data.subarray(at, at + 12);
+      const row = table.rowOf({ u_modelView: [...columns, ...shift, 1] }, step);
+      const matrix = row.subarray(at, at + 12);
 
       const bound = stepBound(step);
       const vertices = { box, bound, toCube: new Float32Array(12), frame: FRAME };

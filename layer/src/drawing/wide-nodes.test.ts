@@ -90,7 +90,7 @@ it.each([
         counts: [count],
         spacings: [REFINED],
       } as unknown as Selection;
-      return sceneFacts(cameraAt(position), selection, () => vertices, layer).placingPixels!;
+      return sceneFacts(cameraAt(position), selection, [vertices], layer).placingPixels!;
     };
     const there = stated(refined);
     console.info(

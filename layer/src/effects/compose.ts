@@ -10,6 +10,7 @@ import {
 import {
   type AttributeDeclaration,
   attributeName,
+  FIRST_ID,
   type PointPass,
   type PointShader,
   type ShaderTarget,
@@ -106,7 +107,7 @@ function base({ target, pass, offscreen }: Omit<PartContext<unknown>, "variant">
   const output = `out_FragColor = ${offscreen ? color : target.colour(color)};`;
   return {
     attributes: [{ column: POSITION, components: 4, normalized: false }],
-    uniforms: [{ name: "u_firstId", type: "int", scope: "node" }, STEP],
+    uniforms: [{ name: FIRST_ID, type: "int", scope: "node" }, STEP],
     varyings: [
       ...(shown ? [{ name: "v_color", type: "vec3" } as const] : []),
       ...(pass === "id" ? [{ name: "v_id", type: "uint", flat: true } as const] : []),
@@ -116,7 +117,7 @@ function base({ target, pass, offscreen }: Omit<PartContext<unknown>, "variant">
       project: "gl_Position = $projection * eye;",
       ...(target.vertexDepth && { deepen: target.vertexDepth }),
       ...(shown && { hand: "v_color = color;" }),
-      ...(pass === "id" && { hand: "v_id = uint(u_firstId + gl_VertexID) + 1u;" }),
+      ...(pass === "id" && { hand: `v_id = uint(${FIRST_ID} + gl_VertexID) + 1u;` }),
     },
     ...(pass === "color" && { fragmentDeclarations: target.declarations }),
     fragment: {

@@ -1,7 +1,8 @@
 import { type AnyEffect, EFFECTS, type EffectName, type PointCloudStyle } from "./catalogue/index.js";
 import type { Scene } from "./declaration/effect.js";
-import type { DrawnNode } from "./declaration/facts.js";
+import type { StyledNode } from "./declaration/facts.js";
 import type { PointPass, TextureData, UniformValues } from "./declaration/shader.js";
+import { STEP } from "./stored-positions.js";
 
 /** What an effect takes, measured. */
 export interface MeasuredCost {
@@ -79,12 +80,9 @@ export function layerUniforms(plan: EffectPlan): UniformValues {
 /** Effects that have uniforms of nodes. */
 const OF_NODES = EFFECTS.filter(({ nodeValues }) => nodeValues !== undefined);
 
-/** Values of the uniforms of one node. Form them when the node, the style or the view's nodes change. */
-export function nodeUniforms(plan: EffectPlan, node: DrawnNode): UniformValues {
-  const values: Record<string, number | readonly number[]> = {
-    u_firstId: node.firstId,
-    u_step: node.step ?? 1,
-  };
+/** Values of the uniforms of one node that stay until its points, the style or the filter change. */
+export function nodeUniforms(plan: EffectPlan, node: StyledNode): UniformValues {
+  const values: Record<string, number | readonly number[]> = { [STEP.name]: node.step ?? 1 };
   for (const effect of OF_NODES) {
     if (plan.active.has(effect.name)) Object.assign(values, effect.nodeValues?.(plan.scene, node));
   }

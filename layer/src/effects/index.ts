@@ -12,7 +12,7 @@ export { composeQuad } from "./compose-quad.js";
 export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./declaration/classes.js";
 export { OFFSET } from "./declaration/colouring.js";
 export { drawnSpacing, footprint } from "./declaration/drawn-spacing.js";
-export type { ColumnScale, DrawnNode, PlacingFacts, SceneFacts } from "./declaration/facts.js";
+export type { ColumnScale, PlacingFacts, SceneFacts, StyledNode } from "./declaration/facts.js";
 export {
   checkFilter,
   type FilteredNumbers,
@@ -22,16 +22,19 @@ export {
 } from "./declaration/filter.js";
 export { GRADIENTS, type GradientName, type GradientStop } from "./declaration/gradients.js";
 export type { StyledAttribute, StyledCloud } from "./declaration/option.js";
-export type {
-  AttributeDeclaration,
-  PointPass,
-  PointShader,
-  QuadShader,
-  ShaderTarget,
-  TextureData,
-  UniformDeclaration,
-  UniformType,
-  UniformValues,
+export {
+  type AttributeDeclaration,
+  CLIP_RECORDS,
+  FIRST_ID,
+  OCTREE_INDEX,
+  type PointPass,
+  type PointShader,
+  type QuadShader,
+  type ShaderTarget,
+  type TextureData,
+  type UniformDeclaration,
+  type UniformType,
+  type UniformValues,
 } from "./declaration/shader.js";
 export {
   columnMajor,
@@ -50,13 +53,16 @@ export {
   readsNodeTexture,
   styleTextures,
 } from "./effect-plan.js";
-export { groundSpacing, type Patch } from "./ground-spacing.js";
+export { groundSpacing } from "./ground-spacing.js";
 export {
   NODE_NUMBER,
   NODE_TABLE,
   NODE_TABLE_WIDTH,
   type NodeLayout,
   type NodeValues,
+  placeIn,
+  writeInteger,
+  writeMatrix,
   writeNode,
 } from "./node-layout.js";
 export {

@@ -50,6 +50,11 @@ export function nodeLayout(uniforms: readonly UniformDeclaration[]): NodeLayout 
   return { fields, texels: Math.max(1, Math.ceil(next / 4)) };
 }
 
+/** Where a value begins among those of its node; undefined where programs read none of that name. */
+export function placeIn({ fields }: NodeLayout, name: string): number | undefined {
+  return fields.find((field) => field.name === name)?.at;
+}
+
 /**
  * Writes values of a node; those not named stay.
  * @param row number of the node in the table
@@ -67,17 +72,24 @@ export function writeNode(
     const value = values[name];
     if (value === undefined) continue;
     if (type === "mat4") writeMatrix(table, begin + at, value as ArrayLike<number>, step);
-    else if (type === "int") {
-      const parts = Math.floor((value as number) / PART);
-      table[begin + at] = parts;
-      table[begin + at + 1] = (value as number) - parts * PART;
-    } else if (typeof value === "number") table[begin + at] = value;
+    else if (type === "int") writeInteger(table, begin + at, value as number);
+    else if (typeof value === "number") table[begin + at] = value;
     else table.set(value, begin + at);
   }
 }
 
-/** The rows of an affine matrix that is given column by column. */
-function writeMatrix(table: Float32Array, at: number, columns: ArrayLike<number>, step: number): void {
+/** Writes an integer from a component on. */
+export function writeInteger(table: Float32Array, at: number, value: number): void {
+  const parts = Math.floor(value / PART);
+  table[at] = parts;
+  table[at + 1] = value - parts * PART;
+}
+
+/**
+ * Writes the rows of an affine matrix, which is given column by column for metres, from a component on.
+ * @param step metres that the positions are stored in
+ */
+export function writeMatrix(table: Float32Array, at: number, columns: ArrayLike<number>, step: number): void {
   for (let row = 0; row < 3; row++) {
     for (let column = 0; column < 3; column++) {
       table[at + 4 * row + column] = columns[4 * column + row] * step;

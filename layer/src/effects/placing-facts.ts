@@ -62,20 +62,28 @@ export function cloudPlacing(cloud: PlacedCloud, tolerance = TOLERANCE): CloudPl
   };
 }
 
-/** The same with the nodes that are drawn. */
-export function placingFacts(cloud: CloudPlacing, nodes: Iterable<PlacedNode>): PlacingFacts {
+/** The same with the nodes that are drawn. @param nodes undefined: not here, and not drawn */
+export function placingFacts(cloud: CloudPlacing, nodes: readonly (PlacedNode | undefined)[]): PlacingFacts {
   const schemes: Record<string, number> = {};
-  let [nodeEdge, bound, storageBound, steps, floats] = [0, 0, 0, 0, 0];
-  for (const node of nodes) {
-    const { box, step } = node;
-    schemes[node.scheme] = (schemes[node.scheme] ?? 0) + 1;
+  let nodeEdge = 0;
+  let bound = 0;
+  let storageBound = 0;
+  let steps = 0;
+  let floats = 0;
+  for (let index = 0; index < nodes.length; index++) {
+    const node = nodes[index];
+    if (!node) continue;
+    const { scheme, box, step } = node;
+    schemes[scheme] = (schemes[scheme] ?? 0) + 1;
     if (step === undefined) floats++;
     else steps++;
-    bound = Math.max(bound, node.bound);
+    if (node.bound > bound) bound = node.bound;
     let reach = 0;
     for (let axis = 0; axis < 3; axis++) {
-      nodeEdge = Math.max(nodeEdge, box[axis + 3] - box[axis]);
-      reach = Math.max(reach, Math.abs(box[axis]), Math.abs(box[axis + 3]));
+      const low = box[axis];
+      const high = box[axis + 3];
+      nodeEdge = Math.max(nodeEdge, high - low);
+      reach = Math.max(reach, Math.abs(low), Math.abs(high));
     }
     // Half a unit in the last place of each of three coordinates, and half a step.
     storageBound = Math.max(storageBound, Math.sqrt(3) * (reach * 2 ** -24 + (step ?? 0) / 2));

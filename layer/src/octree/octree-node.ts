@@ -41,6 +41,11 @@ export class OctreeNode {
   rank = 0;
   /** Whether a view of that round wants so much of it that it is to be asked for. */
   asked = false;
+  /**
+   * Its index in the list of nodes that somebody goes through just now, who sets it beforehand: a list has the node where it
+   * has it at this index, whoever set that.
+   */
+  index = 0;
   #state: NodeState;
 
   constructor(key: VoxelKey, state: "page" | "empty" | "listed" = "empty") {

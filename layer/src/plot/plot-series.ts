@@ -130,7 +130,7 @@ export class PlotSeries {
     const plan = planSeries(series, view, camera.pixelRatio, blends);
     const waiting = content.prepare({
       selection: { nodes, counts: nodes.map(() => Number.POSITIVE_INFINITY) },
-      vertices: (node) => this.#vertices.get(node),
+      ...{ vertices: nodes.map((node) => this.#vertices.get(node)), changes: nodes.length },
       ...{ plan, clips: NO_CLIPS, depth: { own: false, scene: false }, allowance: new FrameAllowance() },
     });
     this.#renderer.begin(camera);

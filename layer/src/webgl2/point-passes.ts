@@ -2,7 +2,7 @@ import { DrawList } from "../drawing/draw-list.js";
 import type { GroupedNodes } from "../drawing/drawn-node.js";
 import type { NodeGroup } from "../drawing/node-group.js";
 import type { Program } from "../drawing/programs.js";
-import { type EffectPlan, NODE_NUMBER, type PointPass } from "../effects/index.js";
+import { type EffectPlan, NODE_NUMBER, type PointPass, writeMatrix } from "../effects/index.js";
 import type { FlatCamera } from "./flat-camera.js";
 import type { GlObjects, GlTypes } from "./gl-objects.js";
 import type { GlFramebuffer, GlVertexArray } from "./gl-types.js";
@@ -30,10 +30,15 @@ export function clear(gl: WebGL2RenderingContext, target: PassTarget, depth: boo
 export function placeNodes(groups: readonly NodeGroup<GlView>[], camera: FlatCamera): void {
   const { worlds, modelView } = camera;
   for (const group of groups) {
-    group.place(worlds.length, [camera], ({ uploaded: { vertices, onGlobe } }, copy) => ({
-      u_modelView: modelView(vertices.frame.origin, worlds[copy]),
-      u_onGlobe: onGlobe,
-    }));
+    const toEye = group.placeIn("u_modelView");
+    const toGlobe = group.placeIn("u_onGlobe");
+    group.place(worlds.length, [camera], ({ uploaded: { vertices, onGlobe } }, copy, table, begin) => {
+      const { step = 1 } = vertices;
+      if (toEye !== undefined) {
+        writeMatrix(table, begin + toEye, modelView(vertices.frame.origin, worlds[copy]), step);
+      }
+      if (toGlobe !== undefined) writeMatrix(table, begin + toGlobe, onGlobe, step);
+    });
   }
 }
 

@@ -23,5 +23,4 @@ export const clip: Effect<{ name: "clip" }> = {
       cull: rejectIf("roles.z > 0 || (roles.x > 0 && roles.y == 0)"),
     },
   }),
-  nodeValues: (_, node) => CLIP_READING.values(node),
 };

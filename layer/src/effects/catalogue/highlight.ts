@@ -47,5 +47,4 @@ export const highlight: Effect<{ name: "highlight"; own: HighlightStyle }> = {
     };
   },
   values: ({ style }) => ({ u_highlight: [...style.highlight.color, style.highlight.share] }),
-  nodeValues: (_, node) => CLIP_READING.values(node),
 };

@@ -33,6 +33,10 @@ export function drawnSpacing({ key, points, count, leaf, spacing, box }: DrawnDe
 
 /** The two longer sides of a box, each at least `least` long, multiplied: square metres. */
 export function footprint(box: ArrayLike<number>, least: number): number {
-  const sides = [box[3] - box[0], box[4] - box[1], box[5] - box[2]].sort((a, b) => b - a);
-  return Math.max(sides[0], least) * Math.max(sides[1], least);
+  const x = box[3] - box[0];
+  const y = box[4] - box[1];
+  const z = box[5] - box[2];
+  const longest = Math.max(x, y, z);
+  const middle = Math.max(Math.min(x, y), Math.min(Math.max(x, y), z));
+  return Math.max(longest, least) * Math.max(middle, least);
 }

@@ -1,4 +1,4 @@
-import type { DrawnNode, SceneFacts } from "./facts.js";
+import type { SceneFacts, StyledNode } from "./facts.js";
 import type { AttributeKind, Option } from "./option.js";
 import type { PointPass, ShaderTarget, TextureData, UniformDeclaration, UniformValues } from "./shader.js";
 
@@ -22,6 +22,11 @@ export interface Scene<Style> {
   readonly width: number;
   /** Pixels by which neighbouring points overlap where they do most. */
   readonly overlap: number;
+}
+
+/** What of a scene stays from frame to frame until the style or the filter changes. */
+export interface StyledScene<Style> extends Pick<Scene<Style>, "style" | "colourings"> {
+  readonly facts: Pick<SceneFacts, "attributes" | "filter">;
 }
 
 /** Whether a scene asks for an effect: `asked` and `auto` run from the threshold on, `forced` always, `off` never. */
@@ -111,8 +116,8 @@ export interface Effect<S extends Signature> {
   quad?(context: QuadContext<Variant<S>>): QuadPart;
   /** Values of its uniforms that hold for all nodes. */
   values?(scene: Scene<StyleOf<S>>): UniformValues;
-  /** Values of its uniforms for a node. */
-  nodeValues?(scene: Scene<StyleOf<S>>, node: DrawnNode): UniformValues;
+  /** Values of its uniforms for a node, as long as style and filter stay. */
+  nodeValues?(scene: StyledScene<StyleOf<S>>, node: StyledNode): UniformValues;
   /** Textures that style and filter fill. */
   textures?(scene: Scene<StyleOf<S>>): readonly TextureData[];
 }

@@ -73,22 +73,16 @@ export interface ColumnScale {
   readonly constant?: readonly number[] | undefined;
 }
 
-/** What the effects must know of a node to draw it. */
-export interface DrawnNode {
+/** What the effects must know of a node to draw it; it stays as long as its points are there. */
+export interface StyledNode {
   /** Its columns by name, at least those that the program's attributes name. */
   readonly columns: { get(name: string): ColumnScale | undefined };
-  /** Number of the first point of the node among all points drawn. */
-  readonly firstId: number;
   /** Level in the octree. */
   readonly level: number;
   /** Distance of its points on the ground, metres. */
   readonly spacing: number;
-  /** Its texel in the texture of the visible octree. */
-  readonly octreeIndex: number;
   /** Length that its positions are stored in, metres; undefined where they are metres. */
   readonly step?: number | undefined;
   /** 3 × 4, row by row: node frame → its own cube, 0 to 1. */
   readonly toCube: ArrayLike<number>;
-  /** First texel and number of its records in the texture of clips. */
-  readonly clips: readonly [first: number, count: number];
 }

@@ -110,8 +110,7 @@ describe("a filter that is given", () => {
     const filter = check({ ranges: { intensity: [-Infinity, Infinity], gpsTime: [5, Infinity] } });
     const plan = planEffects(styleOf(), richFacts({ filter }));
     const node = {
-      ...{ columns: { get: () => ({ scale: -2, offset: 1 }) }, firstId: 0, level: 0, spacing: 1 },
-      ...{ octreeIndex: 0, toCube: [], clips: [0, 0] as const },
+      ...{ columns: { get: () => ({ scale: -2, offset: 1 }) }, level: 0, spacing: 1, toCube: [] },
     };
     const bounds = nodeUniforms(plan, node);
     expect(bounds.u_range0).toEqual([-3e38, 3e38]);

@@ -11,6 +11,14 @@ export interface UniformDeclaration {
   readonly scope: "layer" | "node" | "texture" | "view";
 }
 
+/**
+ * Uniforms of a node whose values each frame says anew: the number of its first point among all points drawn, its texel in
+ * the texture of the visible octree, and first texel and number of its records in the texture of clips.
+ */
+export const FIRST_ID = "u_firstId";
+export const OCTREE_INDEX = "u_octreeIndex";
+export const CLIP_RECORDS = "u_clipRecords";
+
 /** Values of uniforms by name; matrices are column-major. */
 export type UniformValues = Readonly<Record<string, number | readonly number[]>>;
 

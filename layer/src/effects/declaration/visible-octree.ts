@@ -1,7 +1,7 @@
 import { ancestorAt, keyName, octant, type VoxelKey } from "../../octree/voxel-key.js";
 import { type DrawnDensity, drawnSpacing } from "./drawn-spacing.js";
-import type { DrawnNode } from "./facts.js";
-import type { UniformDeclaration, UniformValues } from "./shader.js";
+import type { StyledNode } from "./facts.js";
+import { OCTREE_INDEX, type UniformDeclaration, type UniformValues } from "./shader.js";
 
 /** Texels in a row of the texture of the visible octree. */
 const OCTREE_WIDTH = 256;
@@ -22,7 +22,7 @@ const VISIBLE_LEVELS = `
 /* x: levels from the point's own node down to the deepest drawn one; y: log2 of that one's spacing over its level's. */
 vec2 visibleLevels(vec3 place) {
   uvec3 cell = uvec3(clamp(place, 0.0, 0.99999) * ${(2 ** BITS).toFixed(1)});
-  int texel = u_octreeIndex;
+  int texel = ${OCTREE_INDEX};
   uvec4 node = uvec4(texelFetch(u_octree, ivec2(texel % ${OCTREE_WIDTH}, texel / ${OCTREE_WIDTH}), 0) * 255.0 + 0.5);
   int level = 0;
   while (level < ${BITS}) {
@@ -45,15 +45,12 @@ vec2 visibleLevels(vec3 place) {
 export const OCTREE_READING = {
   uniforms: [
     { name: "u_octree", type: "sampler2D", scope: "texture" },
-    { name: "u_octreeIndex", type: "int", scope: "node" },
+    { name: OCTREE_INDEX, type: "int", scope: "node" },
     { name: "u_toCube", type: "mat4", scope: "node" },
   ] satisfies UniformDeclaration[],
   functions: VISIBLE_LEVELS,
   locate: "vec2 visible = visibleLevels((u_toCube * vec4(stored, 1.0)).xyz);",
-  values: ({ octreeIndex, toCube }: DrawnNode): UniformValues => ({
-    u_octreeIndex: octreeIndex,
-    u_toCube: columnMajor(toCube),
-  }),
+  values: ({ toCube }: StyledNode): UniformValues => ({ u_toCube: columnMajor(toCube) }),
 } as const;
 
 /** A 3 × 4 matrix, row by row, as 4 × 4, column by column. */
