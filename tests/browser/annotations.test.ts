@@ -107,3 +107,18 @@ it("a file of a later version says what to do, and changes nothing", { timeout: 
   expect(await page.textContent("#message .fix")).toContain("later one");
   expect(await page.locator("#annotation-list li").count()).toBe(1);
 });
+
+it("of very many the last ones have labels, so that the page goes on", { timeout: 120_000 }, async () => {
+  const kept = JSON.parse(readFileSync(saved, "utf8"));
+  const [one] = kept.features;
+  const many = Array.from({ length: 1_000 }, (_, at) => ({
+    ...{ ...one, id: `many-${at}`, properties: { ...one.properties, name: `N ${at}` } },
+  }));
+  const file = join(folder, "many.geojson");
+  writeFileSync(file, JSON.stringify({ ...kept, features: many }));
+  await page.setInputFiles("#measure-file", file);
+  await expect.poll(() => page.locator("#annotation-list li").count(), SLOW).toBe(1_001);
+  const shown = () => page.locator("#globe .groma-label:not([hidden])").allTextContents();
+  await expect.poll(async () => (await shown()).length, SLOW).toBe(200);
+  expect([(await shown())[0], (await shown()).at(-1)]).toEqual(["N 800", "N 999"]);
+});

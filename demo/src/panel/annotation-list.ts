@@ -40,9 +40,8 @@ export class AnnotationList {
     const { measurements, edited, drawing } = this.#tool;
     this.#add.setAttribute("aria-pressed", String(drawing === "annotation"));
     const notes = measurements.filter(({ kind }) => kind === "annotation");
-    for (const id of this.#entries.keys()) {
-      if (!notes.some((one) => one.id === id)) this.#entries.delete(id);
-    }
+    const ids = new Set(notes.map(({ id }) => id));
+    for (const id of this.#entries.keys()) if (!ids.has(id)) this.#entries.delete(id);
     const wanted = notes.map((one) => {
       const entry = this.#entries.get(one.id) ?? this.#entry(one.id);
       this.#entries.set(one.id, entry);

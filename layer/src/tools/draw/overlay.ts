@@ -71,6 +71,9 @@ const LOOK = `
 :where(.groma-wrong) { background: #3d1716 }
 `;
 
+/** Labels that are shown at once. More of them cover each other, and finding room for each would take the frame's time. */
+const MOST_LABELS = 200;
+
 /** Figures and labels laid over a view, moved with it. Their classes, `groma-line` and so on, are the application's to style. */
 export class Overlay {
   readonly root = document.createElement("div");
@@ -219,22 +222,26 @@ export class Overlay {
     const state = JSON.stringify([seen, this.crosshair, width, height, covered]);
     if (state === this.#last) return;
     this.#last = state;
-    const labels: { elements: Elements; anchor: ScreenPoint }[] = [];
-    for (const [i, figure] of this.#figures.entries()) {
+    const all = this.#figures.map((figure, i) => {
       const elements = this.#elements.get(keyOf(figure))!;
       const wished = this.#place(figure, elements, seen[i]);
-      elements.label.hidden = wished === undefined || figure.label === "";
-      if (!wished || figure.label === "") continue;
-      const way = seen[i].way.length > 0 ? seen[i].way : seen[i].places;
-      labels.push({ elements, anchor: seenAnchor(wished, way, covered, { width, height }) });
-    }
+      return figure.label === "" ? undefined : wished && { elements, wished, of: seen[i] };
+    });
+    // The figure that is being drawn is the last one.
+    const shown = all.filter((one) => one !== undefined).slice(-MOST_LABELS);
+    const named = new Set(shown.map(({ elements }) => elements));
+    for (const elements of this.#elements.values()) elements.label.hidden = !named.has(elements);
+    const labels = shown.map(({ elements, wished, of }) => {
+      const way = of.way.length > 0 ? of.way : of.places;
+      return { elements, anchor: seenAnchor(wished, way, covered, { width, height }), of };
+    });
     const wishes = labels.map(({ elements: { label, slot }, anchor }) => ({
       ...{ anchor, slot, width: label.offsetWidth, height: label.offsetHeight },
     }));
-    const points = [...seen.flatMap(({ places, ahead }) => [...places, ahead]), this.crosshair].filter(
+    const points = [...labels.flatMap(({ of }) => [...of.places, of.ahead]), this.crosshair].filter(
       (place) => place !== undefined,
     );
-    const obstacles = { points, lines: seen.map(({ way }) => way), covered };
+    const obstacles = { points, lines: labels.map(({ of }) => of.way), covered };
     for (const [i, { x, y, slot }] of placeLabels(wishes, obstacles, { width, height }).entries()) {
       const { elements } = labels[i];
       elements.slot = slot;
