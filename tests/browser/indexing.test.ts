@@ -185,6 +185,26 @@ it("LAZ appears beside it, and the page tells how far it is", { timeout: 120_000
   expect(await page.evaluate(() => window.groma.layer.statistics.pointsDrawn)).toBeGreaterThan(1_000);
 });
 
+it("scans that others are compared with are indexed too, the last one that was chosen", {
+  timeout: 120_000,
+}, async () => {
+  for (const input of ["#compare-file", "#profile-other"])
+    expect(await page.getAttribute(input, "accept")).toBe(".laz,.las,.copc");
+  writeFileSync(file("dropped.las"), lasOf(POINTS));
+  // LAZ that names its coordinate system: the page asks for none here.
+  const groma = join(projectRoot, "converter/dist/main.js");
+  const part = ["clip", file("placed.copc.laz"), "--classes", "2", "--out", file("other.laz"), "--overwrite"];
+  execFileSync(process.execPath, [groma, ...part], { stdio: "pipe" });
+  const note = () => page.textContent("#compare-note");
+  await page.setInputFiles("#compare-file", file("dropped.las"));
+  await page.setInputFiles("#compare-file", file("other.laz"));
+  await expect.poll(note, { timeout: 60_000 }).toContain("other.laz is open");
+  expect(await codes()).toEqual([]);
+  await page.setInputFiles("#compare-file", file("dropped.las"));
+  await expect.poll(codes, { timeout: 60_000 }).toEqual(["CRS_MISSING"]);
+  expect(await note()).toBe("");
+});
+
 it("its octree is that of the command, and can be saved", { timeout: 120_000 }, async () => {
   await page.click("#cloud-list li:first-child .name");
   await page.click("#about summary");

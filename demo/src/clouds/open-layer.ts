@@ -30,20 +30,31 @@ export interface OpeningEvents {
  * Opens a cloud as a layer. A file of the reader's disk that has no octree gets one first.
  * @throws GromaError where it cannot be opened; the signal's reason
  */
-export async function openLayer(
+export function openLayer(
   from: string | File,
   options: OpenOptions,
   events: OpeningEvents,
 ): Promise<PointCloudLayer> {
+  return openOrIndex(from, (one) => openIndexed(one, options, events), events);
+}
+
+/**
+ * Opens a cloud, and indexes it before where it is a file of the reader's disk that has no octree.
+ * @throws what `open` does; IndexError; the signal's reason
+ */
+export async function openOrIndex<Opened>(
+  from: string | File,
+  open: (from: string | File) => Promise<Opened>,
+  { onIndexing: onProgress, onIndexed, signal }: Omit<OpeningEvents, "onWait">,
+): Promise<Opened> {
   try {
-    return await openIndexed(from, options, events);
+    return await open(from);
   } catch (thrown) {
     const lacksOctree = thrown instanceof GromaError && thrown.code === "FORMAT_NOT_COPC";
     if (!lacksOctree || typeof from === "string") throw thrown;
-    const { onIndexing: onProgress, onIndexed, signal } = events;
     const indexed = await indexFile(from, { onProgress, signal });
     onIndexed(indexed);
-    return await openIndexed(indexed.copc, options, events);
+    return await open(indexed.copc);
   }
 }
 

@@ -1,6 +1,8 @@
 import { PointCloud } from "@groma/layer/cesium";
+import { openOrIndex } from "../clouds/open-layer.js";
 import { i18n } from "../language/i18n.js";
 import { byId, setText } from "./elements.js";
+import { indexingWords } from "./progress.js";
 
 /** Scans that volumes are measured against: opened beside the one that is shown, and not drawn. */
 export class Compared {
@@ -8,6 +10,8 @@ export class Compared {
   readonly #changed: () => void;
   readonly #failed: (thrown: unknown) => void;
   readonly #note = byId("compare-note", HTMLParagraphElement);
+  /** One is opened at a time: another one gives it up. */
+  #opening: AbortController | undefined;
 
   /**
    * @param address of what the reader typed; throws where that is none
@@ -36,9 +40,12 @@ export class Compared {
   }
 
   async #open(from: () => string | File): Promise<void> {
+    this.#opening?.abort();
+    this.#opening = new AbortController();
+    const { signal } = this.#opening;
     setText(this.#note, i18n.t("Opening…"));
     try {
-      const cloud = await PointCloud.fromUrl(from());
+      const cloud = await openCompared(from(), (text) => setText(this.#note, text), signal);
       this.#clouds.get(cloud.identity)?.destroy();
       this.#clouds.set(cloud.identity, cloud);
       setText(
@@ -49,8 +56,27 @@ export class Compared {
       );
       this.#changed();
     } catch (thrown) {
+      if (signal.aborted) return;
       setText(this.#note, "");
       this.#failed(thrown);
     }
   }
+}
+
+/**
+ * Opens a scan that another one is compared with, and that is not drawn. One without an octree is indexed first.
+ * @param told hears what is done meanwhile, in words
+ * @throws GromaError where it cannot be opened; the signal's reason
+ */
+export function openCompared(
+  from: string | File,
+  told: (text: string) => void,
+  signal: AbortSignal,
+): Promise<PointCloud> {
+  const name = typeof from === "string" ? from : from.name;
+  return openOrIndex(from, (one) => PointCloud.fromUrl(one, { signal }), {
+    onIndexing: ({ stage }) => signal.aborted || told(indexingWords(name, stage)),
+    onIndexed: () => undefined,
+    signal,
+  });
 }

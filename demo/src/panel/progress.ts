@@ -129,7 +129,8 @@ export class Progress {
   }
 }
 
-function indexingWords(name: string, stage: IndexProgress["stage"]): string {
+/** What is done with a scan while it gets its octree. */
+export function indexingWords(name: string, stage: IndexProgress["stage"]): string {
   if (stage === "read") return i18n.t("Indexing {name}, 1 of 3: reading the points…", { name });
   if (stage === "build") return i18n.t("Indexing {name}, 2 of 3: building the octree…", { name });
   return i18n.t("Indexing {name}, 3 of 3: writing it…", { name });

@@ -1,5 +1,5 @@
 import { type Crs, samePlane } from "@groma/georef";
-import { PointCloud } from "@groma/layer/cesium";
+import type { PointCloud } from "@groma/layer/cesium";
 import {
   areaBetween,
   Profile,
@@ -10,6 +10,7 @@ import {
 import { i18n } from "../language/i18n.js";
 import { libraryWords } from "../language/library-words.js";
 import { fixed } from "../language/numbers.js";
+import { openCompared } from "../panel/compared.js";
 import { byId, optionElement, setText } from "../panel/elements.js";
 
 /** A second cloud along the same line, another survey of the place say: its points, and the areas between both grounds. */
@@ -20,6 +21,7 @@ export class Comparison {
   readonly #choice = byId("profile-with", HTMLSelectElement);
   #offered: readonly PointCloud[] = [];
   #cloud: PointCloud | undefined;
+  #opening: AbortController | undefined;
   #parts: ProfilePoints[] = [];
 
   /**
@@ -63,8 +65,9 @@ export class Comparison {
     this.#changed();
   }
 
-  /** Forgets the second cloud. */
+  /** Forgets the second cloud, and one that is being opened. */
   clear(): void {
+    this.#opening?.abort();
     // One of the scene goes on there.
     if (this.#cloud && !this.#offered.includes(this.#cloud)) this.#cloud.destroy();
     this.#cloud = undefined;
@@ -111,7 +114,19 @@ export class Comparison {
   }
 
   async #open(file: File): Promise<void> {
-    this.#take(await PointCloud.fromUrl(file));
+    this.#opening?.abort();
+    const opening = new AbortController();
+    this.#opening = opening;
+    const before = this.#words.textContent;
+    try {
+      const cloud = await openCompared(file, (text) => setText(this.#words, text), opening.signal);
+      this.#opening = undefined;
+      this.#take(cloud);
+    } catch (thrown) {
+      if (opening.signal.aborted) return;
+      setText(this.#words, before);
+      throw thrown;
+    }
   }
 
   #take(cloud: PointCloud | undefined): void {
