@@ -46,27 +46,30 @@ describe.skipIf(pythonMissing)(
     it("look the same with positions of 8 bytes and of 12, whichever the tolerance asks for", {
       timeout: 30_000,
     }, async () => {
-      const drawn = await stage.page.evaluate(async (pose) => {
-        const stage = new window.page.Stage();
-        const seen = [];
-        for (const tolerance of [0.001, 1e-5]) {
-          const style = { pointSize: 5, size: "adaptive" } as const;
-          const layer = await stage.show("steps", { style, tolerance });
-          stage.look(pose);
-          await stage.settle();
-          const row = (name: string) => layer.ledger.find(({ effect }) => effect === name);
-          seen.push({
-            picture: stage.picture(),
-            bytes: layer.statistics.bytesPerPoint,
-            storage: row("storage")?.why,
-            metres: row("placing")?.magnitude,
-            pixels: row("placingOnScreen")?.magnitude,
-          });
-        }
-        const errors = stage.errors();
-        stage.destroy();
-        return { seen, errors };
-      }, OBLIQUE);
+      const drawn = await stage.page.evaluate(
+        async (pose) => {
+          const stage = new window.page.Stage();
+          const seen = [];
+          for (const tolerance of [0.001, 1e-5]) {
+            // Points with gaps between them, so that each shows where it is.
+            const layer = await stage.show("stripes", { style: { pointSize: 1 }, tolerance });
+            stage.look(pose);
+            await stage.settle();
+            const row = (name: string) => layer.ledger.find(({ effect }) => effect === name);
+            seen.push({
+              picture: stage.picture(),
+              bytes: layer.statistics.bytesPerPoint,
+              storage: row("storage")?.why,
+              metres: row("placing")?.magnitude,
+              pixels: row("placingOnScreen")?.magnitude,
+            });
+          }
+          const errors = stage.errors();
+          stage.destroy();
+          return { seen, errors };
+        },
+        { ...OBLIQUE, range: 8 },
+      );
       expect(drawn.errors).toEqual([]);
       const [steps, floats] = drawn.seen;
       expect([steps!.bytes, floats!.bytes]).toEqual([12, 16]);
