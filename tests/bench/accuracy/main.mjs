@@ -1,4 +1,4 @@
-// `npm run bench:accuracy [-- placing map geodesic measuring vertical rendering sampling profile]`: what accuracy costs, into
+// `npm run bench:accuracy [-- placing map geodesic measuring vertical rendering detail sampling profile]`: what accuracy costs, into
 // docs/accuracy/.
 import { root, setup } from "../../../.ci/setup/main.mjs";
 import { forTest } from "../../../.ci/setup/steps.mjs";

@@ -19,6 +19,11 @@ export async function openScene(root, file, folder, pose, cacheBytes) {
   const source = join(root, "tests/bench/accuracy/rendering");
   const scene = await openScanPage(root, source, file, folder);
   try {
+    const session = await scene.page.context().browser().newBrowserCDPSession();
+    await scene.page.exposeFunction("processorTime", async () => {
+      const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+      return processInfo.reduce((sum, { cpuTime }) => sum + 1000 * cpuTime, 0);
+    });
     const renderer = await scene.page.evaluate(
       async ([address, pose, cacheBytes]) => {
         window.bench = await window.Bench.open(address, pose, cacheBytes);

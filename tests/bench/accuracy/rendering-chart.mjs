@@ -6,17 +6,17 @@ import { paretoFront } from "./summary.mjs";
 
 const WIDTH = 400;
 const HEIGHT = 320;
-const COLUMNS = 3;
+const COLUMNS = 2;
 const RMS = "↑ RMS difference to full density, steps of 255";
 
 /**
- * Error against cost, five panels with axes of their own.
+ * Error against cost of effects and of the storage of vertices, panels with axes of their own.
  *
  * @param {object} rows by part, as in the report's raw numbers
  * @param {number} tolerance metres
  * @returns {string} SVG
  */
-export function renderingChart({ effects, budget, spacing, storage }, tolerance, title) {
+export function renderingChart({ effects, storage }, tolerance, title) {
   const fills = effects.filter((row) => row.fills);
   const looks = effects.filter((row) => !row.fills && row.offPoints > 0);
   const names = [...fills, ...looks].map(({ effect }) => effect);
@@ -24,18 +24,36 @@ export function renderingChart({ effects, budget, spacing, storage }, tolerance,
     fillPanel(fills, names),
     lookPanel(looks, names),
     legend(names),
-    sweepPanel("Point budget", budget, ({ budget }) => (budget === "none" ? "none" : points(budget))),
-    sweepPanel("Screen-space error", spacing, ({ pixels }) => `${pixels} px`),
     storagePanel(storage, tolerance),
   ];
-  const rows = Math.ceil(panels.length / COLUMNS);
+  return sheet(panels, title);
+}
+
+/**
+ * Error against time of point budgets and screen-space errors.
+ *
+ * @param {object} rows by part, as in the report's raw numbers
+ * @returns {string} SVG
+ */
+export function detailChart({ budget, spacing }, title) {
+  const panels = [
+    sweepPanel("Point budget", budget, ({ budget }) => (budget === "none" ? "none" : points(budget))),
+    sweepPanel("Screen-space error", spacing, ({ pixels }) => `${pixels} px`),
+  ];
+  return sheet(panels, title);
+}
+
+/** Panels beside and below each other. */
+function sheet(panels, title) {
+  const columns = Math.min(COLUMNS, panels.length);
+  const rows = Math.ceil(panels.length / columns);
   const placed = panels.map((panel, i) => {
-    panel.setAttribute("x", String(WIDTH * (i % COLUMNS)));
-    panel.setAttribute("y", String(HEIGHT * Math.floor(i / COLUMNS)));
+    panel.setAttribute("x", String(WIDTH * (i % columns)));
+    panel.setAttribute("y", String(HEIGHT * Math.floor(i / columns)));
     return panel.outerHTML;
   });
-  const size = `width="${WIDTH * COLUMNS}" height="${HEIGHT * rows}"`;
-  const box = `viewBox="0 0 ${WIDTH * COLUMNS} ${HEIGHT * rows}"`;
+  const size = `width="${WIDTH * columns}" height="${HEIGHT * rows}"`;
+  const box = `viewBox="0 0 ${WIDTH * columns} ${HEIGHT * rows}"`;
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" ${size} ${box} role="img" aria-label="${title}">` +
     `<rect width="100%" height="100%" fill="white"/>${placed.join("")}</svg>\n`
@@ -175,7 +193,12 @@ function ring(rows, x, y) {
 }
 
 const colour = (name, names) => COLOURS[names.indexOf(name) % COLOURS.length];
-const symbol = (name, names) => SYMBOLS[names.indexOf(name) % SYMBOLS.length];
+
+/** Where colours come again, they do with other symbols. */
+function symbol(name, names) {
+  const at = names.indexOf(name);
+  return SYMBOLS[(at + Math.floor(at / SYMBOLS.length)) % SYMBOLS.length];
+}
 
 /** A logarithmic axis with some room at both ends, and ticks at powers of two. */
 function ratioAxis(label, values) {

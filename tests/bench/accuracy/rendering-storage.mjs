@@ -12,9 +12,18 @@ const POINTS_PER_NODE = 2000;
 /** How coordinates in the node frame may be stored. The shader multiplies and adds in float32. */
 export const STORAGES = [
   { storage: "uint16 × 3", bytes: 6, store: steps(16) },
-  { storage: "21 bit × 3", bytes: 8, store: steps(21) },
-  { storage: "float32 × 3", bytes: 12, store: (value) => Math.fround(value), chosen: true },
+  { storage: "whole steps × 3", bytes: 8, store: wholeSteps, chosen: true },
+  { storage: "float32 × 3", bytes: 12, store: (value) => Math.fround(value) },
 ];
+
+/** The positions that the page draws, of a fit that keeps the tolerance with them: at whole steps where there is room, else float32. */
+export const DRAWN = "drawn";
+
+/** Whole steps of a power of two of a metre, 2²⁰ to either side, which float32 holds: as the page stores them where there is room. */
+function wholeSteps(value, _least, _greatest, reach) {
+  const step = 2 ** Math.ceil(Math.log2(reach / (2 ** 20 - 1)));
+  return Math.round(value / step) * step;
+}
 
 /** Coordinates as so many bits between a box's ends, as the vertex shader would bring them back. */
 function steps(bits) {
@@ -29,7 +38,7 @@ function steps(bits) {
 
 /**
  * Error (metres) of each storage at nodes of all levels of a scan: distance from the float64 place of the records. With
- * it, as `drawn`, the positions that the page really draws, whose float32 comes of a fit.
+ * it, as {@link DRAWN}, the positions that the page really draws, which come of a fit.
  *
  * @param {string} file COPC
  */
@@ -43,14 +52,16 @@ export async function measureStorage(file) {
     for (const [level, names] of await nodesByLevel(source)) {
       for (const name of evenly(names, NODES_PER_LEVEL)) {
         const node = await exactNode(cloud, name);
+        const reach = Math.max(...node.box.map(Math.abs));
         for (const { storage, bytes, store, chosen = false } of STORAGES) {
           const error = errorOf(node, (i, axis) =>
-            store(node.exact[3 * i + axis], node.box[axis], node.box[axis + 3]),
+            store(node.exact[3 * i + axis], node.box[axis], node.box[axis + 3], reach),
           );
           rows.push({ ...describe(node, name, level), storage, bytes, ...error, chosen });
         }
         const drawn = errorOf(node, (i, axis) => node.drawn[3 * i + axis]);
-        rows.push({ ...describe(node, name, level), storage: "drawn", bytes: 12, ...drawn, chosen: false });
+        const { bytes } = node;
+        rows.push({ ...describe(node, name, level), storage: DRAWN, bytes, ...drawn, chosen: false });
       }
     }
     return { rows, step: Math.max(...cloud.scale) * cloud.crs.horizontalUnit.size };
@@ -66,7 +77,7 @@ function describe({ edge, box }, node, level) {
 
 /** Places of some of a node's records in its frame: in float64 from the map itself, and as the page draws them. */
 async function exactNode(cloud, name) {
-  const { positions, frame, box: drawnBox, bound, count } = await cloud.loadNode(name);
+  const { positions, step, frame, box: drawnBox, bound, count } = await cloud.loadNode(name);
   // Exact places may lie beyond those drawn, by as much as is certified.
   const box = Float64Array.from(drawnBox, (value, side) => value + (side < 3 ? -bound : bound));
   const { origin, rotation: r } = frame;
@@ -84,7 +95,8 @@ async function exactNode(cloud, name) {
       drawn[3 * i + axis] = positions[3 * index + axis];
     }
   }
-  return { exact, drawn, box, count: picked.length, edge: Math.max(box[3] - box[0], box[4] - box[1]) };
+  const edge = Math.max(box[3] - box[0], box[4] - box[1]);
+  return { exact, drawn, box, count: picked.length, edge, bytes: step === undefined ? 12 : 8 };
 }
 
 /** Greatest and mean distance, metres. */

@@ -4,12 +4,15 @@ import { median } from "./rendering-figures.mjs";
 export const POSE = { at: [637_290, 851_210, 430], heading: 30, pitch: -40, range: 400 };
 
 /** Frames of each look that are timed, in turn with those of the other. */
-export const FRAMES = { effects: 11, sweeps: 5 };
+const FRAMES = 9;
 
-/** The default size, and the one that closes what lies between points of any level. */
-const FIXED = {};
-const ADAPTIVE = { style: { size: "adaptive" } };
+/** A tolerance that whole steps leave, metres: positions stay float32. */
+export const FINE = 1e-5;
+
+/** The size that closes what lies between points of any level. */
+export const ADAPTIVE = { style: { size: "adaptive" } };
 const DISCS = { style: { size: "adaptive", shape: "disc" } };
+const SPLATS = { ...DISCS.style, splats: true };
 const DEGREE = Math.PI / 180;
 
 const style = (parts) => ({ off: {}, on: { style: parts } });
@@ -22,6 +25,8 @@ const box = { kind: "box", mode: "inside", center: { source: POSE.at }, size: [2
 const EFFECTS = [
   { effect: "nothing (the same twice)", fills: true, off: {}, on: {} },
   { effect: "points at all", off: { empty: true }, on: {} },
+  { effect: "logarithmic depth", fills: true, off: { logDepth: false }, on: {} },
+  { effect: "positions as float32", fills: true, off: {}, on: { tolerance: FINE } },
   { effect: "prefix level of detail", fills: true, off: { wholeNodes: true }, on: {} },
   { effect: "attenuated size", fills: true, off: {}, on: { style: { size: "attenuated" } } },
   { effect: "adaptive size", fills: true, off: {}, on: ADAPTIVE, picture: "adaptive" },
@@ -34,10 +39,15 @@ const EFFECTS = [
   },
   {
     ...{ effect: "blended splats", fills: true, off: DISCS, picture: "splats" },
-    on: { style: { ...DISCS.style, splats: true } },
+    on: { style: SPLATS },
   },
   { effect: "Eye-Dome Lighting, 4", ...style({ eyeDomeLighting: eyeDome(4) }), picture: "eye-dome" },
   { effect: "Eye-Dome Lighting, 8", ...style({ eyeDomeLighting: eyeDome(8) }) },
+  {
+    effect: "Eye-Dome Lighting, 4, on splats",
+    off: { style: SPLATS },
+    on: { style: { ...SPLATS, eyeDomeLighting: eyeDome(4) } },
+  },
   { effect: "gradient (elevation)", ...style({ color: "elevation" }) },
   { effect: "classification colours", ...style({ color: "classification" }) },
   { effect: "opacity 0.5", ...style({ opacity: 0.5 }) },
@@ -49,88 +59,16 @@ function eyeDome(neighbours) {
   return { strength: 0.4, radius: 1.4, neighbours };
 }
 
-/** Default point budget and screen-space error. */
-const BUDGET = 1_000_000;
-const SPACING = 2;
-const BUDGETS = [50_000, 100_000, 200_000, 500_000, BUDGET, 2_000_000, Number.POSITIVE_INFINITY];
-const SPACINGS = [32, 16, 8, 4, SPACING, 1];
-
-/** Spacing on the screen that no node falls short of. */
-const NO_LIMIT = 1e-6;
-
 /** Each effect on and off. */
-export async function measureEffects(page, frames) {
+export async function measureEffects(page) {
   const rows = [];
   for (const { effect, fills = false, off, on, picture } of EFFECTS) {
     const truths = { off: {}, on: fills ? {} : on };
-    const found = await compare(page, { off, on }, truths, frames);
+    const found = await compare(page, { off, on }, truths, FRAMES);
     rows.push({ part: "effects", effect, fills, ...row(found) });
     console.log(`  ${effect}`);
     if (picture) rows.at(-1).picture = { name: picture, data: await strip(page, truths.on) };
   }
-  return rows;
-}
-
-/** Budgets without any other limit, and screen-space errors without any budget, all against the default. */
-export async function measureBudgets(page, frames) {
-  const rows = [];
-  for (const [look, base] of [
-    ["fixed size, 2 px", FIXED],
-    ["adaptive size", ADAPTIVE],
-  ]) {
-    const isDefault = base === FIXED;
-    for (const pointBudget of BUDGETS) {
-      const maximumScreenSpaceError = NO_LIMIT;
-      const looks = {
-        off: { maximumScreenSpaceError, pointBudget: BUDGET },
-        on: { ...base, maximumScreenSpaceError, pointBudget },
-      };
-      const found = await compare(page, looks, { off: {}, on: {} }, frames);
-      const limit = { budget: pointBudget === Number.POSITIVE_INFINITY ? "none" : pointBudget };
-      rows.push({
-        part: "budget",
-        look,
-        ...limit,
-        chosen: isDefault && pointBudget === BUDGET,
-        ...row(found),
-      });
-      console.log(`  ${look}, budget ${pointBudget}`);
-    }
-    for (const pixels of SPACINGS) {
-      const pointBudget = Number.POSITIVE_INFINITY;
-      const looks = {
-        off: { maximumScreenSpaceError: SPACING, pointBudget },
-        on: { ...base, maximumScreenSpaceError: pixels, pointBudget },
-      };
-      const found = await compare(page, looks, { off: {}, on: {} }, frames);
-      rows.push({ part: "spacing", look, pixels, chosen: isDefault && pixels === SPACING, ...row(found) });
-      console.log(`  ${look}, screen-space error ${pixels}`);
-    }
-  }
-  return rows;
-}
-
-/** Widths in spacings, and the default. */
-const FACTORS = [1, 1.25, 1.5, 1.75, 2, 2.5];
-const FACTOR = 2;
-
-/** What widths leave open and draw twice, at the default screen-space error. */
-export async function measureWidths(page) {
-  const looks = [
-    { look: "fixed size, 2 px", factor: undefined, style: {} },
-    ...["attenuated", "adaptive"].flatMap((size) =>
-      FACTORS.map((factor) => ({ look: `${size} size`, factor, style: { size, spacingFactor: factor } })),
-    ),
-  ];
-  const rows = [];
-  for (const { look, factor, style } of looks) {
-    const { holes, overdraw, rms, changed } = await page.evaluate((look) => window.bench.coverage(look), {
-      style,
-    });
-    const chosen = factor === FACTOR;
-    rows.push({ part: "widths", look, factor, chosen, holes, overdraw, onRms: rms, onWrongPixels: changed });
-  }
-  console.log("  widths");
   return rows;
 }
 
@@ -139,7 +77,8 @@ export function pointsInSight(page) {
   return page.evaluate(() => window.bench.everyPoint({}));
 }
 
-function compare(page, looks, truths, pairs) {
+/** Draws two looks in turn, so many frames of each. */
+export function compare(page, looks, truths, pairs) {
   return page.evaluate(([...args]) => window.bench.compare(...args), [looks, truths, pairs]);
 }
 
@@ -148,16 +87,18 @@ function strip(page, truth) {
   return page.evaluate(([...args]) => window.bench.strip(...args), [truth, 320, 240, 58_000]);
 }
 
-/** Times as medians; the ratio is that of frames that followed each other. */
-function row({ times, shown, change, error }) {
+/** Times are medians, the ratio is that of all frames together, the quartiles are those of frames that followed each other. */
+export function row({ times, shown, change, error }) {
   const ratios = times.on.map((time, i) => time / times.off[i]).sort((a, b) => a - b);
   return {
     offMs: median(times.off),
     onMs: median(times.on),
-    ratio: median(ratios),
+    ratio: sum(times.on) / sum(times.off),
     ratioQuartiles: [ratios[Math.floor(ratios.length / 4)], ratios[Math.floor((3 * ratios.length) / 4)]],
     offPoints: shown.off.points,
     onPoints: shown.on.points,
+    offBytes: shown.off.bytes,
+    onBytes: shown.on.bytes,
     nodes: shown.on.nodes,
     active: shown.on.effects,
     changeRms: change.rms,
@@ -169,3 +110,5 @@ function row({ times, shown, change, error }) {
     frames: times.on.length,
   };
 }
+
+const sum = (values) => values.reduce((all, value) => all + value, 0);

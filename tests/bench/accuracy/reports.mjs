@@ -2,6 +2,7 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { cpus, loadavg } from "node:os";
 import { join } from "node:path";
+import { detailReport } from "./detail-report.mjs";
 import { geodesicReport } from "./geodesic-report.mjs";
 import { mapReport } from "./map-report.mjs";
 import { measuringReport } from "./measuring-report.mjs";
@@ -18,6 +19,7 @@ const reports = {
   measuring: measuringReport,
   vertical: verticalReport,
   rendering: renderingReport,
+  detail: detailReport,
   sampling: samplingReport,
   profile: profileReport,
 };
