@@ -201,7 +201,7 @@ describe.skipIf(pythonMissing)(
       );
     });
 
-    /** What frames of three styles show, and their calls, with those that draw many nodes or without. */
+    /** What frames of three styles show, their calls and those of frames that move, where many nodes are drawn by one or not. */
     const frames = (together: boolean) =>
       stage.page.evaluate(async (together) => {
         const { Stage } = window.page;
@@ -216,15 +216,17 @@ describe.skipIf(pythonMissing)(
         const gl = stage.gl as unknown as Record<string, (...given: unknown[]) => unknown>;
         const many = stage.gl.getExtension("WEBGL_multi_draw") as unknown as typeof gl | null;
         const names = Object.keys(Object.getPrototypeOf(gl)).filter((name) =>
-          /^(drawArrays|drawElements|uniform\d|uniformMatrix)/.test(name),
+          /^(drawArrays|drawElements|uniform\d|uniformMatrix|bufferData|bufferSubData|tex\w*Image)/.test(
+            name,
+          ),
         );
         /** Calls of a frame that draws nothing anew. */
         const callsOf = () => {
-          const calls = { draws: 0, uniforms: 0 };
+          const calls = { draws: 0, uniforms: 0, writes: 0 };
           const count = (object: typeof gl, name: string) => {
             const own = Object.getPrototypeOf(object)[name];
             object[name] = (...given) => {
-              calls[/draw/i.test(name) ? "draws" : "uniforms"]++;
+              calls[/draw/i.test(name) ? "draws" : /^uniform/.test(name) ? "uniforms" : "writes"]++;
               return own.apply(object, given);
             };
           };
@@ -241,23 +243,30 @@ describe.skipIf(pythonMissing)(
           splats: { splats: true, eyeDomeLighting: true },
         } as const;
         const pictures: string[] = [];
-        const counted: Record<string, { nodes: number; draws: number; uniforms: number }> = {};
+        const counted: Record<string, { nodes: number; still: object; moving: object }> = {};
         for (const [name, style] of Object.entries(styles)) {
           layer.style = style;
           await stage.settle();
           pictures.push(stage.picture());
           const nodes = layer.statistics.nodesVisible;
           const shown = callsOf();
+          stage.look({ range: 30.5 });
+          const moved = callsOf();
           layer.show = false;
+          stage.look({ range: 30 });
           stage.frame();
           const hidden = callsOf();
+          stage.look({ range: 30.5 });
+          const hiddenMoved = callsOf();
           layer.show = true;
+          stage.look({ range: 30 });
           await stage.settle();
-          counted[name] = {
-            nodes,
-            draws: shown.draws - hidden.draws,
-            uniforms: shown.uniforms - hidden.uniforms,
-          };
+          const less = (calls: typeof shown, others: typeof shown) => ({
+            draws: calls.draws - others.draws,
+            uniforms: calls.uniforms - others.uniforms,
+            writes: calls.writes - others.writes,
+          });
+          counted[name] = { nodes, still: less(shown, hidden), moving: less(moved, hiddenMoved) };
         }
         stage.destroy();
         WebGL2RenderingContext.prototype.getSupportedExtensions = getSupportedExtensions;
@@ -276,19 +285,43 @@ describe.skipIf(pythonMissing)(
       expect(together.counted).toMatchInlineSnapshot(`
         {
           "adaptive": {
-            "draws": 7,
+            "moving": {
+              "draws": 7,
+              "uniforms": 6,
+              "writes": 1,
+            },
             "nodes": 3,
-            "uniforms": 3,
+            "still": {
+              "draws": 7,
+              "uniforms": 3,
+              "writes": 0,
+            },
           },
           "fixed": {
-            "draws": 7,
+            "moving": {
+              "draws": 7,
+              "uniforms": 6,
+              "writes": 1,
+            },
             "nodes": 3,
-            "uniforms": 3,
+            "still": {
+              "draws": 7,
+              "uniforms": 3,
+              "writes": 0,
+            },
           },
           "splats": {
-            "draws": 12,
+            "moving": {
+              "draws": 12,
+              "uniforms": 16,
+              "writes": 1,
+            },
             "nodes": 3,
-            "uniforms": 6,
+            "still": {
+              "draws": 12,
+              "uniforms": 6,
+              "writes": 0,
+            },
           },
         }
       `);

@@ -60,7 +60,7 @@ it("writes what takes stored positions to the eye, rounded once, in rows", () =>
   const eye = Cartesian3.fromRadians(0.1501, 0.8201, 900);
   const view = Matrix4.inverseTransformation(Transforms.eastNorthUpToFixedFrame(eye), new Matrix4());
   const table = new Float32Array(20).fill(9);
-  writeToEye(Float64Array.from(Matrix4.toArray(view)), node.toGlobe, table, 4);
+  writeToEye(Matrix4.toArray(view), node.toGlobe, table, 4);
   const product = Matrix4.multiplyTransformation(view, matrixOf({ frame }, 7), new Matrix4());
   const steps = Matrix4.multiplyByUniformScale(product, 2 ** -10, new Matrix4());
   const rows = Matrix4.toArray(Matrix4.transpose(steps, new Matrix4())).slice(0, 12).map(Math.fround);

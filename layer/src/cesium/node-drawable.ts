@@ -30,7 +30,7 @@ export class NodeDrawable extends PagedNode<CesiumTypes> implements UploadedNode
   }
 
   /** Positions as they are stored → ECEF, column by column: what its product with the view is formed from. */
-  get toGlobe(): Float64Array {
+  get toGlobe(): readonly number[] {
     return this.#place.toGlobe;
   }
 
@@ -48,9 +48,7 @@ export class NodeDrawable extends PagedNode<CesiumTypes> implements UploadedNode
 function placeOf(node: Pick<DrawnVertices, "frame" | "box" | "step">, heightOffset: number) {
   const modelMatrix = matrixOf(node, heightOffset);
   const { step = 1 } = node;
-  const toGlobe = Float64Array.from(Matrix4.toArray(modelMatrix), (value, at) =>
-    at < 12 ? step * value : value,
-  );
+  const toGlobe = Matrix4.toArray(modelMatrix).map((value, at) => (at < 12 ? step * value : value));
   return { modelMatrix, toGlobe, sphere: sphereOf(node, modelMatrix) };
 }
 
@@ -78,7 +76,12 @@ export function matrixOf(
  * @param view ECEF → eye
  * @param model positions as they are stored → ECEF
  */
-export function writeToEye(view: Float64Array, model: Float64Array, table: Float32Array, at: number): void {
+export function writeToEye(
+  view: readonly number[],
+  model: readonly number[],
+  table: Float32Array,
+  at: number,
+): void {
   for (let row = 0; row < 3; row++) {
     const x = view[row];
     const y = view[row + 4];

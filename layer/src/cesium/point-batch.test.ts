@@ -71,7 +71,9 @@ it("draws exactly its nodes, each by its row in the table, whenever Cesium binds
 
 it("lies as near and as far as its nodes do, not as the sphere around them", () => {
   const volume = new NodesVolume();
-  const at = (x: number, y: number) => new BoundingSphere(new Cartesian3(x, y, 0), 1);
+  const at = (x: number, y: number) => ({
+    uploaded: { sphere: new BoundingSphere(new Cartesian3(x, y, 0), 1) },
+  });
   volume.hold([at(100, 0), at(100, 5000)]);
   const { start, stop } = volume.computePlaneDistances(Cartesian3.ZERO, Cartesian3.UNIT_X);
   expect([start, stop]).toEqual([99, 101]);

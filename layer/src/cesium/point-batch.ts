@@ -39,7 +39,7 @@ export class PointBatch {
       this.#nodes = nodes;
       this.#program = program;
       this.#array.list.fill(nodes, program.reads);
-      this.#volume.hold(nodes.map(({ uploaded }) => uploaded.sphere));
+      this.#volume.hold(nodes);
     }
     const changing = { shaderProgram: program.program, renderState, uniformMap, pass };
     if (this.#command) return Object.assign(this.#command, changing);
@@ -58,35 +58,40 @@ export class PointBatch {
   }
 }
 
-const interval = new Interval();
-
 /**
  * Sphere around nodes, for Cesium to cull by. Near and far planes are fitted to the nodes themselves, since the sphere may
  * reach behind the camera where none of them does.
  */
 export class NodesVolume extends BoundingSphere {
-  #spheres: readonly BoundingSphere[] = [];
+  /** x, y, z and radius of each sphere; longer than all of them, so that it serves many frames. */
+  #balls = new Float64Array(0);
+  #end = 0;
 
-  /** Stands for these spheres from now on. */
-  hold(spheres: readonly BoundingSphere[]): void {
-    this.#spheres = spheres;
-    const low = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
-    const high = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
-    for (const { center, radius } of spheres) {
-      low[0] = Math.min(low[0], center.x - radius);
-      low[1] = Math.min(low[1], center.y - radius);
-      low[2] = Math.min(low[2], center.z - radius);
-      high[0] = Math.max(high[0], center.x + radius);
-      high[1] = Math.max(high[1], center.y + radius);
-      high[2] = Math.max(high[2], center.z + radius);
+  /** Stands for the spheres of these nodes from now on. */
+  hold(nodes: readonly { readonly uploaded: { readonly sphere: BoundingSphere } }[]): void {
+    this.#end = 4 * nodes.length;
+    if (this.#balls.length < this.#end) this.#balls = new Float64Array(2 * this.#end);
+    const balls = this.#balls;
+    for (let index = 0, at = 0; index < nodes.length; index++, at += 4) {
+      const { center, radius } = nodes[index].uploaded.sphere;
+      balls[at] = center.x;
+      balls[at + 1] = center.y;
+      balls[at + 2] = center.z;
+      balls[at + 3] = radius;
     }
-    const [x, y, z] = low.map((least, axis) => (least + high[axis]) / 2);
+    const x = this.#middle(0);
+    const y = this.#middle(1);
+    const z = this.#middle(2);
     Cartesian3.fromElements(x, y, z, this.center);
     // Not as narrow as Cesium's own, which takes many times as long.
-    this.radius = 0;
-    for (const { center, radius } of spheres) {
-      this.radius = Math.max(this.radius, Cartesian3.distance(center, this.center) + radius);
+    let reach = 0;
+    for (let at = 0; at < this.#end; at += 4) {
+      const east = balls[at] - x;
+      const north = balls[at + 1] - y;
+      const up = balls[at + 2] - z;
+      reach = Math.max(reach, Math.sqrt(east * east + north * north + up * up) + balls[at + 3]);
     }
+    this.radius = reach;
   }
 
   /** Least and greatest distance along a direction, metres. */
@@ -95,13 +100,32 @@ export class NodesVolume extends BoundingSphere {
     direction: Cartesian3,
     result = new Interval(),
   ): Interval {
-    result.start = Number.POSITIVE_INFINITY;
-    result.stop = Number.NEGATIVE_INFINITY;
-    for (const sphere of this.#spheres) {
-      const { start, stop } = sphere.computePlaneDistances(position, direction, interval);
-      result.start = Math.min(result.start, start);
-      result.stop = Math.max(result.stop, stop);
+    const balls = this.#balls;
+    const { x, y, z } = direction;
+    let start = Number.POSITIVE_INFINITY;
+    let stop = Number.NEGATIVE_INFINITY;
+    for (let at = 0; at < this.#end; at += 4) {
+      const east = balls[at] - position.x;
+      const north = balls[at + 1] - position.y;
+      const up = balls[at + 2] - position.z;
+      const along = x * east + y * north + z * up;
+      start = Math.min(start, along - balls[at + 3]);
+      stop = Math.max(stop, along + balls[at + 3]);
     }
+    result.start = start;
+    result.stop = stop;
     return result;
+  }
+
+  /** Middle of what the spheres take on an axis. */
+  #middle(axis: number): number {
+    const balls = this.#balls;
+    let low = Number.POSITIVE_INFINITY;
+    let high = Number.NEGATIVE_INFINITY;
+    for (let at = 0; at < this.#end; at += 4) {
+      low = Math.min(low, balls[at + axis] - balls[at + 3]);
+      high = Math.max(high, balls[at + axis] + balls[at + 3]);
+    }
+    return (low + high) / 2;
   }
 }

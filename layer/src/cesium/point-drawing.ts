@@ -89,11 +89,10 @@ export class PointDrawing {
   /** Has the nodes seen by a camera, in float64, in whatever is drawn of them next. */
   place({ groups }: LayerContent<CesiumView>, { viewMatrix }: Camera): void {
     const by = Matrix4.toArray(viewMatrix);
-    const view = Float64Array.from(by);
     for (const group of groups) {
       const toEye = group.placeIn("u_modelView") ?? 0;
       group.place(1, by, ({ uploaded }, _, table, begin) => {
-        writeToEye(view, uploaded.toGlobe, table, begin + toEye);
+        writeToEye(by, uploaded.toGlobe, table, begin + toEye);
       });
     }
   }

@@ -34,6 +34,8 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   readonly #colours: Column | undefined;
   readonly #columns = new Map<string, PagedColumn>();
   readonly #arrays = new Map<string, PagedArray<T>>();
+  /** The one that was last asked for, most likely the next as well. */
+  #last: PagedArray<T> | undefined;
   /** What effects say of it, kept by whoever draws it. */
   styled: { readonly by: unknown; readonly row: Float32Array } | undefined;
   #slot: PageSlot<T> | undefined;
@@ -72,7 +74,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
 
   /** Whether programs that read these attributes can draw the node. */
   has({ signature }: AttributeSet): boolean {
-    return this.#arrays.has(signature);
+    return this.#last?.set.signature === signature || this.#arrays.has(signature);
   }
 
   /** Puts on the GPU what programs with these attributes need. */
@@ -82,8 +84,12 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
 
   /** The vertex array that programs with these attributes read, made where it is not there. */
   arrayOf(set: AttributeSet): T["vertexArray"] {
+    if (this.#last?.set.signature === set.signature) return this.#last.array;
     const found = this.#arrays.get(set.signature);
-    if (found) return found.array;
+    if (found) {
+      this.#last = found;
+      return found.array;
+    }
     const slot = this.#slot ?? this.#pages.reserve(this.vertices.count, this, this.positions);
     this.#slot = slot;
     const { page } = slot;
@@ -103,6 +109,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
 
   /** Frees what programs with other attributes than these read. */
   keep(sets: readonly AttributeSet[]): void {
+    this.#last = undefined;
     const signatures = new Set(sets.map(({ signature }) => signature));
     for (const [signature, { name }] of this.#arrays) {
       if (signatures.has(signature)) continue;
@@ -132,6 +139,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     for (const { name } of this.#arrays.values()) slot.page.leaveArray(name);
     for (const { buffer } of this.#columns.values()) slot.page.leave(buffer);
     this.#arrays.clear();
+    this.#last = undefined;
     this.#columns.clear();
     this.#bytes = 0;
     this.#slot = undefined;

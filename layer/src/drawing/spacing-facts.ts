@@ -104,7 +104,10 @@ function shareInSight(
     const child = children[octant];
     if (!child) continue;
     all++;
-    const drawn = nodes[child.index] === child && (!shapes || shapes[child.index] !== undefined);
+    const { index } = child;
+    // Nothing is read beyond the end of an array, which would take longer from then on.
+    const listed = index < nodes.length && nodes[index] === child;
+    const drawn = listed && (!shapes || shapes[index] !== undefined);
     if (!drawn && (!child.bounds || !outsideFrustum(view, child.bounds))) open++;
   }
   const bare = Math.max(0, octants - all);
