@@ -26,7 +26,7 @@ export interface OpenerParts {
   readonly how: () => OpenOptions;
   /** Chooses a cloud and takes the camera there. */
   readonly goTo: (cloud: OpenCloud, by: Flight["way"]) => Promise<void>;
-  /** An opening has come to its end, good or bad. */
+  /** An opening has come to its end, good or bad, or clouds look as a link asks for. */
   readonly ended: () => void;
   /** A cloud looks as the link to the page asks for. */
   readonly broughtBack: (cloud: OpenCloud) => void;
@@ -74,6 +74,7 @@ export class CloudOpener {
         tell(thrown);
       }
     }
+    this.#parts.ended();
   }
 
   /**

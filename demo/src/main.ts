@@ -16,6 +16,7 @@ import { clipGroup } from "./panel/clip-fields.js";
 import { CloudList } from "./panel/cloud-list.js";
 import { Controls } from "./panel/controls.js";
 import { Drawing } from "./panel/drawing.js";
+import { DrawingHint } from "./panel/drawing-hint.js";
 import { byId } from "./panel/elements.js";
 import { ExportPoints } from "./panel/export-points.js";
 import { clearTitle, showFacts } from "./panel/facts.js";
@@ -109,6 +110,12 @@ function start(viewer: Viewer): void {
   measuring.tool.onChange(() => {
     if (measuring.tool.drawing) profile.finish();
   });
+  const tools = [measuring.tool, profile.lines.tool];
+  const drawingHint = new DrawingHint(() => {
+    // What has too few vertices is given up.
+    for (const tool of tools) if (!tool.finish()) tool.cancel();
+  });
+  for (const tool of tools) tool.onChange(() => drawingHint.show(measuring.hint || profile.hint));
   const navigation = new PointNavigation(viewer);
   new Moving(navigation, viewer.canvas, () => measuring.tool.drawing !== undefined || profile.drawing);
   const groma: Groma = {
@@ -145,8 +152,12 @@ function start(viewer: Viewer): void {
   });
   const opener = new CloudOpener({
     ...{ clouds, chooser, message, progress, share, how, goTo },
-    ended: followLayer,
+    ended: () => {
+      followLayer();
+      list.show(clouds);
+    },
     broughtBack: ({ layer }) => {
+      controls.attach(layer);
       chooser.fold();
       foldIfNarrow();
       drawing.refresh();

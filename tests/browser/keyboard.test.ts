@@ -70,6 +70,12 @@ it("from an empty page to an exported profile, by keyboard alone", { timeout: 30
   await page.keyboard.press("Enter");
   await tabTo(page, "#profile-draw");
   await page.keyboard.press("Enter");
+  expect(await page.textContent("#drawing-words")).toMatch(/Escape gives it up/);
+  await page.keyboard.press("Escape");
+  expect(await page.textContent("#profile-draw")).toBe("Draw a profile");
+  expect(await page.textContent("#drawing-words")).toBe("");
+  await tabTo(page, "#profile-draw");
+  await page.keyboard.press("Enter");
   // The crosshair starts in the middle of the view.
   const vertices = () => page.evaluate(() => window.groma.profile.line.length);
   for (const arrows of [0, 12]) {
@@ -153,4 +159,43 @@ it("moves about the globe by keyboard alone, with a sheet of the keys", { timeou
   await page.keyboard.press("?");
   expect(await page.locator("#keys[open]").count()).toBe(0);
   expect(watch.errors).toEqual([]);
+});
+
+it("on a phone, what is drawn has the view for itself, with a way out that needs no keys", {
+  timeout: 240_000,
+}, async () => {
+  const { page, watch } = await openPage(browser, { width: 390, height: 700 });
+  page.setDefaultTimeout(120_000);
+  await page.goto(`${server.address}&fly=0&budget=2000`);
+  await settle(page);
+  const free = () =>
+    page.evaluate(() => document.elementFromPoint(195, 450)?.matches("canvas[role=application]"));
+  const begin = async (fold: string, tool: string) => {
+    await page.click("#fold");
+    expect(await free()).toBe(false);
+    await page.click(`${fold} > summary`);
+    await page.click(tool);
+    expect(await page.textContent("#drawing-words")).toMatch(/^Click/);
+    expect(await free()).toBe(true);
+  };
+  await begin("#measuring", "#measure-tools button:has-text('Distance')");
+  await screenshot(page, "phone-drawing");
+  await page.click("#drawing-end");
+  expect(await page.isVisible("#drawing-end")).toBe(false);
+  expect(await page.textContent("#drawing-words")).toBe("");
+  // The picture of a profile comes once there is one.
+  await begin("#profiles", "#profile-draw");
+  await page.click("#drawing-end");
+  expect(await page.textContent("#profile-draw")).toBe("Draw a profile");
+  // A place that was chosen for words opens the panel again, at the words.
+  await page.click("#fold");
+  await page.click("#annotations > summary");
+  await page.click("#annotate");
+  expect(await free()).toBe(true);
+  await page.focus("canvas[role=application]");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.activeElement?.matches("#annotation-list input"));
+  expect(await page.isVisible("#annotation-list input")).toBe(true);
+  expect(watch.errors).toEqual([]);
+  await page.context().close();
 });

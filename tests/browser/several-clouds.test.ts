@@ -151,6 +151,10 @@ it("the page's address names them, and brings them back, the chosen one first", 
   timeout: 240_000,
 }, async () => {
   await page.click("#cloud-list li:nth-child(2) .name");
+  await page.uncheck("#cloud-list li:first-child input");
+  await page.evaluate(() => {
+    window.groma.layer.heightOffset = 5;
+  });
   const named = new URL(page.url()).searchParams.getAll("cloud");
   expect(named).toEqual([elsewhere.url, new URL(server.address).searchParams.get("cloud")]);
   await page.locator("#copy-link").evaluate((button: HTMLButtonElement) => button.click());
@@ -163,6 +167,14 @@ it("the page's address names them, and brings them back, the chosen one first", 
   const colours = () => page.evaluate(() => window.groma.clouds.layers.map(({ style }) => style.color));
   await expect.poll(colours, SLOW).toEqual(["elevation", "intensity"]);
   await expect.poll(async () => (await drawn())[0], SLOW).toBeGreaterThan(1000);
+  const shown = () =>
+    page.evaluate(() => window.groma.clouds.layers.map(({ show, heightOffset }) => [show, heightOffset]));
+  expect(await shown()).toEqual([
+    [true, 5],
+    [false, 0],
+  ]);
+  expect(await page.isChecked("#cloud-list li:last-child input")).toBe(false);
+  expect(await page.inputValue("#lift")).toBe("5");
 });
 
 it("one that does not come leaves the others, and can be given up", { timeout: 240_000 }, async () => {

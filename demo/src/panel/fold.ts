@@ -13,13 +13,19 @@ export function connectFold(): void {
   button.addEventListener("click", () => setFolded(button.getAttribute("aria-expanded") === "true"));
 }
 
-/** Folds the panel where it would hide the cloud. */
-export function foldIfNarrow(): void {
-  if (innerWidth < NARROW) setFolded(true);
+/** Whether what lies over globe and map takes all of their width. */
+export function isNarrow(): boolean {
+  return innerWidth < NARROW;
 }
 
-/** Opens all folds that an element is in. */
+/** Folds the panel where it would hide the cloud. */
+export function foldIfNarrow(): void {
+  if (isNarrow()) setFolded(true);
+}
+
+/** Opens the panel, and all folds that an element of it is in. */
 export function unfold(element: Element): void {
+  setFolded(false);
   for (let fold = element.closest("details"); fold; fold = fold.parentElement?.closest("details") ?? null) {
     fold.open = true;
   }

@@ -17,7 +17,7 @@ import { i18n } from "../language/i18n.js";
 import { noteWords } from "../language/note-words.js";
 import { AnnotationList } from "./annotation-list.js";
 import { Compared } from "./compared.js";
-import { byId, optionElement, setText, textElement } from "./elements.js";
+import { byId, optionElement, textElement } from "./elements.js";
 import { MEASURE_WORDS, unitsOf } from "./measure-words.js";
 import { MeasurementList } from "./measurement-list.js";
 import { download } from "./save-file.js";
@@ -53,7 +53,6 @@ const ANGLES = new Map<string, MeasureUnitsOptions>([
 /** Elements of the page that lie over globe and map. */
 const COVERING = ["panel", "picked", "profile"];
 
-/** What the tool bar says while a figure is drawn. */
 const HINT = i18n.t(
   "Click points, or move the crosshair with the arrow keys and press Enter. Twice in one place ends; Escape gives up.",
 );
@@ -70,8 +69,6 @@ export class Measuring {
   readonly #list: MeasurementList;
   readonly #annotations: AnnotationList;
   readonly #compared: Compared;
-  readonly #hint = byId("measure-hint", HTMLParagraphElement);
-  readonly #place = byId("annotate-hint", HTMLParagraphElement);
   /** What has to be known of the file that was opened last. */
   readonly #notes = byId("measure-notes", HTMLParagraphElement);
 
@@ -108,6 +105,13 @@ export class Measuring {
     this.#connectFields();
     this.#connectFiles();
     this.#show();
+  }
+
+  /** What is to be done while something is drawn; empty while nothing is. */
+  get hint(): string {
+    const { drawing } = this.tool;
+    if (drawing === undefined) return "";
+    return drawing === "annotation" ? PLACE_HINT : HINT;
   }
 
   /** Puts vertices on the clouds that are shown, and lets volumes be measured against them and those opened beside them. */
@@ -189,10 +193,6 @@ export class Measuring {
   }
 
   #show(): void {
-    const { tool } = this;
-    const places = tool.drawing === "annotation";
-    setText(this.#hint, tool.drawing && !places ? HINT : "");
-    setText(this.#place, places ? PLACE_HINT : "");
     this.#list.show();
     this.#annotations.show();
   }

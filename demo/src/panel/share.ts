@@ -51,7 +51,7 @@ export class Share {
   }
 
   /** Brings a view back, all of it that can be. @throws what could not be, the first of several */
-  async show({ camera, style, filter, clips, selected }: SharedView): Promise<void> {
+  async show({ camera, clips, selected, others: _, ...drawn }: SharedView): Promise<void> {
     const { box, picking, layer: shown } = this.#shared;
     const layer = shown();
     if (!layer) return;
@@ -64,8 +64,7 @@ export class Share {
       }
     };
     if (camera) attempt(() => showCameraView(this.#viewer.camera, camera));
-    if (style) attempt(() => Object.assign(layer, { style }));
-    if (filter) attempt(() => Object.assign(layer, { filter }));
+    for (const [name, value] of Object.entries(drawn)) attempt(() => Object.assign(layer, { [name]: value }));
     if (selected) await picking.select(layer, selected).catch((thrown: unknown) => failures.push(thrown));
     // The box moves to what is selected: where it was comes after.
     if (clips) attempt(() => box.take(clips));
@@ -85,10 +84,8 @@ export class Share {
     const page = new URL(location.href);
     writeTo(page);
     beside.writeTo(page);
-    const others = further.map((one) => {
-      const { style, filter } = layerView(one);
-      return { style, filter };
-    });
+    // The volumes are the page's, of all clouds.
+    const others = further.map((one) => ({ ...layerView(one), clips: undefined }));
     const camera = cameraView(this.#viewer.camera);
     const { hit } = picking;
     // A link brings back a record of the cloud whose style it has.

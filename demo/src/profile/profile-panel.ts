@@ -14,6 +14,7 @@ import { i18n } from "../language/i18n.js";
 import { fixed } from "../language/numbers.js";
 import { byId, optionElement, setText } from "../panel/elements.js";
 import { ExportJob } from "../panel/export-job.js";
+import { isNarrow } from "../panel/fold.js";
 import { ClearanceWords } from "./clearance.js";
 import { Comparison } from "./comparison.js";
 import { CutClips } from "./cut-clips.js";
@@ -32,7 +33,7 @@ import { PlaceMark, StripOutline } from "./strip-outline.js";
 const MOST_SHOWN = 3_000_000;
 
 const HINT = i18n.t(
-  "Click points of the cloud along the line, or move the crosshair with the arrow keys and press Enter. Twice in one place ends it.",
+  "Click points of the cloud along the line, or move the crosshair with the arrow keys and press Enter. Twice in one place ends it; Escape gives it up.",
 );
 
 /** What the rest of the page hears of a profile. */
@@ -106,6 +107,11 @@ export class ProfilePanel {
     return this.lines.drawing;
   }
 
+  /** What is to be done while a line is drawn; empty while none is. */
+  get hint(): string {
+    return this.drawing ? HINT : "";
+  }
+
   /** Longitude and latitude of the line's vertices, radians. */
   get line(): DrawnLine {
     return this.lines.line;
@@ -177,10 +183,11 @@ export class ProfilePanel {
     this.#events.begins();
     this.#work?.abort();
     this.#profile = undefined;
-    this.#panel.hidden = false;
+    // Where it would lie over what is to be clicked, it comes once the line is there.
+    this.#panel.hidden = isNarrow();
     this.#cut.show(undefined);
     this.#clearPicture(0, 1);
-    setText(this.#status, HINT);
+    setText(this.#status, "");
     this.lines.draw().catch(this.#events.failed);
   }
 

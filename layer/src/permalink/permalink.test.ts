@@ -59,7 +59,26 @@ describe("a permalink", () => {
     expect(readPermalink(writePermalink({ others: many })).others).toHaveLength(100);
   });
 
-  it.each([{}, [[{}]], [[{}, 1]], [1], Array.from({ length: 101 }, () => [{}, {}])])(
+  it("keeps which clouds are hidden, and how far they are drawn above their places", () => {
+    const others = [{ show: false }, { style: { color: "rgb" }, heightOffset: 2 }] as const;
+    const view = { heightOffset: -22.4, others };
+    expect(readPermalink(writePermalink(view))).toEqual(view);
+    const layer = { style: byDefault, filter: undefined, clips: [], cloud };
+    expect(writePermalink(layerView({ ...layer, show: true, heightOffset: 0 }))).toBe("1");
+    // Layers have accessors, which no copy of an object has.
+    const hidden = Object.assign(Object.create({ show: false }), layer);
+    expect(readPermalink(writePermalink(layerView(hidden)))).toEqual({ show: false });
+  });
+
+  it.each([{ show: 0 }, { heightOffset: null }, { heightOffset: "5" }, { lift: 5 }])(
+    "refuses what is no display of a cloud: %j",
+    (value) => {
+      expect(() => readPermalink(`1~d${asText(value)}`)).toThrow("LINK_BROKEN");
+      expect(() => readPermalink(`1~o${asText([[{}, {}, value]])}`)).toThrow("LINK_BROKEN");
+    },
+  );
+
+  it.each([{}, [[{}]], [[{}, 1]], [[{}, {}, {}, {}]], [1], Array.from({ length: 101 }, () => [{}, {}])])(
     "refuses what is no list of clouds: %j",
     (value) => {
       expect(() => readPermalink(`1~o${asText(value)}`)).toThrow("LINK_BROKEN");

@@ -4,15 +4,20 @@ import { defaultStyle, type PointCloudStyle, type PointFilter, type StyleParts }
 import { LinkError } from "../errors/index.js";
 import { asText, fromText } from "./json-text.js";
 
-/** How one of several clouds is drawn: as of {@link SharedView}. */
-export type DrawnCloud = Pick<SharedView, "style" | "filter">;
-
-/** What a link keeps of a view; all of it may be left out. */
-export interface SharedView {
-  readonly camera?: CameraView | undefined;
+/** How a cloud is drawn; all of it may be left out. */
+export interface DrawnCloud {
   /** What differs from the style by default: see {@link layerView}. */
   readonly style?: StyleParts | undefined;
   readonly filter?: PointFilter | undefined;
+  /** Whether it is drawn at all; by default it is. */
+  readonly show?: boolean | undefined;
+  /** How far it is drawn above its place, metres; by default 0. */
+  readonly heightOffset?: number | undefined;
+}
+
+/** What a link keeps of a view, with how its first cloud is drawn; all of it may be left out. */
+export interface SharedView extends DrawnCloud {
+  readonly camera?: CameraView | undefined;
   readonly clips?: readonly Clip[] | undefined;
   /** How further clouds are drawn, in the order in which an application names them beside the link; at most 100. */
   readonly others?: readonly DrawnCloud[] | undefined;
@@ -34,11 +39,16 @@ const DEGREE = Math.PI / 180;
 /** Decimals of a camera's numbers, degrees and metres: a centimetre and a hundredth of a degree. */
 const DECIMALS = [7, 7, 2, 2, 2, 2] as const;
 
+/** Names of the parts; the display is whether a cloud is drawn, and how far above its place. */
+type PartName = Exclude<keyof SharedView, keyof Display> | "display";
+type Display = Pick<DrawnCloud, "show" | "heightOffset">;
+
 /** What each part of a link is, by its first letter. */
-const PARTS: ReadonlyMap<string, keyof SharedView> = new Map([
+const PARTS: ReadonlyMap<string, PartName> = new Map([
   ["c", "camera"],
   ["s", "style"],
   ["f", "filter"],
+  ["d", "display"],
   ["k", "clips"],
   ["o", "others"],
   ["p", "selected"],
@@ -50,19 +60,21 @@ const PARTS: ReadonlyMap<string, keyof SharedView> = new Map([
  *
  * @throws LinkError LINK_LONG for a view that no address can hold: volumes of many thousand corners
  */
-export function writePermalink({ camera, style, filter, clips, others = [], selected }: SharedView): string {
-  const given = (of: object | undefined) => of !== undefined && Object.keys(of).length > 0;
+export function writePermalink(view: SharedView): string {
+  const { camera, style, filter, clips, others = [], selected } = view;
+  const display = displayOf(view);
+  const further = others.slice(0, MOST_OTHERS).map((one) => {
+    const shown = displayOf(one);
+    return [one.style ?? {}, one.filter ?? {}, ...(given(shown) ? [shown] : [])];
+  });
   const text = [
     VERSION,
     ...(camera ? [`c${cameraText(camera)}`] : []),
     ...(given(style) ? [`s${asText(style)}`] : []),
     ...(given(filter) ? [`f${asText(filter)}`] : []),
+    ...(given(display) ? [`d${asText(display)}`] : []),
     ...(given(clips) ? [`k${asText(clips)}`] : []),
-    ...(others.some(({ style: one, filter: two }) => given(one) || given(two))
-      ? [
-          `o${asText(others.slice(0, MOST_OTHERS).map(({ style: one, filter: two }) => [one ?? {}, two ?? {}]))}`,
-        ]
-      : []),
+    ...(further.some((parts) => parts.some(given)) ? [`o${asText(further)}`] : []),
     ...(selected ? [`p${selected.node}_${selected.index}`] : []),
   ].join(BETWEEN);
   if (text.length <= LONGEST) return text;
@@ -72,6 +84,15 @@ export function writePermalink({ camera, style, filter, clips, others = [], sele
     cause: `it would have ${text.length} characters, of which ${LONGEST} are read`,
     fix: "leave the volumes out, or give them fewer corners",
   });
+}
+
+function given(of: object | undefined): boolean {
+  return of !== undefined && Object.keys(of).length > 0;
+}
+
+/** What differs from how clouds are drawn by default. */
+function displayOf({ show, heightOffset }: Display): Display {
+  return { ...(show === false && { show }), ...(heightOffset && { heightOffset }) };
 }
 
 /**
@@ -92,7 +113,7 @@ export function readPermalink(text: string): SharedView {
       fix: "open it with the version of the program that wrote it, or copy the link again",
     });
   }
-  const view = new Map<keyof SharedView, unknown>();
+  const view = new Map<PartName, unknown>();
   for (const part of parts) {
     const name = PARTS.get(part.slice(0, 1));
     if (!name) {
@@ -106,11 +127,12 @@ export function readPermalink(text: string): SharedView {
     if (view.has(name)) throw broken(name, "it is there twice");
     view.set(name, read(name, part.slice(1)));
   }
-  return Object.fromEntries(view) as SharedView;
+  const { display, ...others } = Object.fromEntries(view);
+  return { ...others, ...(display as Display | undefined) };
 }
 
 /** What a link keeps of a layer. */
-export interface ViewedLayer {
+export interface ViewedLayer extends Display {
   readonly style: PointCloudStyle;
   readonly filter: PointFilter | undefined;
   readonly clips: Iterable<Clip>;
@@ -118,9 +140,15 @@ export interface ViewedLayer {
 }
 
 /** How a layer is drawn, to be kept in a link: of the style what differs from the one by default. */
-export function layerView({ style, filter, clips, cloud }: ViewedLayer): SharedView {
+export function layerView(layer: ViewedLayer): SharedView {
+  const { style, filter, clips, cloud } = layer;
   const changed = changes(style, defaultStyle(cloud)) as StyleParts | undefined;
-  return { ...(changed && { style: changed }), ...(filter && { filter }), clips: [...clips] };
+  return {
+    ...(changed && { style: changed }),
+    ...(filter && { filter }),
+    ...displayOf(layer),
+    clips: [...clips],
+  };
 }
 
 /** What of a value differs from another one: objects in parts, all else whole. */
@@ -135,7 +163,7 @@ function changes(value: unknown, from: unknown): unknown {
   return parts.length > 0 ? Object.fromEntries(parts) : undefined;
 }
 
-function read(name: keyof SharedView, text: string): SharedView[keyof SharedView] {
+function read(name: PartName, text: string): unknown {
   if (name === "camera") return cameraOf(text);
   if (name === "selected") return selectedOf(text);
   let value: unknown;
@@ -151,17 +179,30 @@ function read(name: keyof SharedView, text: string): SharedView[keyof SharedView
   }
   if (name === "others") return othersOf(value);
   if (!isObject(value)) throw broken(name, "it is no object");
-  return value;
+  return name === "display" ? checkedDisplay(value, name) : value;
+}
+
+/** @param part that it stands in */
+function checkedDisplay({ show, heightOffset, ...more }: Record<string, unknown>, part: string): Display {
+  const known = Object.keys(more).length === 0;
+  const shown = show === undefined || typeof show === "boolean";
+  const raised = heightOffset === undefined || Number.isFinite(heightOffset);
+  if (!known || !shown || !raised) throw broken(part, "it is no display of a cloud");
+  return displayOf({ show, heightOffset: heightOffset as number | undefined });
 }
 
 function othersOf(value: unknown): DrawnCloud[] {
   if (!Array.isArray(value) || value.length > MOST_OTHERS) throw broken("others", "it is no list of clouds");
   return value.map((one: unknown) => {
-    if (!Array.isArray(one) || one.length !== 2 || !one.every(isObject)) {
+    if (!Array.isArray(one) || one.length < 2 || one.length > 3 || !one.every(isObject)) {
       throw broken("others", "a cloud of it is no style with a filter");
     }
-    const [style, filter] = one.map((part) => (Object.keys(part).length > 0 ? part : undefined));
-    return { ...(style && { style }), ...(filter && { filter }) };
+    const [style, filter, display = {}] = one as [object, object, Record<string, unknown>?];
+    return {
+      ...(given(style) && { style }),
+      ...(given(filter) && { filter }),
+      ...checkedDisplay(display, "others"),
+    };
   });
 }
 

@@ -137,12 +137,17 @@ export class Surface {
   }
 
   #key(event: KeyboardEvent): void {
-    if (event.defaultPrevented) return;
+    if (event.defaultPrevented || this.#othersDraw) return;
     const chord = event.ctrlKey || event.metaKey || event.altKey;
     const own = !chord && this.#host.draft() !== undefined && this.#drawKey(event);
     if (!own && !this.#host.key(event)) return;
     event.preventDefault();
     event.stopPropagation();
+  }
+
+  /** Whether another tool draws on this view: keys are its own until it has ended. */
+  get #othersDraw(): boolean {
+    return !this.#drawing && this.view.element.classList.contains(DRAWING_CLASS);
   }
 
   /** @returns whether the key means anything to a figure that is being drawn here */
