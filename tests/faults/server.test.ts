@@ -97,8 +97,8 @@ describe.skipIf(scan.missing)(
       expect(error).toBeInstanceOf(SourceError);
       expect(error).toEqual(coded(code));
       expect((error as SourceError).message).toMatch(/^SOURCE_\w+: http:\S+scan\.copc\.laz: .+\. .+\.$/);
-      // A second attempt would meet the same: these are not repeated.
-      expect(server?.requests).toBe(1);
+      // A second attempt would meet the same: these are not repeated. What is too long has told by then where the octree is.
+      expect(server?.requests).toBeLessThanOrEqual(code === "SOURCE_LONG" ? 2 : 1);
       await livesOn();
     });
 

@@ -61,6 +61,22 @@ describe.skipIf(scan.missing)(
       cloud.destroy();
     });
 
+    it("is open while the points behind the header are still on their way", async () => {
+      const file = readFileSync(path);
+      let goOn: () => void = () => undefined;
+      server = await BadServer.start(file, ({ response, first, last }) => {
+        response.writeHead(206, { "Content-Range": `bytes ${first}-${last}/${file.length}` });
+        response.write(file.subarray(first, 20_000));
+        goOn = () => response.end(file.subarray(20_000, last + 1));
+      });
+      const cloud = await PointCloud.fromUrl(server.url, { executor: localExecutor() });
+      const root = cloud.loadNode("0-0-0-0");
+      goOn();
+      expect((await root).count).toBeGreaterThan(1000);
+      expect(server.requests).toBe(1);
+      cloud.destroy();
+    });
+
     it("takes a second trip for points that do not come with the first one", async () => {
       const { asked, trips } = await served(path);
       const options = { executor: localExecutor(), headLength: 16_384 };

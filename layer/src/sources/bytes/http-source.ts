@@ -6,6 +6,7 @@ import { discardBody, parseContentRange, readExactly, ShortBody } from "./http-a
 import { changedError, type Refusal, refusalOf } from "./http-refusal.js";
 import { MergedReads } from "./merged-reads.js";
 import { encodingFault, nameNetworkFault, networkError, redirectError } from "./network-fault.js";
+import { OpeningBytes } from "./opening-bytes.js";
 import { SilenceWatch } from "./silence-watch.js";
 
 /** How often and how patiently one read is repeated while the server cannot serve it. */
@@ -81,7 +82,8 @@ export class HttpSource implements ByteSource {
   readonly #credentials: Credentials;
   #schedule: HostSchedule | undefined;
   #version: Version | undefined;
-  #head: Uint8Array = new Uint8Array(0);
+  /** What the opening request brings. */
+  readonly #opening: OpeningBytes;
   readonly #merged = new MergedReads((request) => this.#request({ ...request, opening: false }));
   /** Whether redirects are followed at once: in the opening, and where one has led to the file. */
   #follows = true;
@@ -90,10 +92,14 @@ export class HttpSource implements ByteSource {
   /** What the application was told last. */
   #told: ServerWait | undefined;
 
-  private constructor(name: string, credentials: Credentials, options: HttpOptions) {
+  private constructor(name: string, credentials: Credentials, options: HttpOptions, signal?: AbortSignal) {
     this.name = name;
     this.#credentials = credentials;
     this.#options = options;
+    const end = options.headLength ?? HEAD_LENGTH;
+    this.#opening = new OpeningBytes(end, (arrived) =>
+      this.#request({ begin: 0, end, opening: true, signal, arrived }),
+    );
   }
 
   /** Length of the file in bytes, as the opening answer's `Content-Range` said. */
@@ -107,7 +113,8 @@ export class HttpSource implements ByteSource {
   }
 
   /**
-   * Makes the opening request: one read that serves the header, the VLRs and often the hierarchy.
+   * Makes the opening request: one read that serves the header, the VLRs, often the hierarchy, and points. It is open once the
+   * first bytes are here; reads wait for theirs.
    * @param from the file's address, or a function that gives it; errors name such a file without its query
    * @throws SourceError with a code for each way in which a server can fail
    */
@@ -123,19 +130,21 @@ export class HttpSource implements ByteSource {
     );
     // A signature is a secret: it does not go into messages.
     const name = typeof from === "string" ? from : (await credentials.get()).address.replace(/[?#].*$/, "");
-    const source = new HttpSource(name, credentials, options);
-    const end = options.headLength ?? HEAD_LENGTH;
-    source.#head = await source.#request({ begin: 0, end, opening: true, signal });
+    const source = new HttpSource(name, credentials, options, signal);
+    await source.#opening.begun;
     return source;
   }
 
   async read(begin: number, end: number, { signal }: ReadOptions = {}): Promise<Uint8Array> {
     checkRange(begin, end, this.size, this.name);
     signal?.throwIfAborted();
-    const known = this.#head.subarray(begin, end);
-    if (known.length === end - begin) return known.slice();
-    const rest = await this.#merged.read(begin + known.length, end, signal);
-    if (known.length === 0) return rest;
+    const border = Math.min(end, this.#opening.end);
+    if (border <= begin) return this.#merged.read(begin, end, signal);
+    const behind = border < end ? this.#merged.read(border, end, signal) : undefined;
+    const [known, rest] = await Promise.all([this.#opening.read(begin, border), behind]);
+    signal?.throwIfAborted();
+    if (known.length < border - begin) return this.#merged.read(begin, end, signal);
+    if (!rest) return known.slice();
     const bytes = new Uint8Array(end - begin);
     bytes.set(known);
     bytes.set(rest, known.length);
