@@ -1,6 +1,6 @@
 import { readFileSync } from "node:fs";
 import { PointCloud } from "@groma/layer";
-import { afterEach, beforeAll, describe, expect, it } from "vitest";
+import { afterEach, beforeAll, describe, expect, it, vi } from "vitest";
 import { converted } from "../converted.js";
 import { BadServer } from "../faults/bad-server.js";
 import { localExecutor } from "../faults/local-executor.js";
@@ -75,6 +75,25 @@ describe.skipIf(scan.missing)(
       expect((await root).count).toBeGreaterThan(1000);
       expect(server.requests).toBe(1);
       cloud.destroy();
+    });
+
+    it("has the root decoded once while it is opened for a globe, and not for others", async () => {
+      const decoded = async (onGlobe: boolean) => {
+        await served(path);
+        const executor = localExecutor();
+        const run = vi.spyOn(executor, "run");
+        const cloud = await PointCloud.open(server.url, { executor }, onGlobe);
+        await vi.waitFor(() => expect(run.mock.calls.length).toBe(onGlobe ? 1 : 0));
+        const { count } = await cloud.loadNode("0-0-0-0");
+        expect(count).toBeGreaterThan(1000);
+        expect(run.mock.calls.map(([{ node }]) => node)).toEqual(["0-0-0-0"]);
+        await cloud.loadNode("0-0-0-0");
+        expect(run).toHaveBeenCalledTimes(2);
+        cloud.destroy();
+        await server.stop();
+      };
+      await decoded(true);
+      await decoded(false);
     });
 
     it("takes a second trip for points that do not come with the first one", async () => {

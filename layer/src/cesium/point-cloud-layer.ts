@@ -117,7 +117,7 @@ export class PointCloudLayer {
   ): Promise<PointCloudLayer> {
     const { options, opening } = checkOpeningOptions(given);
     const { from, http } = resolveSource(source);
-    const cloud = await PointCloud.fromUrl(from, { ...http, ...opening });
+    const cloud = await PointCloud.open(from, { ...http, ...opening }, options.show ?? true);
     try {
       return new PointCloudLayer(cloud, options, true);
     } catch (thrown) {

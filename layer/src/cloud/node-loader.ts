@@ -18,6 +18,9 @@ type Judged =
   | { readonly node: OctreeNode; readonly vertices: NodeVertices }
   | { readonly node: OctreeNode; readonly error: unknown };
 
+/** What is known of a node before it stands in the octree. */
+type ListedNode = Pick<OctreeNode, "name" | "key" | "address" | "pointCount">;
+
 /** What a loader works with. */
 export interface LoaderParts {
   readonly source: Pick<PointSource, "name" | "bytesPerPoint" | "chunk">;
@@ -50,6 +53,8 @@ export class NodeLoader {
   readonly #reading = new Map<string, Promise<NodeRecords>>();
   #appearance: Appearance | undefined;
   #judging: Promise<Judged> | undefined;
+  /** The node that was begun before it was asked for. */
+  #begun: { readonly name: string; readonly vertices: Promise<NodeVertices> } | undefined;
 
   constructor(parts: LoaderParts) {
     this.#parts = parts;
@@ -61,8 +66,23 @@ export class NodeLoader {
     return this.#appearance;
   }
 
+  /**
+   * Begins with a node that will be asked for, where its points need not decide how all look. What fails is told to whoever asks.
+   */
+  begin(node: ListedNode): void {
+    if (!this.#appearance) return;
+    const vertices = this.#make(node, undefined);
+    vertices.catch(() => undefined);
+    this.#begun = { name: node.name, vertices };
+  }
+
   /** @throws SourceError, DecodeError, PlacementError */
   async vertices(node: OctreeNode, signal: AbortSignal): Promise<NodeVertices> {
+    if (this.#begun?.name === node.name) {
+      const { vertices } = this.#begun;
+      this.#begun = undefined;
+      return unlessAborted(vertices, signal);
+    }
     if (!this.#appearance) {
       this.#judging ??= this.#judge(firstNode(this.#parts.root) ?? node);
       const judged = await this.#judging;
@@ -115,7 +135,7 @@ export class NodeLoader {
     }
   }
 
-  async #make(node: OctreeNode, signal: AbortSignal | undefined): Promise<NodeVertices> {
+  async #make(node: ListedNode, signal: AbortSignal | undefined): Promise<NodeVertices> {
     const job = { ...(await this.#jobOf(node, signal)), appearance: this.#appearance };
     const vertices = await this.#done(this.#parts.executor.run(job, signal), node.name);
     this.#appearance ??= vertices.seen;
@@ -142,7 +162,7 @@ export class NodeLoader {
     }
   }
 
-  async #jobOf(node: OctreeNode, signal: AbortSignal | undefined): Promise<ChunkJob> {
+  async #jobOf(node: ListedNode, signal: AbortSignal | undefined): Promise<ChunkJob> {
     const { source, chunks, dataSet, geometry } = this.#parts;
     const { address, pointCount, name } = node;
     if (address === undefined || pointCount === 0) throw noNode(name, source.name);

@@ -49,23 +49,26 @@ export function sharedReads(): Pick<OctreeParts, "chunks" | "firstPage" | "pages
 /**
  * Asks for the points of the root, which every view draws, as soon as the first page is there: they are on their way while
  * the data set is still being placed. What fails is asked for again by whoever needs it, who then hears of it.
+ * @returns what the first page says of the root; undefined where it has no points, or they could not be had
  */
 export async function readRootAhead(
   parts: Pick<OctreeParts, "source" | "chunks" | "firstPage" | "pages">,
   signal: AbortSignal,
-): Promise<void> {
+): Promise<HierarchyEntry | undefined> {
   const { source, chunks } = parts;
   try {
-    for (const { pointCount, address, ...key } of await readPage(parts, source.rootPage, { signal })) {
-      if (key.depth > 0 || pointCount <= 0) continue;
-      const node = keyName(key);
+    for (const root of await readPage(parts, source.rootPage, { signal })) {
+      const { depth, pointCount, address } = root;
+      if (depth > 0 || pointCount <= 0) continue;
+      const node = keyName(root);
       checkNodeSize({ file: source.name, node, pointCount, bytesPerPoint: source.bytesPerPoint });
       await chunks.read(node, signal, (until) => source.chunk(address, { signal: until }));
-      return;
+      return root;
     }
   } catch {
     // Told where it is read again.
   }
+  return undefined;
 }
 
 /** Where an octree's points are placed, and by what. */
@@ -130,6 +133,14 @@ export class PlacedOctree {
   /** Sphere around all points; undefined where they have no place. */
   get bounds(): NodeBounds | undefined {
     return this.#bounds;
+  }
+
+  /** Has the root decoded before it stands in the octree. @param read what {@link readRootAhead} has come to */
+  async beginRoot(read: Promise<HierarchyEntry | undefined>): Promise<void> {
+    const root = await read;
+    if (!root) return;
+    const { pointCount, address } = root;
+    this.loader.begin({ name: keyName(root), key: this.store.root.key, address, pointCount });
   }
 
   /** Goes by another box of all points from now on. */

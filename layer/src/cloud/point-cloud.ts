@@ -172,7 +172,12 @@ export class PointCloud implements PointOrigin {
    * @throws StyleError STYLE_OPTION for an option that there is not, or that is none of its kind
    * @throws SourceError, FormatError, CrsError, PlacementError, RecordError; the signal's reason when aborted
    */
-  static async fromUrl(from: SourceLike, given: PointCloudOptions = {}): Promise<PointCloud> {
+  static fromUrl(from: SourceLike, given: PointCloudOptions = {}): Promise<PointCloud> {
+    return PointCloud.open(from, given, false);
+  }
+
+  /** The same for a view of the globe, where so: the root is decoded meanwhile. @internal */
+  static async open(from: SourceLike, given: PointCloudOptions, onGlobe: boolean): Promise<PointCloud> {
     const options = checkCloudOptions(given);
     const { signal } = options;
     const executor = options.executor ?? new WorkerPool(options.workers);
@@ -182,10 +187,11 @@ export class PointCloud implements PointOrigin {
     try {
       const source = await openSource(from, options);
       const shared = sharedReads();
-      void readRootAhead({ source, ...shared }, ahead.signal);
+      const root = readRootAhead({ source, ...shared }, ahead.signal);
       const georeference = await georeferenceOf(source, options);
       signal?.throwIfAborted();
       cloud = new PointCloud({ source, georeference, executor, shared, ahead }, options);
+      if (onGlobe) void cloud.globe.beginRoot(root);
       await cloud.globe.access.openRoot(signal);
       signal?.throwIfAborted();
       return cloud;

@@ -4,8 +4,8 @@ import { entriesOfPage } from "../sources/copc/hierarchy.js";
 import { pageBytes } from "../sources/copc/tiny-copc.fixture.js";
 import { openPage } from "./open-page.js";
 
-/** A flat octree of six levels in one page. */
-const rows = Array.from({ length: 6 }, (_, depth) =>
+/** A flat octree of seven levels in one page. */
+const rows = Array.from({ length: 7 }, (_, depth) =>
   Array.from({ length: 4 ** depth }, (_, index) => {
     const edge = 2 ** depth;
     return [depth, index % edge, Math.floor(index / edge), 0, 1000, 32, 1];

@@ -2,8 +2,8 @@ import type { NodeStore, OctreeNode } from "../octree/index.js";
 import type { PointSource } from "../sources/contract/point-source.js";
 import { Pace } from "./pace.js";
 
-/** Entries between two looks at the clock. */
-const SLICE = 256;
+/** Entries between two looks at the clock: what Groma puts into a page, so that a cloud opens without a frame in between. */
+const SLICE = 1024;
 
 /**
  * Reads the page of the hierarchy that a node stands for and puts it into the octree, whole and at once; what takes
