@@ -52,6 +52,8 @@ const WORDS: ReadonlySet<string> = new Set([
   /*i18n*/ "level of detection",
   /*i18n*/ "above the ground's points",
   /*i18n*/ "above the terrain",
+  // Units of what effects change
+  /*i18n*/ "share",
   // Parts of accuracies and uncertainties
   /*i18n*/ "quantisation",
   /*i18n*/ "fit",

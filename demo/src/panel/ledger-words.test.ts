@@ -18,7 +18,7 @@ describe("words for the ledger", () => {
     expect(magnitudeWords(row)).toBe("3.14 / 1 px");
     expect(magnitudeWords({ ...row, magnitude: Number.NaN })).toBe("? / 1 px");
     expect(magnitudeWords({ ...row, magnitude: 2.5e-7, unit: "m", threshold: 0.001 })).toBe(
-      "2.5e-7 / 0.001 m",
+      "2.5E-7 / 0.001 m",
     );
   });
 

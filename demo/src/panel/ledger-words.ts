@@ -43,7 +43,7 @@ export function effectWords({ effect }: LedgerRow): string {
 export function magnitudeWords({ magnitude, threshold, unit }: LedgerRow): string {
   const now = Number.isNaN(magnitude) ? "?" : threeDigits(magnitude);
   // A number of things has no unit.
-  return `${now} / ${threeDigits(threshold)} ${unit === "1" ? "" : unit}`.trim();
+  return `${now} / ${threeDigits(threshold)} ${unit === "1" ? "" : libraryWords(unit)}`.trim();
 }
 
 /** What the GPU took for the last frame; empty where the browser does not say. */
@@ -76,6 +76,8 @@ const UNITS = { "ms per frame": "ms", "ns per point": "ns/pt", bytes: "B" } as c
 function threeDigits(value: number): string {
   if (value === 0 || !Number.isFinite(value)) return String(value).replace("Infinity", "∞");
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return value.toExponential(1);
+  if (size >= 1e6 || size < 1e-4) {
+    return i18n.number(value, { notation: "scientific", maximumFractionDigits: 1 });
+  }
   return Number(value.toPrecision(3)).toLocaleString(i18n.locale, { maximumSignificantDigits: 3 });
 }
