@@ -340,6 +340,25 @@ async function lineIsChangedAndKept(page: Page, folder: string): Promise<void> {
     expect(kept[index]![0]).toBeCloseTo(vertex[0]!, 12);
     expect(kept[index]![1]).toBeCloseTo(vertex[1]!, 12);
   }
+  // Another page of the scan keeps a line, and then takes it out: what is kept here leaves it alone.
+  const options = () => page.locator("#profile-list option").allTextContents();
+  const keepElsewhere = (names: readonly string[]) =>
+    page.evaluate((wanted) => {
+      const key = Object.keys(localStorage).find((one) => one.startsWith("groma-profiles:"))!;
+      const document = JSON.parse(localStorage.getItem(key)!);
+      const [one] = document.features;
+      const more = wanted.map((name) => ({ ...one, id: name, properties: { ...one.properties, name } }));
+      localStorage.setItem(key, JSON.stringify({ ...document, features: [one, ...more] }));
+      return key;
+    }, names);
+  await keepElsewhere(["of another page"]);
+  await page.fill("#profile-width", "4.5");
+  await page.press("#profile-width", "Enter");
+  await expect.poll(options).toEqual(["profiles…", "dike <b>", "of another page"]);
+  const key = await keepElsewhere([]);
+  await page.evaluate((of) => dispatchEvent(new StorageEvent("storage", { key: of })), key);
+  await expect.poll(options).toEqual(["profiles…", "dike <b>"]);
+  await complete();
   // A width that is none changes nothing but the field.
   await page.fill("#profile-width", "");
   await page.press("#profile-width", "Enter");

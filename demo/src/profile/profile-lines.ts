@@ -22,6 +22,9 @@ export type DrawnLine = readonly (readonly [number, number])[];
 /** Where the browser keeps the lines of a cloud between visits, by its identity. */
 const KEY = "groma-profiles:";
 
+/** No lines are kept. */
+const NOTHING = { text: null, ids: new Set<string>() };
+
 /**
  * The lines of profiles: drawn and changed on globe and map, by pointer, touch or keyboard, as measured polylines are; named,
  * reversed, kept in the browser with the records that their vertices stand on, their widths and where their chainage starts.
@@ -40,6 +43,8 @@ export class ProfileLines {
   #cloud: string | undefined;
   /** Whether the browser keeps them; false where it cannot, or has some that this program cannot read. */
   #keeps = true;
+  /** What this page has kept or taken over last, and the ids of the lines in it: others are another page's. */
+  #kept: { readonly text: string | null; readonly ids: ReadonlySet<string> } = NOTHING;
 
   /**
    * @param changed hears of another line, and of each change of it
@@ -61,6 +66,9 @@ export class ProfileLines {
       words: MEASURE_WORDS,
     });
     this.tool.onChange(() => this.#follow());
+    addEventListener("storage", ({ key }) => {
+      if (this.#isKept && key === KEY + this.#cloud) this.#attempt(() => this.#takeOver());
+    });
   }
 
   /** Lets lines be drawn on a further view. */
@@ -106,15 +114,8 @@ export class ProfileLines {
     this.#cloud = cloud.identity;
     this.#keeps = true;
     this.#settings = new Map();
-    try {
-      const kept = localStorage.getItem(KEY + cloud.identity);
-      if (!kept) return;
-      const { measurements } = readMeasurements(kept, [cloud], cloud.name);
-      this.#settings = settingsIn(kept);
-      this.tool.add(measurements);
-    } catch (thrown) {
-      this.#keepsNone(thrown);
-    }
+    this.#kept = NOTHING;
+    this.#attempt(() => this.#takeOver());
   }
 
   /** Has the reader draw a line, which is then chosen. */
@@ -203,23 +204,57 @@ export class ProfileLines {
     this.#changed();
   }
 
+  /** Whether changes of the lines go into the browser's storage. */
+  get #isKept(): boolean {
+    return this.#keeps && this.#cloud !== undefined && this.#layer()?.cloud.identity === this.#cloud;
+  }
+
   #keep(): void {
-    if (!this.#keeps || this.#cloud === undefined || this.#layer()?.cloud.identity !== this.#cloud) return;
+    if (!this.#isKept) return;
     const key = KEY + this.#cloud;
+    this.#attempt(() => {
+      this.#takeOver();
+      const lines = { ...measurementsToGeoJson(this.all), profiles: this.#settingsOfAll() };
+      const text = this.all.length === 0 ? null : JSON.stringify(lines);
+      if (text === this.#kept.text) return;
+      if (text === null) localStorage.removeItem(key);
+      else localStorage.setItem(key, text);
+      this.#kept = { text, ids: new Set(this.all.map(({ id }) => id)) };
+    });
+  }
+
+  /**
+   * Brings in what is kept of the cloud: its lines at first; later those that another page has added or removed meanwhile, which
+   * would be lost by keeping one's own.
+   */
+  #takeOver(): void {
+    const text = localStorage.getItem(KEY + this.#cloud);
+    const { text: last, ids: known } = this.#kept;
+    const cloud = this.#layer()?.cloud;
+    if (text === last || !cloud) return;
+    const { measurements } =
+      text === null ? { measurements: [] } : readMeasurements(text, [cloud], cloud.name);
+    const ids = new Set(measurements.map(({ id }) => id));
+    for (const [id, settings] of text === null ? [] : settingsIn(text)) {
+      if (!this.#settings.has(id)) this.#settings.set(id, settings);
+    }
+    this.#kept = { text, ids };
+    const own = new Set(this.all.map(({ id }) => id));
+    for (const id of known) if (own.has(id) && !ids.has(id)) this.tool.remove(id);
+    const fresh = measurements.filter(({ id }) => !own.has(id) && !known.has(id));
+    if (fresh.length > 0) this.tool.add(fresh);
+  }
+
+  #attempt(work: () => void): void {
     try {
-      if (this.all.length === 0) localStorage.removeItem(key);
-      else
-        localStorage.setItem(
-          key,
-          JSON.stringify({ ...measurementsToGeoJson(this.all), profiles: this.#kept() }),
-        );
+      work();
     } catch (thrown) {
       this.#keepsNone(thrown);
     }
   }
 
   /** Settings of the lines that there are, by their ids. */
-  #kept(): Record<string, LineSettings> {
+  #settingsOfAll(): Record<string, LineSettings> {
     return Object.fromEntries([...this.#settings].filter(([id]) => this.all.some((line) => line.id === id)));
   }
 
