@@ -94,3 +94,23 @@ describe("every type that an entry's declarations mention", () => {
     expect(unnameable(program, join(projectRoot, entry))).toEqual([]);
   });
 });
+
+it("the declarations that are given away name nothing that they lack", { timeout: 120_000 }, () => {
+  const built = ENTRIES.map((entry) =>
+    join(projectRoot, entry.replace("/src/", "/dist/").replace(/ts$/, "d.ts")),
+  );
+  const { options } = ts.convertCompilerOptionsFromJson(
+    { strict: true, noEmit: true, target: "es2023", module: "nodenext", types: [], skipLibCheck: false },
+    projectRoot,
+  );
+  const program = ts.createProgram(built, options);
+  const said = program
+    .getSourceFiles()
+    .filter(({ fileName }) => OURS.test(fileName))
+    .flatMap((file) => program.getSemanticDiagnostics(file))
+    .map(({ file, messageText }) => [
+      file?.fileName.slice(projectRoot.length),
+      ts.flattenDiagnosticMessageText(messageText, " "),
+    ]);
+  expect(said).toEqual([]);
+});

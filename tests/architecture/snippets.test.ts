@@ -64,7 +64,7 @@ function complaints(codes: ReadonlyMap<string, string>): string[] {
 
 describe("the examples of README and docs", () => {
   it("compile as they stand", { timeout: 60_000 }, () => {
-    const pages = ["README.md", "layer/README.md"];
+    const pages = ["README.md", "layer/README.md", "georef/README.md", "converter/README.md"];
     for (const folder of ["docs", "docs/manual"]) {
       pages.push(...readdirSync(join(projectRoot, folder)).map((name) => `${folder}/${name}`));
     }

@@ -50,7 +50,7 @@ import { pointRecord } from "./point-record.js";
 /** Name of the class, and version of what is internal here (see {@link SHARED}). */
 const MARK = "PointCloud 1";
 
-/** A data set as the sources and layers of all views take it. @internal */
+/** A data set as the sources and layers of all views take it. */
 export const POINT_CLOUD: Kind<PointCloud> = shared(MARK);
 
 /** What a data set is made of. */
