@@ -1,5 +1,11 @@
 import "cesium/Build/Cesium/Widgets/widgets.css";
 import "./style.css";
+import "./map/map.css";
+import "./panel/panel.css";
+import "./panel/clouds.css";
+import "./panel/fields.css";
+import "./panel/measuring.css";
+import "./profile/profile.css";
 import { type PointCloud, type PointCloudLayer, SharedBudget } from "@groma/layer/cesium";
 import { PointNavigation } from "@groma/layer/navigation";
 import { Cartesian3, type Viewer } from "cesium";
@@ -134,7 +140,7 @@ function start(viewer: Viewer): void {
   );
   byId("unpick", HTMLButtonElement).addEventListener("click", () => picking.clear());
   const share = new Share(viewer, {
-    ...{ layer: () => clouds.layer, box, picking, beside },
+    ...{ layer: () => clouds.layer, box, picking, beside, profiles: profile.lines },
     addressed: () => addressed(clouds).map(({ layer }) => layer),
     writeTo: (page) => nameIn(page, clouds),
   });

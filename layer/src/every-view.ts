@@ -31,6 +31,8 @@ export {
   type DrawnCloud,
   layerView,
   readPermalink,
+  type SharedEquation,
+  type SharedProfile,
   type SharedView,
   type ViewedLayer,
   writePermalink,

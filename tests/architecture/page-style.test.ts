@@ -1,4 +1,4 @@
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, expect, it } from "vitest";
 import { projectRoot } from "../project.js";
@@ -28,8 +28,13 @@ function isSided(property: string, value: string): boolean {
 }
 
 describe("the style of the page", () => {
-  it("has beginnings and ends in place of left and right", () => {
-    expect(sidedIn(readFileSync(join(projectRoot, "demo/src/style.css"), "utf8"))).toEqual([]);
+  const page = join(projectRoot, "demo/src");
+  const sheets = readdirSync(page, { recursive: true, encoding: "utf8" }).filter((name) =>
+    name.endsWith(".css"),
+  );
+
+  it.each(sheets)("has beginnings and ends in place of left and right: %s", (sheet) => {
+    expect(sidedIn(readFileSync(join(page, sheet), "utf8"))).toEqual([]);
   });
 
   it.each([

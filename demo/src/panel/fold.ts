@@ -2,7 +2,7 @@ import { i18n } from "../language/i18n.js";
 import type { ScreenRectangle } from "../scene/framing.js";
 import { byId, setText } from "./elements.js";
 
-/** Screens narrower than this (CSS pixels) begin with the panel folded; as in style.css. */
+/** Screens narrower than this (CSS pixels) begin with the panel folded; as in panel.css. */
 const NARROW = 640;
 /** Space kept between a cloud and what is beside it, CSS pixels. */
 const MARGIN = 16;

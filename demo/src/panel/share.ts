@@ -3,6 +3,7 @@ import {
   layerView,
   type PointCloudLayer,
   readPermalink,
+  type SharedProfile,
   type SharedView,
   showCameraView,
   writePermalink,
@@ -26,11 +27,13 @@ export interface Shared {
   readonly writeTo: (page: URL) => void;
   readonly box: ClipBox;
   readonly picking: Picking;
+  /** The line whose profile is shown. */
+  readonly profiles: { readonly shared: SharedProfile | undefined; showShared(line: SharedProfile): void };
   /** Has an address ask for what the page shows beside or in place of the globe. */
   readonly beside: { writeTo(page: URL): void };
 }
 
-/** Links to the page as it is seen: camera, style, filter, clips, the record that is selected. */
+/** Links to the page as it is seen: camera, style, filter, clips, the record that is selected, the profile. */
 export class Share {
   readonly #viewer: Viewer;
   readonly #shared: Shared;
@@ -51,8 +54,8 @@ export class Share {
   }
 
   /** Brings a view back, all of it that can be. @throws what could not be, the first of several */
-  async show({ camera, clips, selected, others: _, ...drawn }: SharedView): Promise<void> {
-    const { box, picking, layer: shown } = this.#shared;
+  async show({ camera, clips, selected, profile, others: _, ...drawn }: SharedView): Promise<void> {
+    const { box, picking, profiles, layer: shown } = this.#shared;
     const layer = shown();
     if (!layer) return;
     const failures: unknown[] = [];
@@ -68,11 +71,12 @@ export class Share {
     if (selected) await picking.select(layer, selected).catch((thrown: unknown) => failures.push(thrown));
     // The box moves to what is selected: where it was comes after.
     if (clips) attempt(() => box.take(clips));
+    if (profile) attempt(() => profiles.showShared(profile));
     if (failures.length > 0) throw failures[0];
   }
 
   async #copy(): Promise<void> {
-    const { layer: shown, addressed, writeTo, picking, beside } = this.#shared;
+    const { layer: shown, addressed, writeTo, picking, profiles, beside } = this.#shared;
     const layer = shown();
     if (!layer) return;
     const note = byId("link-note", HTMLParagraphElement);
@@ -91,7 +95,8 @@ export class Share {
     // A link brings back a record of the cloud whose style it has.
     const selected = hit?.layer === layer ? { node: hit.node, index: hit.index } : undefined;
     try {
-      page.hash = `view=${writePermalink({ camera, ...layerView(layer), others, selected })}`;
+      const profile = profiles.shared;
+      page.hash = `view=${writePermalink({ camera, ...layerView(layer), others, selected, profile })}`;
     } catch (thrown) {
       setText(note, shortlyOf(thrown));
       return;

@@ -23,15 +23,20 @@ export interface LineSettings {
 /** Of longitudes and latitudes of one vertex, radians: a millimetre. */
 const SAME = 1.5e-10;
 
+/** Whether two lines have the same vertices, to a millimetre. */
+export function samePlaces(one: Places, other: Places): boolean {
+  const same = (a: number, b: number | undefined) => Math.abs(a - (b ?? Number.NaN)) < SAME;
+  return (
+    one.length === other.length &&
+    one.every(([east, north], at) => same(east, other[at]?.[0]) && same(north, other[at]?.[1]))
+  );
+}
+
 /** The stations of a line, metres; undefined where they are its chainages, and where the line is no longer the one that had others. */
 export function stationsOn({ start, stationing }: LineSettings, line: Places): StationEquations | undefined {
   if (!stationing || stationing.equations.length === 0) return undefined;
   const { vertices, equations } = stationing;
-  const same = (one: number, other: number | undefined) => Math.abs(one - (other ?? Number.NaN)) < SAME;
-  const unchanged =
-    vertices.length === line.length &&
-    line.every(([east, north], at) => same(east, vertices[at]?.[0]) && same(north, vertices[at]?.[1]));
-  if (!unchanged) return undefined;
+  if (!samePlaces(line, vertices)) return undefined;
   return new StationEquations(
     equations.map(({ internal, ...equation }) => ({ ...equation, internal: internal + start })),
   );

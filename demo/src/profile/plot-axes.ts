@@ -4,7 +4,7 @@ import { scaleLinear } from "d3-scale";
 import { select } from "d3-selection";
 import { sightIn } from "./measured-words.js";
 
-/** Room for the axes, CSS pixels; `style.css` leaves it around the canvas. */
+/** Room for the axes, CSS pixels; `profile.css` leaves it around the canvas. */
 const MARGIN = { left: 64, right: 12, top: 8, bottom: 36 } as const;
 
 /** What is drawn over the points. */

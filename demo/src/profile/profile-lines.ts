@@ -1,4 +1,5 @@
-import { measureView, type PointCloudLayer } from "@groma/layer/cesium";
+import { geodeticToEcef } from "@groma/georef";
+import { measureView, type PointCloudLayer, type SharedProfile } from "@groma/layer/cesium";
 import {
   type Measurement,
   type MeasurementChange,
@@ -14,7 +15,7 @@ import { i18n } from "../language/i18n.js";
 import { MEASURE_WORDS, unitsOf } from "../panel/measure-words.js";
 import { PageError } from "../panel/page-error.js";
 import { readLines } from "./line-file.js";
-import { type LineSettings, settingsIn, stationsOn } from "./line-settings.js";
+import { type LineSettings, samePlaces, settingsIn, stationsOn } from "./line-settings.js";
 
 /** A line on the globe: longitude and latitude of each vertex, radians. */
 export type DrawnLine = readonly (readonly [number, number])[];
@@ -152,6 +153,36 @@ export class ProfileLines {
     }
     this.tool.add(lines.map(({ id, name, vertices }) => ({ id, kind: "polyline", name, vertices })));
     if (lines.length > 0) this.choose(this.all.at(-1)?.id);
+  }
+
+  /** The line that is shown, as a link brings it back; undefined: none is. */
+  get shared(): SharedProfile | undefined {
+    const { chosen, settings } = this;
+    if (!chosen || !settings) return undefined;
+    const { width, start, stationing } = settings;
+    const line = chosen.vertices.map(
+      ({ longitude, latitude, height }) => [longitude, latitude, height] as const,
+    );
+    // A line that was changed since has other stations than those that it came with.
+    const equations = this.stations && stationing?.equations;
+    return { name: chosen.name, line, width, start, ...(equations && { equations }) };
+  }
+
+  /** Shows the line of a link: the one that is there already, where it has the same vertices. */
+  showShared({ name, line, width, start, equations = [] }: SharedProfile): void {
+    const places = line.map(([longitude, latitude]) => [longitude, latitude] as const);
+    const there = this.all.find(({ vertices }) => samePlaces(placesOf(vertices), places));
+    const id = there?.id ?? crypto.randomUUID();
+    this.#settings.set(id, { width, start, stationing: { vertices: places, equations } });
+    if (!there) {
+      const vertices = line.map(([longitude, latitude, height]): Vertex => {
+        const ecef = new Float64Array(3);
+        geodeticToEcef(longitude, latitude, height, ecef);
+        return { longitude, latitude, height, ecef: [ecef[0]!, ecef[1]!, ecef[2]!] };
+      });
+      this.tool.add([{ id, kind: "polyline", name, vertices }]);
+    }
+    this.choose(id);
   }
 
   /** Of the line that is shown; undefined where it has none yet. */

@@ -6,3 +6,4 @@ export {
   type ViewedLayer,
   writePermalink,
 } from "./permalink.js";
+export type { SharedEquation, SharedProfile } from "./shared-profile.js";

@@ -104,6 +104,51 @@ describe("a permalink", () => {
     expect(readPermalink("1")).toEqual({});
   });
 
+  it("keeps the profile that is shown, to the last digit", () => {
+    const profile = {
+      ...{ name: "Deich ~ 7", width: 4.4, start: -250.5 },
+      line: [
+        [0.14912345678901234, 0.8261234567890123, 412.25],
+        [-Math.PI, -Math.PI / 2, -3],
+      ],
+      equations: [{ internal: 50, ahead: 5000, increment: "decreasing" }],
+    } as const;
+    const text = writePermalink({ profile });
+    expect(encodeURIComponent(text)).toBe(text);
+    expect(readPermalink(text)).toEqual({ profile });
+    const { equations: _, ...plain } = profile;
+    expect(readPermalink(writePermalink({ profile: plain }))).toEqual({ profile: plain });
+    // Whatever else stands there is not taken.
+    expect(readPermalink(`1~l${asText({ ...plain, more: 1 })}`)).toEqual({ profile: plain });
+    for (const wrong of [
+      ...[{ name: 7 }, { width: 0 }, { width: null }, { start: "0" }, { line: [[0, 0, 0]] }],
+      ...[
+        {
+          line: [
+            [0, 0],
+            [0, 1],
+          ],
+        },
+        {
+          line: [
+            [0, 0, 0],
+            [4, 0, 0],
+          ],
+        },
+        {
+          line: [
+            [0, 2, 0],
+            [0, 0, 0],
+          ],
+        },
+      ],
+      ...[{ equations: {} }, { equations: [null] }, { equations: [{ internal: 1, ahead: 2, increment: 1 }] }],
+      { equations: [1, 2].map((ahead) => ({ internal: 1, ahead })) },
+    ]) {
+      expect(() => readPermalink(`1~l${asText({ ...profile, ...wrong })}`)).toThrow("LINK_BROKEN");
+    }
+  });
+
   it("keeps volumes", () => {
     const clips = [
       Clip.box({

@@ -3,6 +3,7 @@ import { type Clip, checkClip } from "../clips/index.js";
 import { defaultStyle, type PointCloudStyle, type PointFilter, type StyleParts } from "../effects/index.js";
 import { LinkError } from "../errors/index.js";
 import { asText, fromText } from "./json-text.js";
+import { profileOf, type SharedProfile } from "./shared-profile.js";
 
 /** How a cloud is drawn; all of it may be left out. */
 export interface DrawnCloud {
@@ -23,6 +24,8 @@ export interface SharedView extends DrawnCloud {
   readonly others?: readonly DrawnCloud[] | undefined;
   /** A record that is selected: its node, `depth-x-y-z`, and its index there. */
   readonly selected?: { readonly node: string; readonly index: number } | undefined;
+  /** The line whose profile is shown. */
+  readonly profile?: SharedProfile | undefined;
 }
 
 /** Written first; a reader refuses any other. */
@@ -52,16 +55,17 @@ const PARTS: ReadonlyMap<string, PartName> = new Map([
   ["k", "clips"],
   ["o", "others"],
   ["p", "selected"],
+  ["l", "profile"],
 ]);
 
 /**
  * A view as short text for the address of a page: `1~c8.5412345_47.3712345_1200_30_-45_0~p2-0-1-0_153`. What is left out
  * is left out of the text too.
  *
- * @throws LinkError LINK_LONG for a view that no address can hold: volumes of many thousand corners
+ * @throws LinkError LINK_LONG for a view that no address can hold: volumes or a line of many thousand corners
  */
 export function writePermalink(view: SharedView): string {
-  const { camera, style, filter, clips, others = [], selected } = view;
+  const { camera, style, filter, clips, others = [], selected, profile } = view;
   const display = displayOf(view);
   const further = others.slice(0, MOST_OTHERS).map((one) => {
     const shown = displayOf(one);
@@ -76,13 +80,14 @@ export function writePermalink(view: SharedView): string {
     ...(given(clips) ? [`k${asText(clips)}`] : []),
     ...(further.some((parts) => parts.some(given)) ? [`o${asText(further)}`] : []),
     ...(selected ? [`p${selected.node}_${selected.index}`] : []),
+    ...(profile ? [`l${asText(profile)}`] : []),
   ].join(BETWEEN);
   if (text.length <= LONGEST) return text;
   throw new LinkError({
     code: "LINK_LONG",
     file: "link",
     cause: `it would have ${text.length} characters, of which ${LONGEST} are read`,
-    fix: "leave the volumes out, or give them fewer corners",
+    fix: "leave the volumes and the profile's line out, or give them fewer corners",
   });
 }
 
@@ -179,7 +184,11 @@ function read(name: PartName, text: string): unknown {
   }
   if (name === "others") return othersOf(value);
   if (!isObject(value)) throw broken(name, "it is no object");
-  return name === "display" ? checkedDisplay(value, name) : value;
+  if (name === "display") return checkedDisplay(value, name);
+  if (name !== "profile") return value;
+  const profile = profileOf(value);
+  if (!profile) throw broken(name, "it is no line with a width and a start");
+  return profile;
 }
 
 /** @param part that it stands in */
