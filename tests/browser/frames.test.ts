@@ -320,8 +320,8 @@ describe.skipIf(pythonMissing)(
             },
             "nodes": 3,
             "still": {
-              "draws": 12,
-              "uniforms": 6,
+              "draws": 4,
+              "uniforms": 0,
               "writes": 0,
             },
           },

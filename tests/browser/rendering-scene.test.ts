@@ -45,26 +45,8 @@ describe.skipIf(pythonMissing)(
           const stage = new Stage(setting);
           const { scene } = stage;
           try {
-            const layer = await stage.show(scan, options);
-            for (const { at, edge } of setting.boxes ?? []) {
-              const middle = Cesium.Cartesian3.fromArray([...layer.cloud.place(...at)]);
-              const geometry = Cesium.BoxGeometry.fromDimensions({
-                dimensions: new Cesium.Cartesian3(edge, edge, edge),
-                vertexFormat: Cesium.PerInstanceColorAppearance.FLAT_VERTEX_FORMAT,
-              });
-              const color = Cesium.ColorGeometryInstanceAttribute.fromColor(Cesium.Color.RED);
-              scene.primitives.add(
-                new Cesium.Primitive({
-                  geometryInstances: new Cesium.GeometryInstance({
-                    geometry,
-                    modelMatrix: Cesium.Transforms.eastNorthUpToFixedFrame(middle),
-                    attributes: { color },
-                  }),
-                  appearance: new Cesium.PerInstanceColorAppearance({ flat: true, translucent: false }),
-                  asynchronous: false,
-                }),
-              );
-            }
+            await stage.show(scan, options);
+            for (const { at, edge } of setting.boxes ?? []) stage.box(at, edge);
             if (setting.farToNearRatio) scene.farToNearRatio = setting.farToNearRatio;
             if (scene.globe && setting.depthTestAgainstTerrain !== undefined) {
               scene.globe.depthTestAgainstTerrain = setting.depthTestAgainstTerrain;
@@ -118,6 +100,66 @@ describe.skipIf(pythonMissing)(
         expect(colourDifference(behind, GREY)).toBeLessThan(8);
         // Nothing red shines through anywhere else.
         expect(shareOf(picture, RED, 60)).toBeLessThan(0.03);
+      },
+    );
+
+    it.each([
+      ["eye-dome", WAYS["eye-dome"]],
+      ["splats", WAYS.splats],
+    ] as const)(
+      "%s: points at rest are not drawn again, and hide and are hidden by what moves",
+      { timeout: 60_000 },
+      async (way, style) => {
+        const found = await stage.page.evaluate(
+          async ([style, [front, behind]]) => {
+            const { Cesium, Stage, onPoints } = window.page;
+            const stage = new Stage();
+            const layer = await stage.show("plane", { style });
+            stage.look({ range: 30 });
+            await stage.settle();
+            const box = stage.box(front.at, front.edge);
+            const [from, to] = [front, behind].map(({ at }) =>
+              Cesium.Cartesian3.fromArray([...layer.cloud.place(...at)]),
+            );
+            const way = Cesium.Cartesian3.subtract(to!, from!, new Cesium.Cartesian3());
+            let calls = 0;
+            const end = onPoints(stage.gl, (call) => {
+              calls++;
+              call.draw();
+            });
+            const rounds = [];
+            for (const moved of [Cesium.Cartesian3.ZERO, way]) {
+              box.modelMatrix = Cesium.Matrix4.fromTranslation(moved);
+              calls = 0;
+              const again = stage.picture();
+              const still = calls;
+              stage.look({ range: 31 });
+              stage.frame();
+              stage.look({ range: 30 });
+              await stage.settle();
+              rounds.push({ again, still, moving: calls - still, anew: stage.picture() });
+            }
+            end();
+            const errors = stage.errors();
+            stage.destroy();
+            return { rounds, errors };
+          },
+          [style, boxes] as const,
+        );
+        expect(found.errors).toEqual([]);
+        expect(found.rounds.map(({ still }) => still)).toEqual([0, 0]);
+        for (const { again, anew, moving } of found.rounds) {
+          expect(again === anew).toBe(true);
+          expect(moving).toBeGreaterThan(0);
+        }
+        const [before, after] = found.rounds.map(({ again }, at) => decode(again, `still-${way}-${at}`));
+        const middle = (range: number, metres: number) =>
+          128 + (metres * 128) / (range * Math.tan(Math.PI / 6));
+        expect(colourDifference(meanColour(before!, middle(26, -5), 96, 2), RED)).toBeLessThan(8);
+        expect(colourDifference(meanColour(after!, middle(26, -5), 96, 2), GREY)).toBeLessThan(8);
+        expect(colourDifference(meanColour(after!, middle(34, 5), 96, 2), GREY)).toBeLessThan(8);
+        expect(shareOf(before!, RED, 60)).toBeGreaterThan(0.005);
+        expect(shareOf(after!, RED, 60)).toBe(0);
       },
     );
 

@@ -77,6 +77,13 @@ export class LayerRenderer implements Renderer<CesiumView> {
     frameState?.commandList.push(...this.#drawing.draw(frameState, this.content));
   }
 
+  drawAgain(): boolean {
+    const again = this.#drawing.drawAgain(this.content);
+    if (again) this.#frameState?.commandList.push(...again);
+    else this.draw();
+    return again === undefined;
+  }
+
   probe(asked: boolean, { allowance, plan: wanted, clips, depth }: ProbeRequest): boolean {
     const frameState = this.#frameState;
     const { material, nodes, programs, heightOffset } = this.content;

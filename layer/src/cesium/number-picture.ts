@@ -49,7 +49,7 @@ export class NumberPicture {
     target.framebuffer = framebuffer;
     // The whole picture, shifted so that the window comes to lie in the corner.
     target.viewport = new BoundingRectangle(-x, -y, picture.width, picture.height);
-    this.#pass.clear(this.#objects.context, target, true);
+    this.#pass.clear(this.#objects.context, target);
     this.#pass.draw("id", byGroup<CesiumView>(nodes), { ...setting, target });
     return readPixels(this.#objects, framebuffer, { size, ...until });
   }

@@ -27,10 +27,9 @@ export class OffscreenPass {
     this.#states = states;
   }
 
-  /** Clears a picture: colours to nothing and, unless they are to stay, depths to the farthest. */
-  clear(context: Context, target: PassState, depth: boolean): void {
-    const color = new Color(0, 0, 0, 0);
-    new ClearCommand(depth ? { color, depth: 1 } : { color }).execute(context, target);
+  /** Clears a picture: colours to nothing, depths to the farthest. */
+  clear(context: Context, target: PassState): void {
+    new ClearCommand({ color: new Color(0, 0, 0, 0), depth: 1 }).execute(context, target);
   }
 
   /** Draws nodes, whose groups have been placed. */

@@ -32,6 +32,8 @@ export class PointDrawing {
   readonly #quad: CompositeQuad;
   /** The command of each group; it goes with it, since what Cesium derives from it keeps programs and uniforms. */
   readonly #batches = new WeakMap<DrawnWith<CesiumView>, PointBatch>();
+  /** What is in the picture, and the commands that put it into the scene. */
+  #pictured: { readonly nodes: readonly CesiumNode[]; readonly commands: Command[] } | undefined;
 
   /**
    * @param owner the primitive
@@ -66,13 +68,25 @@ export class PointDrawing {
     if (!material) return [];
     const { plan } = material;
     const { offscreen, translucent } = passesOf(plan);
-    if (!offscreen) this.#target.release();
+    if (!offscreen) this.release();
     if (nodes.length === 0) return [];
     this.place(content, frameState.camera);
     if (!offscreen) return this.#timed(labelOf(plan, "points"), this.sceneCommands(content));
     const quad = this.#drawOffscreen(frameState, material, content);
     // Cesium executes translucent commands in an order of its own.
-    return translucent ? [quad] : this.#timed(labelOf(plan, "picture"), [quad]);
+    const commands = translucent ? [quad] : this.#timed(labelOf(plan, "picture"), [quad]);
+    this.#pictured = { nodes, commands };
+    return commands;
+  }
+
+  /**
+   * Commands that show the last frame's picture of the points once more: nothing of it hangs on the scene, which the quad is
+   * held against. Undefined where there is none, and where another one is to be drawn.
+   */
+  drawAgain({ nodes }: LayerContent<CesiumView>): Command[] | undefined {
+    if (this.#pictured?.nodes !== nodes) return undefined;
+    this.#timer.nextFrame();
+    return this.#pictured.commands;
   }
 
   /** Commands that draw nodes straight into the scene, one for each program. */
@@ -111,10 +125,11 @@ export class PointDrawing {
   /** Frees the picture; it is made again when it is next drawn. */
   release(): void {
     this.#target.release();
+    this.#pictured = undefined;
   }
 
   destroy(): void {
-    this.#target.release();
+    this.release();
     this.#quad.destroy();
   }
 
@@ -126,23 +141,14 @@ export class PointDrawing {
   ): Command {
     const { context, camera } = frameState;
     const { nodes, grouped, programs, depth } = content;
-    const {
-      points: [first, second],
-      translucent,
-    } = passesOf(plan);
-    const picture = this.#target.prepare(
-      context.drawingBufferWidth,
-      context.drawingBufferHeight,
-      second !== undefined,
-    );
+    const { points: passes, translucent } = passesOf(plan);
+    const { drawingBufferWidth: width, drawingBufferHeight: height } = context;
+    const picture = this.#target.prepare(width, height, passes.includes("splat") ? "halfFloat" : "byte");
     const frustum = fitFrustum(camera, spheresOf(nodes));
     const setting = (pass: PointPass) => this.setting(pass, frustum, content);
     this.#timer.measure(labelOf(plan, "points"), () => {
-      this.#pass.clear(context, picture.points, true);
-      this.#pass.draw(first, grouped, { ...setting(first), target: picture.points });
-      if (!picture.blending || !second) return;
-      this.#pass.clear(context, picture.blending, false);
-      this.#pass.draw(second, grouped, { ...setting(second), target: picture.blending });
+      this.#pass.clear(context, picture.target);
+      for (const pass of passes) this.#pass.draw(pass, grouped, { ...setting(pass), target: picture.target });
     });
     context.uniformState.updateFrustum(camera.frustum as PointFrustum["frustum"]);
     this.uniforms.take(picture, frustum);

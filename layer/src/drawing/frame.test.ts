@@ -3,6 +3,7 @@ import { Clip, ClipSet } from "../clips/index.js";
 import type { PointCloud } from "../cloud/index.js";
 import { defaultStyle } from "../effects/index.js";
 import { SharedBudget } from "../octree/index.js";
+import { CostMeter } from "./cost-meter.js";
 import { type FrameReport, LayerFrames, type LayerSettings } from "./frame.js";
 import { cameraOver, POINTS, TestRenderer, type TestView, testCloud } from "./view.fixture.js";
 
@@ -108,6 +109,30 @@ describe("LayerFrames, in a view of no library at all", () => {
     await turn();
     expect(frame(settings)).not.toBe("blocked");
     expect(prepare).toHaveBeenCalled();
+  });
+
+  it("takes no frame that only shows a picture again for one that draws", async () => {
+    const { cloud, frames, settle, renderer } = await setUp();
+    const settings = settingsOf();
+    await settle(settings);
+    const note = vi.spyOn(CostMeter.prototype, "note");
+    let now = performance.now();
+    const clock = vi.spyOn(performance, "now").mockImplementation(() => now);
+    /** Milliseconds that are noted when the next frame begins, some after this one. */
+    const noted = (pictured: boolean, lasts: number) => {
+      renderer.pictured = pictured;
+      note.mockClear();
+      frames.draw(settings, cameraOver(cloud, 100), () => renderer);
+      now += lasts;
+      return note.mock.calls.map(([{ milliseconds }]) => milliseconds);
+    };
+    noted(false, 40);
+    expect(noted(true, 10)).toEqual([40]);
+    expect(noted(true, 10)).toEqual([]);
+    expect(noted(false, 40)).toEqual([]);
+    expect(noted(false, 40)).toEqual([40]);
+    clock.mockRestore();
+    note.mockRestore();
   });
 
   it("draws what volumes leave, and rests where the first ones cannot be prepared", async () => {

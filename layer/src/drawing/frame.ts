@@ -63,6 +63,11 @@ export interface LayerRenderer<V extends ViewTypes> {
   /** Draws what the content has prepared. */
   draw(): void;
   /**
+   * Shows once more what was drawn last, since when nothing has changed that it rests on.
+   * @returns whether points were drawn for it: a picture of their own may still be there
+   */
+  drawAgain(): boolean;
+  /**
    * Measures the silhouettes of the frame that was just drawn, or no more.
    * @returns whether an answer is awaited
    */
@@ -107,6 +112,8 @@ export class LayerFrames<V extends ViewTypes> {
   #active: ReadonlySet<EffectName> = new Set();
   /** Whether a frame has shown points. */
   #shown = false;
+  /** Whether the last frame drew its points, and did not only show a picture of them that was there. */
+  #drawn = false;
   #frameStart = 0;
   /** Milliseconds from the frame before this one to it; 0 where they did not follow each other. */
   #interval = 0;
@@ -178,8 +185,7 @@ export class LayerFrames<V extends ViewTypes> {
     if (this.#still.stands) {
       const renderer = rendererOf();
       if (this.#still.holds(this.#ground(settings, camera, renderer)) && roomIn(budget)) {
-        renderer.draw();
-        this.#measure(renderer);
+        this.#measure(renderer, renderer.drawAgain());
         return { progress: this.#completion.progress, changed: false, finished: false, done: true };
       }
     }
@@ -201,7 +207,7 @@ export class LayerFrames<V extends ViewTypes> {
     this.#shown ||= content.points > 0;
     const probing = renderer.probe(asksForSilhouettes(style, forced), request);
     if (budget) content.keepWithin(budget.gpu, this.#owner);
-    this.#measure(renderer);
+    this.#measure(renderer, true);
     const idle = stream.active === 0;
     const change = this.#completion.note({
       progress: stream.progress(this.#owner),
@@ -287,16 +293,21 @@ export class LayerFrames<V extends ViewTypes> {
     return this.#interval;
   }
 
-  /** Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other. */
-  #measure({ content, measuresGpu, gpuMilliseconds }: LayerRenderer<V>): void {
+  /**
+   * Notes what the frame cost: as the GPU says, else from frame to frame while they follow each other.
+   * @param drawn whether it drew its points
+   */
+  #measure({ content, measuresGpu, gpuMilliseconds }: LayerRenderer<V>, drawn: boolean): void {
     const { points: drawing, picture = 0 } = gpuMilliseconds;
+    const lasted = this.#drawn ? this.#interval : 0;
+    this.#drawn = drawn;
     const plan = content.material?.plan;
     if (!plan) return;
     const { points } = content;
     if (drawing !== undefined) {
       this.#costs.note({ plan, points, milliseconds: drawing + picture, by: "timer query" });
-    } else if (!measuresGpu && this.#interval > 0) {
-      this.#costs.note({ plan, points, milliseconds: this.#interval, by: "frame difference" });
+    } else if (!measuresGpu && lasted > 0) {
+      this.#costs.note({ plan, points, milliseconds: lasted, by: "frame difference" });
     }
   }
 }

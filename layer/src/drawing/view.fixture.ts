@@ -158,9 +158,16 @@ export class TestRenderer implements LayerRenderer<TestView> {
   readonly gpuMilliseconds = { points: undefined, picture: undefined };
   readonly measuresGpu = false;
   readonly drawn: number[] = [];
+  /** Whether there is a picture of the points that can be shown again. */
+  pictured = false;
 
   draw(): void {
     this.drawn.push(this.content.nodes.reduce((sum, { count }) => sum + count, 0));
+  }
+
+  drawAgain(): boolean {
+    if (!this.pictured) this.draw();
+    return !this.pictured;
   }
 
   probe(): boolean {

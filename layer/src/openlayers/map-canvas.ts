@@ -41,12 +41,9 @@ export class MapCanvas {
   /** Leaves nothing on it. */
   wipe(): void {
     const { gl } = this;
-    if (gl)
-      clear(
-        gl,
-        { framebuffer: undefined, viewport: [0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight] },
-        true,
-      );
+    if (!gl) return;
+    const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
+    clear(gl, { framebuffer: undefined, viewport: [0, 0, width, height] });
   }
 
   destroy(): void {

@@ -63,7 +63,7 @@ export class PlotPicture {
     const anew = resized || all.length === 0 || all.some(({ kept }) => kept < 0);
     const overlaid = all.some(({ offscreen }) => offscreen);
     if (anew || overlaid)
-      clear(gl, { framebuffer: undefined, viewport: [0, 0, camera.width, camera.height] }, true);
+      clear(gl, { framebuffer: undefined, viewport: [0, 0, camera.width, camera.height] });
     for (const series of all) series.draw(anew || (overlaid && !series.offscreen) ? 0 : series.kept);
     return waiting === 0;
   }

@@ -75,6 +75,12 @@ export class LayerRenderer implements Renderer<GlView> {
     this.#finish?.(screen);
   }
 
+  /** Draws all: a map or a plot whose canvas shows what it is to show asks for no frame. */
+  drawAgain(): boolean {
+    this.draw();
+    return true;
+  }
+
   probe(): boolean {
     return false;
   }
@@ -101,11 +107,11 @@ export class LayerRenderer implements Renderer<GlView> {
     const reach = (edge - 1) / 2;
     const x = Math.floor(position.x * pixelRatio) - reach;
     const y = camera.height - 1 - Math.floor(position.y * pixelRatio) - reach;
-    this.#numbers.prepare(edge, edge, false);
+    this.#numbers.prepare(edge, edge, "byte");
     this.#setView(camera, camera.width, camera.height);
     // The whole picture, shifted so that the window comes to lie in the corner.
-    const target = this.#numbers.target("points", [-x, -y, camera.width, camera.height]);
-    clear(gl, target, true);
+    const target = this.#numbers.target([-x, -y, camera.width, camera.height]);
+    clear(gl, target);
     drawPoints(this.objects, "id", byGroup<GlView>(nodes), camera, target, this.#programs("id", "own"));
     const pixels = new Uint8Array(4 * edge * edge);
     gl.readPixels(0, 0, edge, edge, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
@@ -139,7 +145,7 @@ export class LayerRenderer implements Renderer<GlView> {
       canvas.width = width;
       canvas.height = height;
     }
-    clear(this.#gl, screen, true);
+    clear(this.#gl, screen);
   }
 
   #drawPoints(camera: FlatCamera, screen: PassTarget, kept: number): void {
@@ -158,15 +164,11 @@ export class LayerRenderer implements Renderer<GlView> {
       drawPoints(this.objects, "color", nodes, camera, screen, this.#programs("color", "scene"));
       return;
     }
-    const [first, second] = points;
-    this.#picture.prepare(camera.width, camera.height, second !== undefined);
+    this.#picture.prepare(camera.width, camera.height, points.includes("splat") ? "halfFloat" : "byte");
     const target = this.#picture.target();
-    if (stays === 0) clear(gl, target, true);
-    drawPoints(this.objects, first, nodes, camera, target, this.#programs(first, "own"));
-    if (second) {
-      const sums = this.#picture.target("sums");
-      clear(gl, sums, false);
-      drawPoints(this.objects, second, nodes, camera, sums, this.#programs(second, "own"));
+    if (stays === 0) clear(gl, target);
+    for (const pass of points) {
+      drawPoints(this.objects, pass, nodes, camera, target, this.#programs(pass, "own"));
     }
     const { colour, depth } = this.#picture;
     if (colour) this.#view.setTexture("u_color", colour);

@@ -2,66 +2,51 @@ import type { GlObjects } from "./gl-objects.js";
 import type { GlFramebuffer, GlTexture, PictureFormat } from "./gl-types.js";
 import type { PassTarget } from "./point-passes.js";
 
-/** What can be drawn into, and its textures. */
-interface Layer {
+/** What a picture consists of. */
+interface Parts {
+  readonly format: PictureFormat;
   readonly colour: GlTexture;
+  readonly depth: GlTexture;
   readonly framebuffer: GlFramebuffer;
 }
 
-/** A picture of the points alone: colours with depths and, for blended splats, sums of weighted colours under the same depths. */
+/** A picture of the points alone: depths, and colours, or sums of weighted colours where splats are blended. */
 export class Picture {
   readonly #objects: GlObjects;
-  readonly #format: PictureFormat;
-  #depth: GlTexture | undefined;
-  #points: Layer | undefined;
-  #sums: Layer | undefined;
+  #parts: Parts | undefined;
 
-  constructor(objects: GlObjects, format: PictureFormat = "byte") {
+  constructor(objects: GlObjects) {
     this.#objects = objects;
-    this.#format = format;
   }
 
   get depth(): GlTexture | undefined {
-    return this.#depth;
+    return this.#parts?.depth;
   }
 
-  /** The colours that were drawn last: the sums where there are some. */
   get colour(): GlTexture | undefined {
-    return (this.#sums ?? this.#points)?.colour;
+    return this.#parts?.colour;
   }
 
-  /** Makes it as large as is asked for; what was in it is gone where size or kind are new. */
-  prepare(width: number, height: number, blended: boolean): void {
-    const there = this.#depth;
-    const same = there?.width === width && there.height === height;
-    if (same && (this.#sums !== undefined) === blended) return;
+  /** Makes it as large as is asked for; what was in it is gone where size or format are new. */
+  prepare(width: number, height: number, format: PictureFormat): void {
+    const there = this.#parts;
+    if (there?.format === format && there.depth.width === width && there.depth.height === height) return;
     this.release();
-    this.#depth = this.#objects.pictureTexture(width, height, "depth");
-    this.#points = this.#layer(width, height, this.#format, this.#depth);
-    if (blended) this.#sums = this.#layer(width, height, "halfFloat", this.#depth);
+    const depth = this.#objects.pictureTexture(width, height, "depth");
+    const colour = this.#objects.pictureTexture(width, height, format);
+    this.#parts = { format, colour, depth, framebuffer: this.#objects.framebuffer(colour, depth) };
   }
 
   /** What is drawn into. @param viewport Default: all of it */
-  target(of: "points" | "sums" = "points", viewport?: PassTarget["viewport"]): PassTarget {
-    const layer = of === "points" ? this.#points : this.#sums;
-    const { width = 0, height = 0 } = this.#depth ?? {};
-    return { framebuffer: layer?.framebuffer, viewport: viewport ?? [0, 0, width, height] };
+  target(viewport?: PassTarget["viewport"]): PassTarget {
+    const { width = 0, height = 0 } = this.depth ?? {};
+    return { framebuffer: this.#parts?.framebuffer, viewport: viewport ?? [0, 0, width, height] };
   }
 
   /** Frees what it takes. */
   release(): void {
-    for (const layer of [this.#points, this.#sums]) {
-      this.#objects.free(layer?.framebuffer);
-      this.#objects.free(layer?.colour);
-    }
-    this.#objects.free(this.#depth);
-    this.#depth = undefined;
-    this.#points = undefined;
-    this.#sums = undefined;
-  }
-
-  #layer(width: number, height: number, format: PictureFormat, depth: GlTexture): Layer {
-    const colour = this.#objects.pictureTexture(width, height, format);
-    return { colour, framebuffer: this.#objects.framebuffer(colour, depth) };
+    const { framebuffer, colour, depth } = this.#parts ?? {};
+    for (const object of [framebuffer, colour, depth]) this.#objects.free(object);
+    this.#parts = undefined;
   }
 }

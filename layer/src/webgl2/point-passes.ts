@@ -16,14 +16,14 @@ export interface PassTarget {
   readonly viewport: readonly [x: number, y: number, width: number, height: number];
 }
 
-/** Binds a target, and clears it: colours to nothing and, unless they are to stay, depths to the farthest. */
-export function clear(gl: WebGL2RenderingContext, target: PassTarget, depth: boolean): void {
+/** Binds a target, and clears it: colours to nothing, depths to the farthest. */
+export function clear(gl: WebGL2RenderingContext, target: PassTarget): void {
   bind(gl, target);
   gl.colorMask(true, true, true, true);
   gl.depthMask(true);
   gl.clearColor(0, 0, 0, 0);
   gl.clearDepth(1);
-  gl.clear(depth ? gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT : gl.COLOR_BUFFER_BIT);
+  gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
 }
 
 /** Has the nodes seen by a camera, once for each world that shows, in whatever is drawn of them next. */

@@ -1,14 +1,20 @@
 import { ClipSet, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
 import {
+  BoxGeometry,
   Cartesian3,
   CesiumWidget,
   Color,
+  ColorGeometryInstanceAttribute,
   EllipsoidTerrainProvider,
+  GeometryInstance,
   HeadingPitchRange,
   JulianDate,
   Matrix4,
   OrthographicFrustum,
+  PerInstanceColorAppearance,
+  Primitive,
   type SkyBox,
+  Transforms,
 } from "cesium";
 import { type LayerOptions, MIDDLE, type Pose, type StageOptions } from "./setting.js";
 
@@ -19,6 +25,7 @@ const clouds = new Map<string, Promise<PointCloud>>();
 export class Stage {
   readonly widget: CesiumWidget;
   readonly #container: HTMLElement;
+  #ahead = false;
   layer!: PointCloudLayer;
 
   constructor(options: StageOptions = {}) {
@@ -79,6 +86,24 @@ export class Stage {
     return this.layer;
   }
 
+  /** Adds a red box. @param edge metres @returns the box; its `modelMatrix` moves it, ECEF, metres */
+  box(at: Pose["at"] = MIDDLE, edge = 1): Primitive {
+    const middle = Cartesian3.fromArray([...this.layer.cloud.place(...at)]);
+    const geometry = BoxGeometry.fromDimensions({
+      dimensions: new Cartesian3(edge, edge, edge),
+      vertexFormat: PerInstanceColorAppearance.FLAT_VERTEX_FORMAT,
+    });
+    const color = ColorGeometryInstanceAttribute.fromColor(Color.RED);
+    const modelMatrix = Transforms.eastNorthUpToFixedFrame(middle);
+    return this.scene.primitives.add(
+      new Primitive({
+        geometryInstances: new GeometryInstance({ geometry, modelMatrix, attributes: { color } }),
+        appearance: new PerInstanceColorAppearance({ flat: true, translucent: false }),
+        asynchronous: false,
+      }),
+    );
+  }
+
   /** Sends the camera somewhere. */
   look({ at = MIDDLE, heading = 0, pitch = -90, range }: Pose): void {
     const { camera } = this.scene;
@@ -86,6 +111,12 @@ export class Stage {
     const toRadians = Math.PI / 180;
     camera.lookAt(target, new HeadingPitchRange(heading * toRadians, pitch * toRadians, range));
     camera.lookAtTransform(Matrix4.IDENTITY);
+  }
+
+  /** Moves the camera a millimetre ahead, and back at the next call: what stands still need not be drawn anew. */
+  sway(): void {
+    this.#ahead = !this.#ahead;
+    this.scene.camera.moveForward(this.#ahead ? 0.001 : -0.001);
   }
 
   /** From now on without perspective; `width` metres fill the picture. */
