@@ -74,13 +74,14 @@ export async function bench(root, { card = false, points } = {}) {
   }
 }
 
-function row({ style, logDepth, points, nodes, frame, script, empty, plain }) {
+function row({ style, logDepth, points, nodes, frame, script, still, empty, plain }) {
   const figure = (milliseconds) => Number(milliseconds.toFixed(2));
   return {
     style: logDepth ? style : `${style}, linear depth`,
     points,
     nodes,
-    ...{ ms: figure(frame), script: figure(script), empty: figure(empty), plain: figure(plain) },
+    ...{ ms: figure(frame), script: figure(script), still: figure(still), empty: figure(empty) },
+    plain: figure(plain),
     "× plain": figure(frame / plain),
   };
 }

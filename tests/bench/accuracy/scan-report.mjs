@@ -51,5 +51,5 @@ export function comparison(inSight) {
 
 const HOW =
   "Times are those of the processor, of all threads of all processes of the browser (`SystemInfo.getProcessInfo`, in steps of 10 ms), which " +
-  "whoever else is on the machine disturbs less than the clock: medians of frames, each ended by reading a pixel back. The two that are " +
+  "whoever else is on the machine disturbs less than the clock: medians of frames of a view that moves by a millimetre, each ended by reading a pixel back. The two that are " +
   "compared take turns in one page, and the ratio of all their frames together counts; quartiles are those of frames that followed each other. WebGL runs in software here, on the CPU: on a GPU vertices and passes cost in another proportion.";

@@ -28,8 +28,10 @@ export interface Asked {
 export interface Figures {
   readonly points: number;
   readonly nodes: number;
-  /** From the call to the picture. */
+  /** From the call to the picture, of a view that moves. */
   readonly frame: number;
+  /** The same of a view that stands still. */
+  readonly still: number;
   /** Of it, what runs on the main thread. */
   readonly script: number;
   /** The same without the layer. */
@@ -73,10 +75,23 @@ class Gpu {
       PIXELS,
     );
     const draw = { frame: () => stage.frame(), wait: () => stage.wait() };
-    const times = { frame: [] as number[], script: [] as number[], plain: [] as number[] };
+    const moved = {
+      ...draw,
+      frame() {
+        stage.sway();
+        stage.frame();
+      },
+    };
+    const times = {
+      frame: [] as number[],
+      script: [] as number[],
+      still: [] as number[],
+      plain: [] as number[],
+    };
     const empty = { frame: [] as number[], script: [] as number[] };
     for (let round = 0; round < frames + 2; round++) {
-      const ours = timed(draw);
+      const still = timed(draw);
+      const ours = timed(moved);
       const theirs = timed(plain);
       layer.show = false;
       stage.frame();
@@ -87,6 +102,7 @@ class Gpu {
       if (round < 2) continue;
       times.frame.push(ours.whole);
       times.script.push(ours.script);
+      times.still.push(still.whole);
       times.plain.push(theirs.whole);
       empty.frame.push(nothing.whole);
       empty.script.push(nothing.script);
@@ -98,7 +114,8 @@ class Gpu {
     return {
       points: nodes.reduce((sum, { count }) => sum + count, 0),
       nodes: nodes.length,
-      ...{ frame: least(times.frame), script: least(times.script), plain: least(times.plain) },
+      ...{ frame: least(times.frame), script: least(times.script), still: least(times.still) },
+      plain: least(times.plain),
       ...{ empty: least(empty.frame), emptyScript: least(empty.script) },
     };
   }
@@ -173,7 +190,10 @@ type Nine = [number, number, number, number, number, number, number, number, num
 
 const least = (times: readonly number[]) => Math.min(...times);
 
-function timed(drawn: { frame(): void; wait(): void }): { readonly whole: number; readonly script: number } {
+function timed(drawn: { frame(): void; wait(): void }): {
+  readonly whole: number;
+  readonly script: number;
+} {
   drawn.wait();
   const began = performance.now();
   drawn.frame();

@@ -59,6 +59,7 @@ function page({ date, cpu, setting, renderer, size, frames, load, rows }) {
     "nodes",
     "ms a frame",
     "of it script",
+    "still",
     "empty scene",
     "plain `gl.POINTS`",
     "× plain",
@@ -69,6 +70,7 @@ function page({ date, cpu, setting, renderer, size, frames, load, rows }) {
     String(row.nodes),
     figure(row.frame),
     figure(row.script, 2),
+    figure(row.still),
     figure(row.empty),
     figure(row.plain),
     figure(row.frame / row.plain, 2),
@@ -78,8 +80,8 @@ function page({ date, cpu, setting, renderer, size, frames, load, rows }) {
 
 Autzen in Cesium, seen whole, 2 px points, ${size.width} × ${size.height} px, beside the same points from one buffer by plain
 \`gl.POINTS\` in the same browser, in turns. The least of ${frames} frames, since other work on the
-machine only adds, each from the call to the picture; "empty scene" is Cesium
-with the layer hidden. Only ratios within a run count.
+machine only adds, each from the call to the picture, of a view that moves by a millimetre; "still" is a view that does not
+move, "empty scene" Cesium with the layer hidden. Only ratios within a run count.
 
 ${table}
 

@@ -224,12 +224,14 @@ export class Bench {
       // Neither is always the first: what came before a frame is not its own cost.
       for (const side of pair % 2 === 0 ? SIDES : SIDES.toReversed()) {
         const stage = this.#stages[side];
+        stage.sway();
         const began = await window.processorTime();
         stage.frame();
         stage.wait();
         if (pair >= 0) times[side].push((await window.processorTime()) - began);
       }
     }
+    for (const side of SIDES) this.#stages[side].look(this.#pose);
     return times;
   }
 }
