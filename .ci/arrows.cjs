@@ -216,7 +216,15 @@ module.exports = {
   ],
   options: {
     doNotFollow: { path: "node_modules" },
-    exclude: { path: ["^demo/dist/", "/dist/.*\\.map$", "\\.(test|fixture)\\.ts$", "/target/"] },
+    exclude: {
+      path: [
+        "^demo/dist/",
+        "^layer/dist/standalone/",
+        "/dist/.*\\.map$",
+        "\\.(test|fixture)\\.ts$",
+        "/target/",
+      ],
+    },
     tsPreCompilationDeps: true,
     tsConfig: { fileName: "tsconfig.base.json" },
     enhancedResolveOptions: { exportsFields: ["exports"], conditionNames: ["types", "import", "default"] },

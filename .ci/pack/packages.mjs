@@ -18,7 +18,8 @@ import { cargoNotices, noticesText, npmNotices, pageCargoNotices, projNotices } 
 /** Files of a built folder that no source of the same name is behind. */
 const MADE = {
   layer: [
-    ...["workers/node.worker.js", "workers/groma-laz.wasm", "tools/measure/volume/volume.worker.js"],
+    ...["workers/node.worker.js", "workers/node.projections.js", "workers/groma-laz.wasm"],
+    "tools/measure/volume/volume.worker.js",
     "export/compressor/laz.worker.js",
     "measurements.schema.json",
     ...["cloud/epsg.json", "cloud/vertical-systems.json", "cloud/egm96.bin"],

@@ -45,14 +45,15 @@ export { type SourceTransform, sourceTransform } from "./engines/inverse-truth.j
 export { type LocalPlane, localPlane } from "./engines/local-plane.js";
 export { isOwnPlane, type MapPlane, planeTransform, truthOnMap } from "./engines/map-plane.js";
 export { type GridPlane, gridPlane, type PlaneInverse } from "./engines/projection.js";
+export { truthOf } from "./engines/settled-truth.js";
 export {
   placePoint,
   pointTransform,
+  recordedTruth,
   type Similarity,
   similarityTransform,
   type Truth,
   type TruthSources,
-  truthOf,
 } from "./engines/truth.js";
 export { boundsInWords, coordinate } from "./errors/coordinates.js";
 export {

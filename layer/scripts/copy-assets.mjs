@@ -16,12 +16,13 @@ copyFileSync(join(import.meta.dirname, "../../docs", schema), join(workers, ".."
 
 const laz = join(workers, "..", "export", "compressor");
 const volume = join(workers, "..", "tools", "measure", "volume");
-for (const [folder, name] of [
+for (const [folder, name, entry = "entry.js"] of [
   [workers, "node.worker.js"],
+  [workers, "node.projections.js", "projections.js"],
   [volume, "volume.worker.js"],
   [laz, "laz.worker.js"],
 ]) {
-  const bundle = await rolldown({ input: join(folder, "entry.js"), platform: "browser" });
+  const bundle = await rolldown({ input: join(folder, entry), platform: "browser" });
   await bundle.write({
     file: join(folder, name),
     format: "es",

@@ -36,6 +36,8 @@ const bundle = await rolldown({
   external: /^(cesium|ol)($|\/)/,
   platform: "browser",
   plugins: [filesBeside],
+  // What one entry shares with another must not bring the rest of that one along.
+  experimental: { chunkOptimization: { mergeCommonChunks: false } },
 });
 await bundle.write({
   dir: out,

@@ -42,6 +42,7 @@ export {
   type GeoreferenceOptions,
   guessHeights,
   type HeightData,
+  loadProjections,
   type PlaneOfMap,
   PointCloud,
   type PointCloudOptions,

@@ -1,31 +1,48 @@
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
-import { expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 import { projectRoot } from "../project.js";
 
-/** Bytes, gzipped, of a page's script that imports a module of the library; libraries of views and proj4 left out. */
-async function sizeOf(name: string): Promise<number> {
+/** What a page of a few lines is built into, without the libraries that are named. */
+async function built(name: string, code: string, external: (string | RegExp)[]) {
   const folder = join(projectRoot, "tests/artifacts/bundle");
   mkdirSync(folder, { recursive: true });
-  const entry = join(folder, `${name.replaceAll("/", "-")}.js`);
-  writeFileSync(entry, `import * as all from "@groma/${name}";\nglobalThis.all = all;\n`);
+  const entry = join(folder, `${name}.js`);
+  writeFileSync(entry, code);
   const { build } = await import("vite");
-  const built = await build({
+  const made = await build({
     root: folder,
     logLevel: "error",
     configFile: false,
-    worker: { format: "es" },
-    build: {
-      write: false,
-      target: "es2022",
-      rollupOptions: { input: entry, external: [/^ol\//, "proj4", "cesium"] },
-    },
+    build: { write: false, target: "es2022", rollupOptions: { input: entry, external } },
   });
-  const { output } = Array.isArray(built) ? built[0]! : (built as Exclude<typeof built, { on: unknown }>);
+  const { output } = Array.isArray(made) ? made[0]! : (made as Exclude<typeof made, { on: unknown }>);
+  const chunks = new Map(
+    output.flatMap((part) => (part.type === "chunk" ? [[part.fileName, part] as const] : [])),
+  );
   // What is fetched only when needed is not among what a page begins with.
-  const first = output.filter((part) => part.type === "chunk" && part.isEntry);
-  return first.reduce((sum, part) => sum + gzipSync("code" in part ? part.code : "").length, 0);
+  const begin = new Set<string>();
+  const load = (file: string): void => {
+    const chunk = chunks.get(file);
+    if (!chunk || begin.has(file)) return;
+    begin.add(file);
+    chunk.imports.forEach(load);
+  };
+  for (const { fileName, isEntry } of chunks.values()) if (isEntry) load(fileName);
+  const first = [...begin].map((file) => chunks.get(file)!);
+  const assets = output.flatMap((part) => (part.type === "asset" ? [part] : []));
+  return { first, assets };
+}
+
+const zipped = (parts: readonly (string | Uint8Array)[]): number =>
+  parts.reduce((sum, part) => sum + gzipSync(part).length, 0);
+
+/** Bytes, gzipped, of a page's script that imports a module of the library; libraries of views and proj4 left out. */
+async function sizeOf(name: string): Promise<number> {
+  const code = `import * as all from "@groma/${name}";\nglobalThis.all = all;\n`;
+  const { first } = await built(name.replaceAll("/", "-"), code, [/^ol\//, "proj4", "cesium"]);
+  return zipped(first.map((chunk) => chunk.code));
 }
 
 it("a layer of OpenLayers is at most 60 kB of own code beyond the cloud and ol", {
@@ -34,4 +51,26 @@ it("a layer of OpenLayers is at most 60 kB of own code beyond the cloud and ol",
   const [cloud, map] = [await sizeOf("layer"), await sizeOf("layer/openlayers")];
   expect(map - cloud).toBeGreaterThan(5_000);
   expect(map - cloud).toBeLessThan(60_000);
+});
+
+describe("until a page shows its first points", () => {
+  const code = `import { PointCloudLayer } from "@groma/layer/cesium";\nglobalThis.layer = PointCloudLayer;\n`;
+
+  it("it loads no projections, no readers of coordinate systems, and no more than it did", {
+    timeout: 120_000,
+  }, async () => {
+    const { first, assets } = await built("first-picture", code, ["cesium"]);
+    const modules = first.flatMap((chunk) => Object.keys(chunk.modules));
+    expect(modules.length).toBeGreaterThan(100);
+    expect(
+      modules.filter((path) => /proj4|mgrs|wkt-parser|georef\/dist\/crs\/(wkt|datum|epsg)/.test(path)),
+    ).toEqual([]);
+    const [worker, decoder] = [/node\.worker/, /groma-laz/].map(
+      (name) => assets.find(({ fileName }) => name.test(fileName))!.source,
+    );
+    expect(String(worker)).not.toContain("+proj");
+    expect(zipped(first.map((chunk) => chunk.code))).toBeLessThan(112_000);
+    expect(zipped([worker!])).toBeLessThan(28_000);
+    expect(zipped([decoder!])).toBeLessThan(56_000);
+  });
 });

@@ -61,7 +61,7 @@ describe("what an entry weighs", () => {
     },
   );
 
-  it.each(["node.worker.js", "groma-laz.wasm"])("%s, a file of its own", (name) => {
+  it.each(["node.worker.js", "node.projections.js", "groma-laz.wasm"])("%s, a file of its own", (name) => {
     const stated = Number(new RegExp(`\\(\`${name}\`, (\\d+) kB\\)`).exec(releases)![1]);
     expect(gzipSync(readFileSync(join(dist, "workers", name))).length / 1000).toBeCloseTo(stated, -1);
   });

@@ -108,6 +108,11 @@ beforeAll(async () => {
     writeFileSync(join(clouds, "box.las"), lasOf(20_000));
     convert(join(clouds, "box.las"), cloud, ["--crs", "EPSG:32632", "--vertical", "ellipsoidal"]);
   }
+  // As another program writes it: the records of Groma are nobody's.
+  writeFileSync(
+    join(clouds, "foreign.copc.laz"),
+    Buffer.from(readFileSync(cloud, "latin1").replaceAll("groma\0", "other\0"), "latin1"),
+  );
   await buildWithVite();
   await buildWithWebpack();
   [server, browser] = await Promise.all([serve(), sharedBrowser()]);
@@ -136,6 +141,26 @@ it.each([
   await screenshot(page, `example-${name.replaceAll(" ", "-")}`);
   await page.context().close();
 });
+
+it.each([
+  ["vite", "vite/index.html?"],
+  ["webpack", "webpack/index.html?"],
+  ["import-map", "import-map/index.html?"],
+])(
+  "the example with %s draws a file of another writer, by projections that are fetched then",
+  {
+    timeout: 240_000,
+  },
+  async (_, path) => {
+    const { page, watch } = await openPage(browser, { width: 480, height: 360 });
+    const shown = page.locator("output", { hasText: /^[1-9]\d* points$/ });
+    await page.goto(`${address()}/${path}cloud=/clouds/foreign.copc.laz`);
+    await shown.waitFor({ timeout: 200_000 }).catch(() => undefined);
+    expect([watch.errors, watch.foreign]).toEqual([[], []]);
+    expect(Number.parseInt(await shown.innerText(), 10)).toBeGreaterThan(1_000);
+    await page.context().close();
+  },
+);
 
 it("the policy forbids code from text (negative control)", { timeout: 60_000 }, async () => {
   const { page } = await openPage(browser, { width: 480, height: 360 });

@@ -9,7 +9,7 @@ import {
   type StepwiseTruth,
 } from "../transformation/evaluate.js";
 import type { PointTransform } from "../transformation/link.js";
-import { type ExactTransform, exactTransform } from "./exact.js";
+import type { ExactTransform } from "./exact.js";
 
 /**
  * The one map of a data set, source coordinates → ECEF (or the plane of a map), whatever it was made from: proj4js and a similarity are exactly
@@ -37,28 +37,22 @@ export interface TruthSources {
 }
 
 /**
- * Makes the map of a data set from what its file or its user says. Not reentrant: one per worker.
+ * The map of a data set that its record holds, a transformation or a similarity. It needs no projection of proj4js. Not
+ * reentrant: one per worker.
  *
- * @param middle middle height of the data set, source units
  * @param file name for error messages
+ * @returns undefined where only the CRS says where the data set is: `truthOf`
  * @throws RecordError RECORD_* when the transformation cannot be read
- * @throws CrsError CRS_UNSUPPORTED
  * @throws ArgumentError ARGUMENT_INVALID
  */
-export function truthOf(
-  sources: TruthSources,
-  middle: number,
+export function recordedTruth(
+  sources: Pick<TruthSources, "similarity" | "transformation">,
   file: string,
-): ExactTransform | CompiledTransformation {
-  requireFields(
-    sources,
-    { crs: "object", similarity: "object?", transformation: "bytes?" },
-    "truthOf: sources",
-  );
-  if (sources.transformation)
-    return compileTransformation(decodeTransformation(sources.transformation, file), file);
-  if (sources.similarity) return similarityTransform(sources.similarity);
-  return exactTransform(sources.crs, middle);
+): ExactTransform | CompiledTransformation | undefined {
+  requireFields(sources, { similarity: "object?", transformation: "bytes?" }, "recordedTruth: sources");
+  const { similarity, transformation } = sources;
+  if (transformation) return compileTransformation(decodeTransformation(transformation, file), file);
+  return similarity && similarityTransform(similarity);
 }
 
 /**

@@ -1,7 +1,8 @@
 import type { Vector } from "@groma/georef";
 import { Cartesian3, type Scene } from "cesium";
 import { liftOf } from "../drawing/height-offset.js";
-import { recordVertex, type ScreenPoint, type Vertex, type ViewAdapter } from "../tools/index.js";
+import type { ScreenPoint, Vertex, ViewAdapter } from "../tools/index.js";
+import { recordVertex } from "../tools/measure/vertex/vertex.js";
 import type { PointCloudLayer } from "./point-cloud-layer.js";
 
 /**

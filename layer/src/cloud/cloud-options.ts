@@ -15,7 +15,7 @@ import {
 } from "../options/index.js";
 import type { OpenOptions } from "../sources/open-source.js";
 import type { NodeExecutor, PoolOptions } from "../workers/index.js";
-import type { GeoreferenceOptions } from "./georeference.js";
+import type { GeoreferenceOptions } from "./georeference-options.js";
 import type { HeightData } from "./height-data.js";
 import type { StreamLimits } from "./node-stream.js";
 

@@ -12,7 +12,7 @@ import { SourceError } from "../errors/index.js";
 import { BlobSource } from "../sources/bytes/blob-source.js";
 import { CopcSource } from "../sources/copc/copc-source.js";
 import { type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
-import type { GeoreferenceOptions } from "./georeference.js";
+import type { GeoreferenceOptions } from "./georeference-options.js";
 import {
   datumNote,
   distance,

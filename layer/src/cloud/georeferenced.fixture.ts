@@ -12,7 +12,8 @@ import { BlobSource } from "../sources/bytes/blob-source.js";
 import { CopcSource } from "../sources/copc/copc-source.js";
 import { type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { transformationBytes } from "../workers/transformation.fixture.js";
-import { type GeoreferenceOptions, georeferenceOf } from "./georeference.js";
+import { georeferenceOf } from "./georeference.js";
+import type { GeoreferenceOptions } from "./georeference-options.js";
 import type { HeightData } from "./height-data.js";
 
 export const UTM = "+proj=utm +zone=32 +ellps=WGS84 +towgs84=0,0,0,0,0,0,0 +units=m";

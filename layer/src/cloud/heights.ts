@@ -28,11 +28,8 @@ import {
   verticalLookup,
   withHeights,
 } from "@groma/georef";
-import type { PointSource } from "../sources/contract/point-source.js";
 import type { HeightData } from "./height-data.js";
-
-/** What of a data set its georeference is made from. */
-export type Declared = Pick<PointSource, "name" | "boundingBox" | "scale" | "crs">;
+import type { Declared } from "./recorded-georeference.js";
 
 const DEGREE = Math.PI / 180;
 const CODE = /^\s*EPSG:(\d{1,6})\s*$/i;

@@ -4,6 +4,7 @@ import type { View } from "../octree/index.js";
 import { tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource, type ByteSource } from "../sources/index.js";
 import type { DataSetSpec, NodeExecutor, NodeJob, NodeVertices } from "../workers/index.js";
+import type * as mapOctrees from "./map-octrees.js";
 import type { MapProjection } from "./map-octrees.js";
 import { PointCloud } from "./point-cloud.js";
 
@@ -116,5 +117,16 @@ describe("a data set on maps", () => {
     const { cloud } = await open();
     const far = { ...MERCATOR, code: "far", definition: "+proj=gnom +lat_0=-90 +lon_0=0 +ellps=WGS84" };
     await expect(cloud.maps.acquire(far)).rejects.toThrow(/PLACE_MAP/);
+  });
+
+  it("CRS_NOT_LOADED where a projection is asked for at once, before any is loaded", async () => {
+    // A module of its own: for others of this run the projections may have come already.
+    const fresh = "./map-octrees.js?fresh";
+    const { MapOctrees, loadProjections }: typeof mapOctrees = await import(fresh);
+    const maps = new MapOctrees({ source: { name: "a" } } as never, { now: () => ({}) } as never);
+    const unloaded = expect.objectContaining({ code: "CRS_NOT_LOADED" });
+    expect(() => maps.truthIn(MERCATOR)).toThrow(unloaded);
+    await loadProjections();
+    expect(() => maps.truthIn(MERCATOR)).not.toThrow(unloaded);
   });
 });

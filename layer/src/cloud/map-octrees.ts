@@ -1,21 +1,11 @@
-import {
-  type Crs,
-  ecefToGeodetic,
-  isOwnPlane,
-  type MapPlane,
-  PlacementError,
-  pointTransform,
-  type Truth,
-  truthOnMap,
-} from "@groma/georef";
+import { CrsError, PlacementError, type Truth } from "@groma/georef";
 import { type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
 import type { SourceBox } from "../sources/contract/point-source.js";
-import type { Appearance, DataSetSpec, NodeVertices } from "../workers/index.js";
+import type { Appearance, NodeVertices } from "../workers/index.js";
+import type { PlaceableData, PlaneOfMap } from "./map-truth.js";
 import { NodeGeometry } from "./node-geometry.js";
+import { packagedModule } from "./packaged-file.js";
 import { type OctreeParts, PlacedOctree, SHARED_PAGES } from "./placed-octree.js";
-
-/** The plane of a map, for any data set. */
-export type PlaneOfMap = Pick<MapPlane, "code" | "definition" | "metresPerUnit" | "wraps">;
 
 /** A projection that a map is shown in. */
 export interface MapProjection extends PlaneOfMap {
@@ -23,13 +13,24 @@ export interface MapProjection extends PlaneOfMap {
   readonly tolerance: number;
 }
 
+let loaded: typeof import("./map-truth.js") | undefined;
+
+/** What knows the planes of maps: proj4js and what uses it. */
+async function projections(): Promise<typeof import("./map-truth.js")> {
+  loaded ??= await packagedModule(() => import("./map-truth.js"));
+  return loaded;
+}
+
+/**
+ * Fetches what knows the projections of maps, for those who call `sourceOf` with one before a map has shown points.
+ * @throws SourceError SOURCE_MODULE
+ */
+export async function loadProjections(): Promise<void> {
+  await projections();
+}
+
 /** What is known of a data set that is placed on maps. */
-export interface MapParts {
-  /** Source coordinates → ECEF. */
-  readonly truth: Truth;
-  /** How it is placed on the globe. */
-  readonly spec: DataSetSpec;
-  readonly crs: Crs;
+export interface MapParts extends PlaceableData {
   readonly made: (vertices: NodeVertices) => void;
   /** What may have been found out since the data set was opened. */
   readonly now: () => { readonly boundingBox: SourceBox; readonly appearance: Appearance | undefined };
@@ -87,12 +88,11 @@ export class MapOctrees {
     }
   }
 
-  /** Source coordinates → the plane of a projection. @throws CrsError CRS_UNSUPPORTED */
+  /** Source coordinates → the plane of a projection. @throws CrsError CRS_UNSUPPORTED, CRS_NOT_LOADED */
   truthIn(projection: PlaneOfMap): Truth {
-    const { truth, spec, crs, now } = this.#map;
-    const [low, high] = spec.heights;
-    const plane = this.#planeOf(projection, now().boundingBox);
-    return truthOnMap(truth, plane, (low + high) / 2, crs.verticalUnit.size, this.#parts.source.name);
+    const { name } = this.#parts.source;
+    if (!loaded) throw notLoaded(projection.code);
+    return loaded.truthInPlane(projection, this.#map, this.#map.now().boundingBox, name).onMap;
   }
 
   /** A view ends; what only it used is given up. */
@@ -121,12 +121,11 @@ export class MapOctrees {
   }
 
   async #open(projection: MapProjection): Promise<PlacedOctree> {
-    const { truth, spec, crs, made, now, onGlobe } = this.#map;
+    const { spec, crs, made, now, onGlobe } = this.#map;
     const { source } = this.#parts;
+    const { truthInPlane } = await projections();
     const { boundingBox, appearance } = now();
-    const plane = this.#planeOf(projection, boundingBox);
-    const [low, high] = spec.heights;
-    const onMap = truthOnMap(truth, plane, (low + high) / 2, crs.verticalUnit.size, source.name);
+    const { plane, onMap } = truthInPlane(projection, this.#map, boundingBox, source.name);
     const { cube, spacing } = source;
     const geometry = new NodeGeometry({ cube, spacing, boundingBox }, onMap, crs);
     if (!geometry.bounds(ROOT_KEY)) throw noPlace(source.name, plane.code);
@@ -142,23 +141,6 @@ export class MapOctrees {
       throw thrown;
     }
   }
-
-  #planeOf({ code, definition, metresPerUnit, wraps }: PlaneOfMap, { min, max }: SourceBox): MapPlane {
-    const [x, y, z] = [0, 1, 2].map((axis) => (min[axis] + max[axis]) / 2);
-    const place = new Float64Array(3);
-    pointTransform(this.#map.truth)(x, y, z, place, 0);
-    ecefToGeodetic(place[0], place[1], place[2], place);
-    const plane = {
-      code,
-      definition,
-      metresPerUnit,
-      wraps,
-      middle: Number.isFinite(place[0]) ? place[0] : 0,
-    };
-    const box = { minX: min[0], minY: min[1], maxX: max[0], maxY: max[1] };
-    const body = this.#map.spec.similarity !== undefined;
-    return { ...plane, own: !body && isOwnPlane(this.#map.crs, plane, box) };
-  }
 }
 
 function keyOf({ code, definition, tolerance }: MapProjection): string {
@@ -172,5 +154,14 @@ export function noPlace(file: string, code: string): PlacementError {
     file,
     cause: `part of it has no place in the projection of the map, ${code}`,
     fix: "Show the map in a projection that covers it, for example that of its own coordinate system",
+  });
+}
+
+function notLoaded(code: string): CrsError {
+  return new CrsError({
+    code: "CRS_NOT_LOADED",
+    file: code,
+    cause: "the projections of maps are loaded when a map first shows points, and none has",
+    fix: "call and await loadProjections() before",
   });
 }

@@ -39,3 +39,22 @@ export async function packagedFile<T>(
     fix: "put the files of @groma/layer/dist/cloud beside the code, as bundlers do that follow new URL(…, import.meta.url)",
   });
 }
+
+/**
+ * Fetches code of this library that most pages do not need.
+ *
+ * @param load the `import()` of it, which bundlers follow
+ * @throws SourceError SOURCE_MODULE where it cannot be had
+ */
+export async function packagedModule<T>(load: () => Promise<T>): Promise<T> {
+  try {
+    return await load();
+  } catch (thrown) {
+    throw new SourceError({
+      code: "SOURCE_MODULE",
+      file: "@groma/layer",
+      cause: `a part of this library cannot be loaded: ${thrown instanceof Error ? thrown.message : thrown}`,
+      fix: "serve all files that the bundler has made, and reload the page where they are newer than it is",
+    });
+  }
+}

@@ -4,6 +4,7 @@ import type { View } from "../octree/index.js";
 import type { TinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import type { NodeJob } from "../workers/index.js";
 import { transformationBytes } from "../workers/transformation.fixture.js";
+import { loadProjections } from "./map-octrees.js";
 import { crs, open, record, twoNodes, UTM, withRecord } from "./opened-cloud.fixture.js";
 import { PointCloud } from "./point-cloud.js";
 
@@ -71,6 +72,7 @@ describe("PointCloud", () => {
       definition: `${UTM.replace("+units=m", "+units=ft")} +no_defs`,
       ...{ metresPerUnit: 0.3048, wraps: false },
     };
+    await loadProjections();
     for (const cloud of [carried, derived]) {
       const [x, y, z] = cloud.place(...point);
       const geodetic = new Float64Array(3);

@@ -2,7 +2,7 @@ import type { Vector } from "@groma/georef";
 import { ScreenSpaceEventHandler, ScreenSpaceEventType } from "cesium";
 import type MapBrowserEvent from "ol/MapBrowserEvent.js";
 import { unByKey } from "ol/Observable.js";
-import { DRAWING_CLASS } from "../tools/index.js";
+import { DRAWING_CLASS } from "../tools/draw/view-adapter.js";
 import type { GlobeSide } from "./globe-side.js";
 import type { MapSide } from "./map-side.js";
 

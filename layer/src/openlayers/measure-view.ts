@@ -2,7 +2,8 @@ import DoubleClickZoom from "ol/interaction/DoubleClickZoom.js";
 import type OlMap from "ol/Map.js";
 import { unByKey } from "ol/Observable.js";
 import { fromLonLat } from "ol/proj.js";
-import { recordVertex, type Vertex, type ViewAdapter } from "../tools/index.js";
+import type { Vertex, ViewAdapter } from "../tools/index.js";
+import { recordVertex } from "../tools/measure/vertex/vertex.js";
 import type { PointCloudLayer } from "./point-cloud-layer.js";
 
 const DEGREE = Math.PI / 180;

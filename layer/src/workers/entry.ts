@@ -2,7 +2,13 @@ import { DecodeError, toWire } from "../errors/index.js";
 import { fetchModule } from "../laz/index.js";
 import { decodersWith } from "./decoders.js";
 import { LazDecoder } from "./laz-decoder.js";
-import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
+import {
+  type LoadProjections,
+  type PreparedDataSet,
+  preparedOnce,
+  runNodeJob,
+  runRecordsJob,
+} from "./node-job.js";
 import type { ChunkJob, WorkerReply, WorkerRequest } from "./protocol.js";
 
 /** The worker's side of the protocol. Bundled into one file, `node.worker.js`, by `scripts/copy-assets.mjs`. */
@@ -11,7 +17,7 @@ declare const self: DedicatedWorkerGlobalScope;
 /** A request for work, which is answered. */
 type JobRequest = Extract<WorkerRequest, { readonly job: ChunkJob }>;
 
-const dataSets = new Map<number, PreparedDataSet | unknown>();
+const dataSets = new Map<number, () => Promise<PreparedDataSet>>();
 let wasm: Promise<BufferSource> | undefined;
 
 const laz = new LazDecoder(() => {
@@ -33,12 +39,24 @@ async function fetchDecoder(): Promise<BufferSource> {
   });
 }
 
+/** Fetches what places points by projections, which lies beside this file. @throws DecodeError DECODE_PROJECTIONS */
+const projections: LoadProjections = async () => {
+  const file = new URL("./node.projections.js", import.meta.url).href;
+  try {
+    return await import(/* @vite-ignore */ /* webpackIgnore: true */ file);
+  } catch (thrown) {
+    const cause = thrown instanceof Error ? thrown.message : String(thrown);
+    const fix = "Serve node.projections.js beside node.worker.js";
+    throw new DecodeError({ code: "DECODE_PROJECTIONS", file, cause, fix });
+  }
+};
+
 /** Does what a request asks for and says which buffers go along with the answer. */
 async function carryOut(request: JobRequest): Promise<[WorkerReply, ArrayBufferLike[]]> {
   const { id, job } = request;
-  const dataSet = dataSets.get(job.dataSet);
-  if (dataSet === undefined) throw new Error(`data set ${job.dataSet} is not known to this worker`);
-  if (!isPrepared(dataSet)) throw dataSet;
+  const prepared = dataSets.get(job.dataSet);
+  if (!prepared) throw new Error(`data set ${job.dataSet} is not known to this worker`);
+  const dataSet = await prepared();
   if (request.kind === "node") {
     const result = await runNodeJob(dataSet, request.job, decoders);
     return [{ kind: "vertices", id, result }, [result.buffer]];
@@ -47,19 +65,6 @@ async function carryOut(request: JobRequest): Promise<[WorkerReply, ArrayBufferL
   const { xyz, order, attributes } = result;
   const buffers = new Set([xyz, order, ...attributes.map(({ bytes }) => bytes)].map(({ buffer }) => buffer));
   return [{ kind: "records", id, result }, [...buffers]];
-}
-
-function isPrepared(value: unknown): value is PreparedDataSet {
-  return typeof value === "object" && value !== null && "truth" in value;
-}
-
-function prepare(id: number, request: Extract<WorkerRequest, { kind: "dataSet" }>): void {
-  try {
-    dataSets.set(id, prepareDataSet(request.spec));
-  } catch (thrown) {
-    // Kept and thrown again by each job, where there is someone to hear it.
-    dataSets.set(id, thrown);
-  }
 }
 
 async function answer(request: JobRequest): Promise<void> {
@@ -78,7 +83,7 @@ async function answer(request: JobRequest): Promise<void> {
 }
 
 self.onmessage = ({ data }: MessageEvent<WorkerRequest>) => {
-  if (data.kind === "dataSet") prepare(data.id, data);
+  if (data.kind === "dataSet") dataSets.set(data.id, preparedOnce(data.spec, projections));
   else if (data.kind === "forget") dataSets.delete(data.id);
   else void answer(data);
 };

@@ -1,12 +1,12 @@
 import { type Decoders, decodersWith } from "./decoders.js";
 import type { LazDecoder } from "./laz-decoder.js";
-import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
+import { type PreparedDataSet, preparedOnce, runNodeJob, runRecordsJob } from "./node-job.js";
 import type { ChunkJob, DataSetSpec, NodeExecutor, NodeJob, NodeRecords, NodeVertices } from "./protocol.js";
 
 /** Carries out node jobs on the calling thread: for tools and tests, where nothing else waits for it. */
 export class LocalExecutor implements NodeExecutor {
   readonly #decoders: Decoders;
-  readonly #dataSets = new Map<number, PreparedDataSet>();
+  readonly #dataSets = new Map<number, () => Promise<PreparedDataSet>>();
   #next = 1;
   #pending = 0;
 
@@ -19,7 +19,10 @@ export class LocalExecutor implements NodeExecutor {
   }
 
   addDataSet(spec: DataSetSpec): number {
-    this.#dataSets.set(this.#next, prepareDataSet(spec));
+    this.#dataSets.set(
+      this.#next,
+      preparedOnce(spec, () => import("./projections.js")),
+    );
     return this.#next++;
   }
 
@@ -49,7 +52,7 @@ export class LocalExecutor implements NodeExecutor {
     if (!dataSet) throw new Error(`data set ${job.dataSet} was never added or is removed`);
     this.#pending++;
     try {
-      return await work(dataSet);
+      return await work(await dataSet());
     } finally {
       this.#pending--;
     }

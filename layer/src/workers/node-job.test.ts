@@ -2,7 +2,7 @@ import { ecefToGeodetic, placePoint, pointIn, resolveCrs } from "@groma/georef";
 import { beforeAll, describe, expect, it } from "vitest";
 import { recordFields } from "../sources/las/record-fields.js";
 import type { Decoders } from "./decoders.js";
-import { type PreparedDataSet, prepareDataSet, runNodeJob, runRecordsJob } from "./node-job.js";
+import { type PreparedDataSet, prepareDataSet, preparedOnce, runNodeJob, runRecordsJob } from "./node-job.js";
 import type { Column, DataSetSpec, NodeJob, NodeVertices } from "./protocol.js";
 import { extraBytes } from "./record.fixture.js";
 import { transformationBytes } from "./transformation.fixture.js";
@@ -53,6 +53,8 @@ const job: NodeJob = {
 const sourceOf = ({ scale, offset }: DataSetSpec, { order }: NodeVertices, point: number) =>
   [0, 1, 2].map((axis) => XYZ[3 * order[point] + axis] * scale[axis] + offset[axis]);
 
+const prepared = (spec: DataSetSpec) => prepareDataSet(spec, () => import("./projections.js"));
+
 /** Exact place of a drawn point, ECEF. */
 function placeOf(dataSet: PreparedDataSet, vertices: NodeVertices, point: number): Float64Array {
   const [x, y, z] = sourceOf(dataSet.spec, vertices, point);
@@ -63,7 +65,7 @@ function placeOf(dataSet: PreparedDataSet, vertices: NodeVertices, point: number
 
 /** Greatest distance of a stored vertex from where the data set's own map has it, and the node's bound. */
 async function worst(spec: DataSetSpec): Promise<{ distance: number; bound: number }> {
-  const dataSet = prepareDataSet(spec);
+  const dataSet = await prepared(spec);
   const vertices = await runNodeJob(dataSet, job, decoders);
   const { positions, frame, bound, count } = vertices;
   let distance = 0;
@@ -106,7 +108,8 @@ describe("runNodeJob", () => {
   });
 
   it("moves positions to whole steps where the tolerance has room for that, and fits closer to make room", async () => {
-    const at = (tolerance: number) => runNodeJob(prepareDataSet({ ...plain, tolerance }), job, decoders);
+    const at = async (tolerance: number) =>
+      runNodeJob(await prepared({ ...plain, tolerance }), job, decoders);
     const [coarse, close, fine] = await Promise.all([0.1, 0.0005, 0.0001].map(at));
     // 500 m to each side are 2²⁰ steps of half a millimetre.
     expect([coarse.step, close.step, fine.step]).toEqual([2 ** -11, 2 ** -11, undefined]);
@@ -141,7 +144,7 @@ describe("runNodeJob", () => {
       offset: [0, 0, 0],
       heights: [0, 1],
     };
-    const dataSet = prepareDataSet(spec);
+    const dataSet = await prepared(spec);
     const { frame, bound } = await runNodeJob(dataSet, { ...job, cube: [-180, -180, -180, 360] }, sides);
     const place = new Float64Array(3);
     placePoint(dataSet.truth, 179.999, -17, 0, place);
@@ -152,7 +155,7 @@ describe("runNodeJob", () => {
   it("puts heights above the geoid where the geoid is", async () => {
     const frames = [];
     for (const spec of [plain, { ...plain, transformation }]) {
-      frames.push((await runNodeJob(prepareDataSet(spec), job, decoders)).frame);
+      frames.push((await runNodeJob(await prepared(spec), job, decoders)).frame);
     }
     const [flat, lifted] = frames.map(({ origin }) => [...origin]);
     expect(Math.hypot(...lifted.map((value, axis) => value - flat[axis]))).toBeCloseTo(40, 3);
@@ -160,7 +163,7 @@ describe("runNodeJob", () => {
 
   it("says how high each point is, by its source and above the ellipsoid", async () => {
     for (const spec of [plain, { ...plain, transformation }]) {
-      const dataSet = prepareDataSet(spec);
+      const dataSet = await prepared(spec);
       const vertices = await runNodeJob(dataSet, job, decoders);
       const elevation = vertices.columns.get("elevation")!;
       const ellipsoidalHeight = vertices.columns.get("ellipsoidalHeight")!;
@@ -181,7 +184,7 @@ describe("runNodeJob", () => {
 
   it("maps the node frame back into the node's cube within its error", async () => {
     for (const spec of [plain, { ...plain, transformation }]) {
-      const vertices = await runNodeJob(prepareDataSet(spec), job, decoders);
+      const vertices = await runNodeJob(await prepared(spec), job, decoders);
       const { toCube, toCubeError, positions } = vertices;
       let off = 0;
       for (let point = 0; point < vertices.count; point++) {
@@ -200,7 +203,7 @@ describe("runNodeJob", () => {
   });
 
   it("puts all arrays into the one buffer that is transferred, and measures what it was not told", async () => {
-    const dataSet = prepareDataSet(plain);
+    const dataSet = await prepared(plain);
     const { buffer, bytes, positions, order, columns, seen } = await runNodeJob(dataSet, job, decoders);
     expect([positions.buffer, order.buffer, columns.get("elevation")?.data.buffer]).toEqual([
       buffer,
@@ -222,7 +225,7 @@ describe("runNodeJob", () => {
   it("has a column for each attribute, also under names that objects inherit, and a range of it", async () => {
     const extra = extraBytes({ name: "__proto__", type: "uint8" }, { name: "toString", type: "uint8" });
     const encoding = { ...plain.encoding, recordLength: RECORD + 2, fields: recordFields(7, extra) };
-    const dataSet = prepareDataSet({ ...plain, encoding });
+    const dataSet = await prepared({ ...plain, encoding });
     const { columns, seen } = await runNodeJob(dataSet, { ...job, appearance: undefined }, decoders);
     for (const name of ["__proto__", "toString"]) {
       expect(columns.get(name)?.constant, name).toEqual([0]);
@@ -242,7 +245,7 @@ describe("runNodeJob", () => {
         },
       },
     };
-    const dataSet = prepareDataSet(plain);
+    const dataSet = await prepared(plain);
     const bitsBy = async (appearance: NodeJob["appearance"], by = bright) => {
       const { rgbBits, columns, order } = await runNodeJob(dataSet, { ...job, appearance }, by);
       return [rgbBits, columns.get("rgb")?.data[4 * order.indexOf(1)]];
@@ -256,7 +259,7 @@ describe("runNodeJob", () => {
   });
 
   it("hands out the records themselves in the same drawing order", async () => {
-    const dataSet = prepareDataSet(plain);
+    const dataSet = await prepared(plain);
     const { order } = await runNodeJob(dataSet, job, decoders);
     const records = await runRecordsJob(dataSet, job, decoders);
     expect(records.order).toEqual(order);
@@ -266,7 +269,7 @@ describe("runNodeJob", () => {
   it("DECODE_TOO_LARGE for a node of too many points, without decoding it", async () => {
     const bomb = { ...job, pointCount: 2 ** 24 };
     const never: Decoders = { laz: { decode: () => Promise.reject(new Error("decoded")) } };
-    const dataSet = prepareDataSet(plain);
+    const dataSet = await prepared(plain);
     for (const work of [runNodeJob(dataSet, bomb, never), runRecordsJob(dataSet, bomb, never)]) {
       await expect(work).rejects.toThrow(expect.objectContaining({ code: "DECODE_TOO_LARGE" }));
     }
@@ -274,16 +277,32 @@ describe("runNodeJob", () => {
 
   it("PLACE_DOMAIN for points beyond what the transformation covers", async () => {
     const smaller = await transformationBytes(crs, { ...DOMAIN, maxX: 500_900 }, 40);
-    const dataSet = prepareDataSet({ ...plain, transformation: smaller });
+    const dataSet = await prepared({ ...plain, transformation: smaller });
     await expect(runNodeJob(dataSet, job, decoders)).rejects.toThrow(
       expect.objectContaining({ code: "PLACE_DOMAIN" }),
     );
   });
 
-  it("RECORD_TRUNCATED for a transformation that is cut", () => {
-    expect(() => prepareDataSet({ ...plain, transformation: transformation.slice(0, 99) })).toThrow(
+  it("RECORD_TRUNCATED for a transformation that is cut", async () => {
+    await expect(prepared({ ...plain, transformation: transformation.slice(0, 99) })).rejects.toThrow(
       expect.objectContaining({ code: "RECORD_TRUNCATED" }),
     );
+  });
+
+  it("asks for the projections only where the record does not say where the points are, and again after a failure", async () => {
+    let asked = 0;
+    const projections = async () => {
+      if (++asked === 1) throw new Error("offline");
+      return import("./projections.js");
+    };
+    const { transformation: _, ...foreign } = plain;
+    const known = preparedOnce({ ...foreign, transformation }, projections);
+    expect(await known()).toBe(await known());
+    expect(asked).toBe(0);
+    const unknown = preparedOnce(foreign, projections);
+    await expect(unknown()).rejects.toThrow("offline");
+    expect(await unknown()).toBe(await unknown());
+    expect(asked).toBe(2);
   });
 });
 
@@ -298,7 +317,7 @@ describe("a node job for a map", () => {
   };
 
   it("places in its plane, to the bound, with heights above the ellipsoid", async () => {
-    const dataSet = prepareDataSet({ ...plain, plane });
+    const dataSet = await prepared({ ...plain, plane });
     const vertices = await runNodeJob(dataSet, job, decoders);
     const { frame, positions, columns, bound } = vertices;
     expect(bound).toBeLessThanOrEqual(0.001);
@@ -315,10 +334,10 @@ describe("a node job for a map", () => {
   });
 
   it("tells where it lies on the globe, for volumes, to the error that it states", async () => {
-    const dataSet = prepareDataSet({ ...plain, plane });
+    const dataSet = await prepared({ ...plain, plane });
     const vertices = await runNodeJob(dataSet, job, decoders);
     const { frame, box, fromMap, error } = vertices.onGlobe!;
-    const globe = prepareDataSet(plain);
+    const globe = await prepared(plain);
     let worst = 0;
     for (let point = 0; point < vertices.count; point++) {
       const [x, y, z] = placeOf(globe, vertices, point);

@@ -8,9 +8,8 @@ import {
   type PointTransform,
   placeIntegers,
   pointTransform,
+  recordedTruth,
   type Truth,
-  truthOf,
-  truthOnMap,
 } from "@groma/georef";
 import { badChunk } from "./chunk-layout.js";
 import { cubeMap, localOf } from "./cube-map.js";
@@ -40,14 +39,38 @@ export interface PreparedDataSet {
   readonly globe?: PointTransform;
 }
 
-/** Makes the map of a data set. @throws CrsError, RecordError */
-export function prepareDataSet(spec: DataSetSpec): PreparedDataSet {
+/** What brings the projections that a data set may need; called only then. */
+export type LoadProjections = () => Promise<typeof import("./projections.js")>;
+
+/** Makes the map of a data set. @throws CrsError, RecordError; what keeps the projections away */
+export async function prepareDataSet(
+  spec: DataSetSpec,
+  projections: LoadProjections,
+): Promise<PreparedDataSet> {
   const { plane, heights, file, crs } = spec;
   const middle = (heights[0] + heights[1]) / 2;
-  const truth = truthOf(spec, middle, file);
+  const recorded = recordedTruth(spec, file);
+  if (recorded && !plane) return { spec, truth: recorded };
+  const { truthOf, truthOnMap } = await projections();
+  const truth = recorded ?? truthOf(spec, middle, file);
   if (!plane) return { spec, truth };
   const onMap = truthOnMap(truth, plane, middle, crs.verticalUnit.size, file);
   return { spec, truth: onMap, globe: pointTransform(truth) };
+}
+
+/** The same once, for all jobs; what keeps it away is told to each of them, and the next one tries again. */
+export function preparedOnce(
+  spec: DataSetSpec,
+  projections: LoadProjections,
+): () => Promise<PreparedDataSet> {
+  let prepared: Promise<PreparedDataSet> | undefined;
+  return () => {
+    prepared ??= prepareDataSet(spec, projections).catch((thrown: unknown) => {
+      prepared = undefined;
+      throw thrown;
+    });
+    return prepared;
+  };
 }
 
 /**
