@@ -45,6 +45,8 @@ export default defineConfig({
     // One fewer without this: half of a machine with two cores.
     maxWorkers: availableParallelism(),
     setupFiles: ["tests/properties.ts"],
+    // What a page is to show comes within a second on a quiet machine, and not on a busy one.
+    expect: { poll: { timeout: 60_000 } },
     projects: Object.entries(rooms).map(([name, include]) => ({
       extends: true,
       test: {

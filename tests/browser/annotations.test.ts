@@ -23,7 +23,6 @@ beforeAll(async () => {
   server = await view(scan, ["--crs", "EPSG:32632", "--vertical", "ellipsoidal"]);
   browser = await sharedBrowser();
   ({ page } = await openPage(browser, { width: 900, height: 560 }));
-  page.setDefaultTimeout(120_000);
 }, 180_000);
 
 afterAll(async () => {

@@ -105,6 +105,8 @@ export async function openPage(
 ): Promise<{ page: Page; watch: Watch }> {
   const context = await browser.newContext({ viewport: size, deviceScaleFactor: 1 });
   const page = await context.newPage();
+  // On a busy machine a page takes many times as long as on a quiet one.
+  page.setDefaultTimeout(120_000);
   const watch: Watch = { errors: [], foreign: [] };
   page.on("console", (message) => {
     if (message.type() === "error") watch.errors.push(message.text());

@@ -42,7 +42,6 @@ beforeAll(async () => {
   server = await view(file("placed.copc.laz"));
   browser = await sharedBrowser();
   ({ page, watch } = await openPage(browser, { width: 640, height: 480 }));
-  page.setDefaultTimeout(120_000);
   page.on("request", (request) => fetched.push(new URL(request.url()).pathname.split("/").at(-1)!));
   await page.addInitScript(() => {
     (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;
@@ -85,7 +84,7 @@ function chunksOf(copc: Buffer): Buffer {
 
 it("of a scan whose header announces too many points it is said how to convert it", async () => {
   await page.setInputFiles("#file", file("large.las"));
-  await expect.poll(codes, { timeout: 60_000 }).toEqual(["INDEX_POINTS"]);
+  await expect.poll(codes).toEqual(["INDEX_POINTS"]);
   expect(await page.textContent("#message")).toContain("groma convert IN OUT.copc.laz");
   expect(hasCore()).toBe(false);
 });
@@ -93,7 +92,7 @@ it("of a scan whose header announces too many points it is said how to convert i
 it("the core that is not to be had is told", async () => {
   await page.route(/groma-core.*\.wasm/, (route) => route.fulfill({ status: 404 }));
   await page.setInputFiles("#file", file("scan.las"));
-  await expect.poll(codes, { timeout: 60_000 }).toEqual(["INDEX_CORE"]);
+  await expect.poll(codes).toEqual(["INDEX_CORE"]);
   expect(await page.textContent("#message")).toContain("HTTP 404");
   await page.unrouteAll();
   watch.errors.length = 0;
@@ -101,7 +100,7 @@ it("the core that is not to be had is told", async () => {
 
 it("of a damaged scan the core's own code is told", async () => {
   await page.setInputFiles("#file", file("damaged.laz"));
-  await expect.poll(codes, { timeout: 60_000 }).toEqual(["INPUT_CORRUPT"]);
+  await expect.poll(codes).toEqual(["INPUT_CORRUPT"]);
   expect(await page.textContent("#message")).toMatch(/damaged\.laz: a chunk of \d+ bytes cannot be decoded/);
   expect(hasCore()).toBe(true);
   expect(await names()).toEqual([]);
@@ -134,7 +133,7 @@ it("one that is written to while it is read is told as that, and not as damaged"
     await route.continue();
   });
   await page.setInputFiles("#file", file("other.las"));
-  await expect.poll(codes, { timeout: 60_000 }).toEqual(["SOURCE_CHANGED"]);
+  await expect.poll(codes).toEqual(["SOURCE_CHANGED"]);
   expect(await page.textContent("#message")).toContain("Choose the file again");
   await page.unrouteAll();
 });
@@ -154,15 +153,15 @@ it("a folder that is dropped is told as one, and the file beside it is opened", 
 it("one that is given up meanwhile ends its worker, and leaves nothing", async () => {
   await listen("2 of 3");
   await page.setInputFiles("#file", file("scan.las"));
-  await expect.poll(async () => (await told()).at(-1), { timeout: 60_000 }).toContain("building the octree");
-  await expect.poll(names, { timeout: 60_000 }).toEqual([]);
+  await expect.poll(async () => (await told()).at(-1)).toContain("building the octree");
+  await expect.poll(names).toEqual([]);
   await expect.poll(() => page.workers().filter((one) => /index/.test(one.url())).length).toBe(0);
   expect(await codes()).toEqual([]);
 });
 
 it("without a coordinate system it is asked for, and what was indexed is taken up again", async () => {
   await page.setInputFiles("#file", file("scan.las"));
-  await expect.poll(codes, { timeout: 60_000 }).toEqual(["CRS_MISSING"]);
+  await expect.poll(codes).toEqual(["CRS_MISSING"]);
   await page.fill("#crs", "EPSG:32632");
   await listen();
   await page.setInputFiles("#file", file("scan.las"));
@@ -198,10 +197,10 @@ it("scans that others are compared with are indexed too, the last one that was c
   const note = () => page.textContent("#compare-note");
   await page.setInputFiles("#compare-file", file("dropped.las"));
   await page.setInputFiles("#compare-file", file("other.laz"));
-  await expect.poll(note, { timeout: 60_000 }).toContain("other.laz is open");
+  await expect.poll(note).toContain("other.laz is open");
   expect(await codes()).toEqual([]);
   await page.setInputFiles("#compare-file", file("dropped.las"));
-  await expect.poll(codes, { timeout: 60_000 }).toEqual(["CRS_MISSING"]);
+  await expect.poll(codes).toEqual(["CRS_MISSING"]);
   expect(await note()).toBe("");
 });
 

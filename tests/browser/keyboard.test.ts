@@ -46,7 +46,6 @@ const expected = (name: string) => join(import.meta.dirname, "expected", `${name
 
 it("from an empty page to an exported profile, by keyboard alone", { timeout: 300_000 }, async () => {
   const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
-  page.setDefaultTimeout(120_000);
   await page.addInitScript(() => {
     (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;
   });
@@ -119,7 +118,6 @@ it("from an empty page to an exported profile, by keyboard alone", { timeout: 30
 
 it("moves about the globe by keyboard alone, with a sheet of the keys", { timeout: 240_000 }, async () => {
   const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
-  page.setDefaultTimeout(120_000);
   await page.emulateMedia({ reducedMotion: "reduce" });
   await page.goto(server.address);
   await settle(page);
@@ -165,7 +163,6 @@ it("on a phone, what is drawn has the view for itself, with a way out that needs
   timeout: 240_000,
 }, async () => {
   const { page, watch } = await openPage(browser, { width: 390, height: 700 });
-  page.setDefaultTimeout(120_000);
   await page.goto(`${server.address}&fly=0&budget=2000`);
   await settle(page);
   const free = () =>

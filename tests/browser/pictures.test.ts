@@ -51,7 +51,6 @@ describe.skipIf(left)(`pictures of the manual${left ? ` (skipped: ${left})` : ""
     const server = await view(converted(scan));
     servers.push(server);
     const { page } = await openPage(browser, size);
-    page.setDefaultTimeout(120_000);
     await page.goto(`${server.address}&fly=0&${query}`);
     await settle(page);
     return page;

@@ -57,7 +57,6 @@ describe.skipIf(scan.missing)(
       timeout: 480_000,
     }, async () => {
       const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
-      page.setDefaultTimeout(120_000);
       // Browsers with a file picker ask the user; the download is what a test can take.
       await page.addInitScript(() => {
         (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;
@@ -90,7 +89,7 @@ describe.skipIf(scan.missing)(
       const downloading = page.waitForEvent("download");
       await page.click("#profile-export");
       const download = await downloading;
-      expect(download.suggestedFilename()).toBe("vol_total-profile.las");
+      expect(download.suggestedFilename()).toBe("vol_total-Line 1.las");
       const exported = join(folder, "page.las");
       await download.saveAs(exported);
 

@@ -43,7 +43,6 @@ beforeAll(async () => {
   const opened = await openPage(browser, SIZE);
   ({ page } = opened);
   ({ errors } = opened.watch);
-  page.setDefaultTimeout(120_000);
   // What the pictures say, as it is drawn on them.
   await page.addInitScript(() => {
     (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;

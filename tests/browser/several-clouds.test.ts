@@ -42,7 +42,6 @@ beforeAll(async () => {
   elsewhere = await BadServer.start(readFileSync(survey("second", [501_200, 5_000_000, 0])));
   browser = await sharedBrowser();
   ({ page } = await openPage(browser, { width: 800, height: 500 }));
-  page.setDefaultTimeout(120_000);
 }, 180_000);
 
 afterAll(async () => {

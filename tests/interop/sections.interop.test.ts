@@ -149,6 +149,13 @@ describe.skipIf(REFUSED)(`cross-sections of a real scan${REFUSED ? ` (skipped: $
     expect(cut("axis.dxf", "--line", alignment)).toMatchObject({ code: 0 });
     const texts = readFileSync(join(folder, "axis.dxf"), "latin1").match(/(?<=\n1\n)\d+\.\d\d(?=\n)/g);
     expect(texts).toEqual(["1000.00", "5023.61", "5123.61"]);
+    expect(cut("axis.svg", "--line", alignment)).toMatchObject({ code: 0 });
+    const marks = readFileSync(join(folder, "axis.svg"), "utf8").match(/(?<=>)\d\+\d{3}(?=<)/g);
+    expect(marks).toEqual(
+      [0, 20, 40, 60, 80, 100, 120, 140, 160, 180]
+        .map((at) => `1+${String(at).padStart(3, "0")}`)
+        .concat([0, 20, 40, 60, 80, 100, 120].map((at) => `5+${String(at).padStart(3, "0")}`)),
+    );
   });
 
   it("are refused in formats and at stations that there are not, before anything is read", {

@@ -73,7 +73,12 @@ function range(name: "elevation" | "intensity" | "gpsTime", label: string): Rang
     kind: "range",
     id: `filter-${name}`,
     label,
-    when: (layer) => attribute(layer) !== undefined,
+    when: (layer) => {
+      const { range: [least, most] = [] } = attribute(layer) ?? {};
+      const limited = layer.filter?.ranges?.[name] !== undefined;
+      // What all points have alike tells none of them apart.
+      return attribute(layer) !== undefined && (limited || least === undefined || least !== most);
+    },
     whole: (layer) => attribute(layer)?.range,
     read: ({ filter }) => filter?.ranges?.[name],
     write(layer, value) {

@@ -56,7 +56,7 @@ export class Comparison {
   offer(clouds: readonly PointCloud[]): void {
     const lost = this.#cloud && this.#offered.includes(this.#cloud) && !clouds.includes(this.#cloud);
     this.#offered = clouds;
-    const others = clouds.map(({ name }, at) => optionElement({ value: String(at), label: name }));
+    const others = namesApart(clouds).map((label, at) => optionElement({ value: String(at), label }));
     this.#choice.replaceChildren(optionElement({ value: "", label: i18n.t("compare with…") }), ...others);
     this.#choice.hidden = clouds.length === 0;
     if (this.#cloud && !lost) this.#choice.value = String(clouds.indexOf(this.#cloud));
@@ -148,4 +148,12 @@ function referencesOf(...systems: Pick<Crs, "height">[]): string[] {
       second: libraryWords(second),
     }),
   ];
+}
+
+/** Names of clouds; those of one name have a number behind it, by which a reader tells them apart. */
+function namesApart(clouds: readonly PointCloud[]): string[] {
+  return clouds.map(({ name }, at) => {
+    const namesakes = clouds.filter((other) => other.name === name);
+    return namesakes.length > 1 ? `${name} (${namesakes.indexOf(clouds[at]!) + 1})` : name;
+  });
 }

@@ -11,6 +11,7 @@ import {
   type GroundOptions,
   MemorySink,
   narrowed,
+  type PictureFileOptions,
   type PointExportOptions,
 } from "@groma/layer/export";
 import { OFFSET, type PlotDrawing } from "@groma/layer/plot";
@@ -20,7 +21,7 @@ import { i18n } from "../language/i18n.js";
 /** What files of a profile are made with. */
 export interface FileChoices extends ExportOptions {
   readonly title: string;
-  readonly exaggeration: number;
+  readonly exaggeration: PictureFileOptions["exaggeration"];
   readonly ground: GroundOptions | undefined;
   /** Stations of the line, metres, where they are not its chainages. */
   readonly stations?: StationEquations | undefined;

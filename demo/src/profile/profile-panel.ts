@@ -12,8 +12,7 @@ import {
 import type { Viewer } from "cesium";
 import { i18n } from "../language/i18n.js";
 import { fixed } from "../language/numbers.js";
-import { byId, optionElement, setText } from "../panel/elements.js";
-import { ExportJob } from "../panel/export-job.js";
+import { byId, setText } from "../panel/elements.js";
 import { isNarrow } from "../panel/fold.js";
 import { ClearanceWords } from "./clearance.js";
 import { Comparison } from "./comparison.js";
@@ -24,7 +23,7 @@ import { measuredWords, TOLERANCE } from "./measured-words.js";
 import { ProfilePlot, placeOf } from "./plot.js";
 import { PlotStyle } from "./plot-style.js";
 import { axisWords, pointPlace, pointWords, profileWords } from "./point-words.js";
-import { FORMATS, writeProfile } from "./profile-files.js";
+import { type ExportedProfile, ProfileExport } from "./profile-export.js";
 import { type GroundChoice, groundOf, intervalFor, statisticWords } from "./profile-ground.js";
 import { type DrawnLine, ProfileLines } from "./profile-lines.js";
 import { PlaceMark, StripOutline } from "./strip-outline.js";
@@ -63,8 +62,6 @@ export class ProfilePanel {
   readonly #status = byId("profile-status", HTMLElement);
   readonly #readout = byId("profile-readout", HTMLElement);
   readonly #start = byId("profile-draw", HTMLButtonElement);
-  readonly #format = byId("profile-format", HTMLSelectElement);
-  readonly #export = byId("profile-export", HTMLButtonElement);
   readonly #stretch = byId("profile-stretch", HTMLInputElement);
   readonly #style: PlotStyle;
   readonly #groundBy = byId("profile-ground", HTMLSelectElement);
@@ -72,14 +69,15 @@ export class ProfilePanel {
   readonly #measure = byId("profile-measure", HTMLButtonElement);
   readonly #tableShown = byId("profile-table-shown", HTMLInputElement);
   readonly #table = byId("profile-table", HTMLElement);
-  readonly #interval = byId("profile-interval", HTMLInputElement);
-  readonly #job: ExportJob;
+  readonly #export: ProfileExport;
   #plot: ProfilePlot | undefined;
   #profile: Profile | undefined;
   #work: AbortController | undefined;
   #grounding: AbortController | undefined;
   #ground: TerrainStation[] = [];
   #measured: PlotPlace[] = [];
+  /** How much heights are stretched, where the reader asked for a number. */
+  #stretched: number | undefined;
 
   constructor(viewer: Viewer, layer: () => PointCloudLayer | undefined, events: ProfileEvents) {
     this.#layer = layer;
@@ -97,8 +95,7 @@ export class ProfilePanel {
       this.#lineTools.width = Number(width.toPrecision(3));
     };
     this.#outline = new StripOutline(viewer, layer, widened, events.failed);
-    this.#job = new ExportJob(this.#export, this.#status, () => void this.#save(), events.failed);
-    for (const [value, { label }] of FORMATS) this.#format.append(optionElement({ value, label }));
+    this.#export = new ProfileExport(this.#status, () => this.#exported(), events.failed);
     this.#connect();
   }
 
@@ -166,17 +163,17 @@ export class ProfilePanel {
     on(this.#start, "click", () => (this.drawing ? this.finish() : this.#begin()));
     on(byId("profile-close", HTMLButtonElement), "click", () => this.#close());
     on(byId("profile-fit", HTMLButtonElement), "click", () => this.#plot?.fit());
-    on(byId("profile-true", HTMLButtonElement), "click", () => this.#plot?.stretch(1));
-    on(this.#stretch, "change", () => {
-      if (this.#stretch.valueAsNumber > 0) this.#plot?.stretch(this.#stretch.valueAsNumber);
-    });
+    on(byId("profile-true", HTMLButtonElement), "click", () => this.#stretchBy(1));
+    on(this.#stretch, "change", () => this.#stretchBy(this.#stretch.valueAsNumber));
     for (const field of [this.#groundBy, this.#groundClass, this.#tableShown])
       on(field, "change", () => void this.#groundAnew());
     on(this.#measure, "click", () => this.#toggleMeasuring());
-    const interval = byId("profile-every", HTMLElement);
-    on(this.#format, "change", () => {
-      interval.hidden = this.#format.value !== "sections";
-    });
+  }
+
+  #stretchBy(exaggeration: number): void {
+    if (!(exaggeration > 0)) return;
+    this.#stretched = exaggeration;
+    this.#plot?.stretch(exaggeration);
   }
 
   #begin(): void {
@@ -192,7 +189,7 @@ export class ProfilePanel {
   }
 
   #close(): void {
-    this.#job.cancel();
+    this.#export.cancel();
     this.lines.tool.cancel();
     this.lines.choose(undefined);
     this.#forget();
@@ -225,7 +222,7 @@ export class ProfilePanel {
 
   #tellState(): void {
     setText(this.#start, this.drawing ? i18n.t("End the line") : i18n.t("Draw a profile"));
-    this.#export.disabled = this.#profile === undefined;
+    this.#export.possible = this.#profile !== undefined;
   }
 
   #picture(): ProfilePlot {
@@ -307,6 +304,7 @@ export class ProfilePanel {
     try {
       const found = await groundOf(profile, wanted ? plot.parts : [], { ...choice, statistic }, signal);
       this.#ground = found;
+      this.#tellGround(choice.classification, plot);
       plot.ground = this.#groundBy.value === "" && !this.comparison.active ? [] : found;
       const second = await groundOf(profile, this.comparison.parts, { ...choice, statistic }, signal);
       plot.secondGround = this.comparison.active ? second : [];
@@ -316,6 +314,18 @@ export class ProfilePanel {
     } catch (thrown) {
       if (!signal.aborted) this.#events.failed(thrown);
     }
+  }
+
+  /** Tells where there is no ground for want of points of the class that was asked for. */
+  #tellGround(classification: number | undefined, { count }: ProfilePlot): void {
+    const points = this.#ground.reduce((sum, station) => sum + station.count, 0);
+    const missing = classification !== undefined && this.#ground.length > 0 && count > 0 && points === 0;
+    const words = missing
+      ? i18n.t("No point along the line is of class {number}: there is no ground.", {
+          number: classification,
+        })
+      : "";
+    setText(byId("profile-ground-words", HTMLElement), words);
   }
 
   #showTable(statistic: TerrainStatistic): void {
@@ -368,29 +378,26 @@ export class ProfilePanel {
     }
   }
 
-  async #save(): Promise<void> {
+  /** Drawings to scale have heights in a round scale too, unless the reader asked for another. */
+  #drawnStretch(): ExportedProfile["exaggeration"] {
+    const most = Number(this.#plot?.view.exaggeration.toPrecision(3) ?? 1);
+    return most === Number(this.#stretched?.toPrecision(3)) ? most : { most };
+  }
+
+  #exported(): ExportedProfile | undefined {
     const [profile, layer] = [this.#profile, this.#layer()];
-    const format = FORMATS.get(this.#format.value);
-    if (!profile || !layer || !format) return;
+    if (!profile || !layer) return undefined;
     const { statistic, classification } = this.#groundChoice();
-    const { unit } = profile;
     const classes = classification === undefined ? undefined : new Set([classification]);
-    const chosen = this.#groundBy.value !== "";
-    const stem = profile.origin.name.replace(/(\.copc)?\.laz$/i, "");
-    await this.#job.save(`${stem}-profile.${format.ending}`, (sink, options) =>
-      writeProfile(format, profile, sink, {
-        ...options,
-        title: this.lines.chosen?.name ?? stem,
-        exaggeration: Number(this.#plot?.view.exaggeration.toPrecision(3) ?? 1),
-        drawing: this.#style.of(layer),
-        stations: this.lines.stations,
-        ground: chosen ? { interval: intervalFor(profile.length) / unit, statistic, classes } : undefined,
-        sections: {
-          interval: this.#interval.valueAsNumber || 10,
-          width: 40,
-          thickness: this.#lineTools.width,
-        },
-      }),
-    );
+    const interval = intervalFor(profile.length) / profile.unit;
+    return {
+      profile,
+      name: this.lines.chosen?.name,
+      exaggeration: this.#drawnStretch(),
+      drawing: this.#style.of(layer),
+      stations: this.lines.stations,
+      ground: this.#groundBy.value === "" ? undefined : { interval, statistic, classes },
+      thickness: this.#lineTools.width,
+    };
   }
 }

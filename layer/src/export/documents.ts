@@ -21,6 +21,8 @@ export const USUAL_GROUND: GroundOptions = { interval: 1 };
 export interface PictureFileOptions extends DocumentOptions {
   /** Both true to scale. */
   readonly format: "pdf" | "svg";
+  /** Stations as they stand at the axis, by chainage: those of station equations. Default: the axis has chainages. */
+  readonly stationOf?: ((chainage: number) => number) | undefined;
 }
 
 /**
@@ -39,7 +41,9 @@ export async function exportPicture(
 ): Promise<number> {
   const line = lineOf(selections);
   const { told, count } = counting(options);
-  const { sheet } = await drawSheet(selections, spanOf(line), options.facts.title, "chainage", told);
+  const { stationOf } = options;
+  const axis = { word: stationOf ? "station" : "chainage", stationOf };
+  const { sheet } = await drawSheet(selections, spanOf(line), options.facts.title, axis, told);
   const bytes =
     options.format === "svg"
       ? new TextEncoder().encode(svgOf(sheet))

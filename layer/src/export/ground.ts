@@ -2,6 +2,7 @@ import { TerrainLine, type TerrainOptions, type TerrainStatistic } from "../tool
 import { eachAlong, eachPainted, type PaintOptions, type PointAlong } from "./along.js";
 import { type CutFacts, coordinatesInWords, type LengthUnit } from "./cut-facts.js";
 import type { GroundRuns } from "./landxml.js";
+import type { PictureWords } from "./picture/layout.js";
 import { type PictureScale, ProfilePicture } from "./picture/profile-picture.js";
 import type { Sheet } from "./picture/sheet.js";
 import { type ExportOptions, type PointSelection, spacingOf } from "./selection.js";
@@ -28,6 +29,11 @@ export interface DocumentOptions extends ExportOptions, PictureScale, PaintOptio
   readonly ground?: GroundOptions | undefined;
   /** Told of each ground that is made of points of some classes: where there are none, it is nowhere. */
   readonly onGround?: ((found: GroundFound) => void) | undefined;
+}
+
+/** What the horizontal axis of a sheet has. */
+export interface SheetAxis extends Pick<PictureWords, "stationOf"> {
+  readonly word: string;
 }
 
 /** The ends of a line along which points lie. */
@@ -83,7 +89,7 @@ export async function groundOf(
 
 /**
  * Draws the points of selections along a line.
- * @param along word for the horizontal axis
+ * @param along what the horizontal axis has
  * @returns the sheet, and the ground where it was asked for
  * @throws as {@link eachAlong}; RangeError where the options are none; FormatError EXPORT_PICTURE
  */
@@ -91,7 +97,7 @@ export async function drawSheet(
   selections: readonly PointSelection[],
   { from, to }: AlongSpan,
   title: string,
-  along: string,
+  { word, stationOf }: SheetAxis,
   { facts, ground, scale, exaggeration, onGround, ...options }: DocumentOptions,
 ): Promise<{ readonly sheet: Sheet; readonly ground: GroundRuns | undefined }> {
   const file = selections[0]?.origin.name ?? facts.title;
@@ -114,7 +120,8 @@ export async function drawSheet(
       ...(ground ? [`line: ${groundInWords(ground, facts.unit)}`] : []),
     ],
     unit: facts.unit.text,
-    along: `${along} (${facts.unit.text})`,
+    along: `${word} (${facts.unit.text})`,
+    stationOf,
     up: `height (${[facts.heightUnit.text, facts.heights].filter(Boolean).join(", ")})`,
   };
   return { sheet: picture.sheet(words, runs), ground: runs };

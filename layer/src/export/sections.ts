@@ -211,10 +211,10 @@ function landXml(sections: readonly LandXmlSection[], options: SectionOptions): 
 }
 
 async function sheetOf(section: ReadSection, options: SectionOptions): Promise<Sheet> {
-  const along = "distance from the line, right positive";
+  const axis = { word: "distance from the line, right positive" };
   const quiet = { ...options, onProgress: undefined };
   const span = spanOf(section.place.strip);
-  return (await drawSheet(section.selections, span, titleOf(section, options), along, quiet)).sheet;
+  return (await drawSheet(section.selections, span, titleOf(section, options), axis, quiet)).sheet;
 }
 
 /** Makes the files of sections one after the other, in a block that is used again for the next one. */

@@ -50,10 +50,10 @@ export function testsByTouch(stage: () => MeasuringStage): void {
     await screenshot(page, "measuring-both");
     await volume.locator("select").selectOption("highest");
     await volume.locator("dt:text-is('net')").waitFor();
-    await expect.poll(net, { timeout: 30_000 }).not.toBe(lowest);
+    await expect.poll(net).not.toBe(lowest);
     expect(await net()).toMatch(/^−/);
     await tool("Undo").click();
-    await expect.poll(net, { timeout: 30_000 }).toBe(lowest);
+    await expect.poll(net).toBe(lowest);
     expect(await volume.locator("select").inputValue()).toBe("lowest");
     // Against a scan that is opened beside it, which here is the same one under another name: nothing has changed.
     const later = join(mkdtempSync(join(tmpdir(), "groma-")), "later.copc.laz");
@@ -61,9 +61,9 @@ export function testsByTouch(stage: () => MeasuringStage): void {
     await page.setInputFiles("#compare-file", later);
     await page.locator("#compare-note:has-text('later.copc.laz is open')").waitFor();
     await volume.locator("select").selectOption({ label: "the scan later.copc.laz" });
-    await expect.poll(net, { timeout: 30_000 }).toMatch(/^0(\.0+)?\sm³/);
+    await expect.poll(net).toMatch(/^0(\.0+)?\sm³/);
     await tool("Undo").click();
-    await expect.poll(net, { timeout: 30_000 }).toBe(lowest);
+    await expect.poll(net).toBe(lowest);
     // A height above the ground, by the terrain: this scan has no classes.
     await tool("Above ground").click();
     await tap(places.map[1]!);

@@ -95,8 +95,14 @@ export async function plotIsMovedAndMeasured(page: Page): Promise<void> {
   await page.press("#profile-clearance", "Enter");
   await expect.poll(clearance).toBe("No station has points of class 5 over class 0");
   await page.fill("#profile-clearance", "");
+  const groundWords = () => page.textContent("#profile-ground-words");
+  expect(await groundWords()).toBe("");
+  await page.fill("#profile-ground-class", "7");
+  await page.press("#profile-ground-class", "Enter");
+  await expect.poll(groundWords).toBe("No point along the line is of class 7: there is no ground.");
   await page.fill("#profile-ground-class", "");
   await page.press("#profile-ground-class", "Enter");
+  await expect.poll(groundWords).toBe("");
 
   await page.click("#profile-measure");
   await page.focus("#profile-plot");
@@ -108,7 +114,7 @@ export async function plotIsMovedAndMeasured(page: Page): Promise<void> {
     /^along [\d.-]+ m, up [\d.-]+ m, slant [\d.]+ m, .*°; a level sight rises 0\.00\d m .*; the ground (lies|stands) .*; ground above/,
   );
   await expect
-    .poll(() => page.locator("#profile-axes .sight").getAttribute("points"), { timeout: 60_000 })
+    .poll(() => page.locator("#profile-axes .sight").getAttribute("points"))
     .toMatch(/^(\S+ ){48}\S+$/);
   await screenshot(page, "profile-measured");
   await page.click("#profile-measure");

@@ -1,3 +1,4 @@
+import { stationText } from "../../tools/sections/station.js";
 import {
   BLACK,
   type Colour,
@@ -43,6 +44,8 @@ export interface PictureWords {
   readonly unit: string;
   /** Of the horizontal axis, with its unit. */
   readonly along: string;
+  /** The station of a chainage, which the axis then has. */
+  readonly stationOf?: ((chainage: number) => number) | undefined;
   /** Of the vertical axis, with its unit and the height reference. */
   readonly up: string;
 }
@@ -59,9 +62,13 @@ export interface PlotFrame {
 
 /** The largest of the round scales 1 : n at which a length fits onto A3. @param metres length of the line */
 export function fittingScale(metres: number): number {
-  const least = (1000 * metres) / PLOT_WIDTH;
+  return roundScale((1000 * metres) / PLOT_WIDTH);
+}
+
+/** The largest of the round scales 1 : n that is not larger than 1 : `least`, but for the digits of a float. */
+export function roundScale(least: number): number {
   for (let power = 10 ** Math.floor(Math.log10(Math.max(least, 1e-3))); ; power *= 10) {
-    const found = STEPS.find((step) => step * power >= least);
+    const found = STEPS.find((step) => step * power >= least * (1 - 1e-9));
     if (found !== undefined) return found * power;
   }
 }
@@ -75,6 +82,20 @@ export function roundStep(least: number): number {
 /** A number with as many digits as a step of the axis has. */
 function axisText(value: number, step: number): string {
   return value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+}
+
+/** What stands at marks of the horizontal axis: chainages, or stations with the digits that all of them need. */
+function marksInWords(
+  marks: readonly number[],
+  step: number,
+  stationOf: PictureWords["stationOf"],
+): readonly string[] {
+  if (!stationOf) return marks.map((chainage) => axisText(chainage, step));
+  const stations = marks.map(stationOf);
+  const isEven = (digits: number) =>
+    stations.every((station) => Math.abs(station * 10 ** digits - Math.round(station * 10 ** digits)) < 1e-6);
+  const digits = [0, 1, 2].find(isEven) ?? 3;
+  return stations.map((station) => stationText(station, digits));
 }
 
 /**
@@ -114,7 +135,9 @@ export function layOut(
   const line = (places: SheetLine["places"], thickness: number, colour: Colour) =>
     lines.push({ places, width: thickness, colour });
   const [right, ceiling] = [left + size.x, base + size.y];
-  for (const chainage of multiples(frame.from, frame.to, step.along)) {
+  const marks = multiples(frame.from, frame.to, step.along);
+  const markTexts = marksInWords(marks, step.along, words.stationOf);
+  for (const [index, chainage] of marks.entries()) {
     line(
       [
         [x(chainage), base],
@@ -124,7 +147,7 @@ export function layOut(
       GRID,
     );
     texts.push({
-      text: axisText(chainage, step.along),
+      text: markTexts[index],
       x: x(chainage),
       y: base - 4,
       size: 2.5,

@@ -123,8 +123,38 @@ describe("a picture to scale", () => {
     expect([0.3, 1, 1.01, 7, 0.02].map(roundStep)).toEqual([0.5, 1, 2, 10, 0.02]);
   });
 
-  it.each([{ scale: 0 }, { scale: Number.NaN }, { exaggeration: -1 }])("is refused with %j", (given) => {
-    const place = { from: 0, to: 1, unit: 1, heightUnit: 1, file: "scan" };
-    expect(() => new ProfilePicture({ ...place, ...given })).toThrow(RangeError);
+  it.each([
+    [{ most: 5.6 }, "lengths 1:250, heights 1:50"],
+    [{ most: 5 }, "lengths 1:250, heights 1:50"],
+    [{ most: 1 }, "1:250"],
+    [{ most: 0.7 }, "lengths 1:250, heights 1:500"],
+    [5.6, "lengths 1:250, heights 1:44.6429"],
+  ])("stretches heights by %j in round scales where it may choose", (exaggeration, words) => {
+    const picture = new ProfilePicture({
+      ...{ from: 0, to: 90, unit: 1, heightUnit: 1, file: "scan", exaggeration },
+    });
+    picture.add(0, 0, 0, 0, 0, 0);
+    expect(picture.sheet(WORDS).texts.map(({ text }) => text)).toContain(words);
   });
+
+  it("has stations at its axis where they are counted anew", () => {
+    const marks = (stationOf: (chainage: number) => number) =>
+      new ProfilePicture({ from: 1000, to: 1100, unit: 1, heightUnit: 1, file: "scan", scale: 500 })
+        .sheet({ ...WORDS, stationOf })
+        .texts.flatMap(({ text }) => text.match(/^\d+\+[\d.]+$/) ?? []);
+    expect(marks((chainage) => (chainage < 1050 ? chainage : chainage + 950))).toEqual(
+      [1000, 1010, 1020, 1030, 1040, 2000, 2010, 2020, 2030, 2040, 2050].map(
+        (station) => `${Math.floor(station / 1000)}+${String(station % 1000).padStart(3, "0")}`,
+      ),
+    );
+    expect(marks((chainage) => chainage + 0.25).slice(0, 2)).toEqual(["1+000.25", "1+010.25"]);
+  });
+
+  it.each([{ scale: 0 }, { scale: Number.NaN }, { exaggeration: -1 }, { exaggeration: { most: 0 } }])(
+    "is refused with %j",
+    (given) => {
+      const place = { from: 0, to: 1, unit: 1, heightUnit: 1, file: "scan" };
+      expect(() => new ProfilePicture({ ...place, ...given })).toThrow(RangeError);
+    },
+  );
 });

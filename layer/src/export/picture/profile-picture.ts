@@ -1,13 +1,16 @@
 import { Dots } from "./dots.js";
-import { fittingScale, layOut, type PictureWords } from "./layout.js";
+import { fittingScale, layOut, type PictureWords, roundScale } from "./layout.js";
 import type { Sheet } from "./sheet.js";
 
 /** How a picture is drawn to scale. */
 export interface PictureScale {
   /** Lengths are drawn 1 : this. Default: the largest round scale at which the line fits onto A3. */
   readonly scale?: number | undefined;
-  /** How much heights are stretched against lengths. Default: 1. */
-  readonly exaggeration?: number | undefined;
+  /**
+   * How much heights are stretched against lengths; with `most`, as much as their scale is round too, and no more than that.
+   * Default: 1.
+   */
+  readonly exaggeration?: number | { readonly most: number } | undefined;
 }
 
 /** What is drawn, and the sizes of its units. */
@@ -39,12 +42,13 @@ export class ProfilePicture {
 
   /** @throws RangeError where the scale or the exaggeration is none */
   constructor(options: PictureOptions) {
-    const { from, to, unit, heightUnit, exaggeration = 1, file } = options;
+    const { from, to, unit, heightUnit, exaggeration: wanted = 1, file } = options;
     const length = (to - from) * unit;
     const scale = options.scale ?? fittingScale(length);
     if (!(scale > 0 && Number.isFinite(scale))) throw new RangeError(`the scale cannot be 1:${scale}`);
-    if (!(exaggeration > 0 && Number.isFinite(exaggeration)))
-      throw new RangeError(`the exaggeration cannot be ${exaggeration}`);
+    const most = typeof wanted === "number" ? wanted : wanted.most;
+    if (!(most > 0 && Number.isFinite(most))) throw new RangeError(`the exaggeration cannot be ${most}`);
+    const exaggeration = typeof wanted === "number" ? wanted : scale / roundScale(scale / most);
     this.#options = options;
     this.#scale = scale;
     this.#exaggeration = exaggeration;
