@@ -1,5 +1,12 @@
 import type { MapPlane } from "@groma/georef";
-import { keyName, type NodeBounds, NodeStore, type OctreeNode, type VoxelKey } from "../octree/index.js";
+import {
+  keyName,
+  type NodeBounds,
+  NodeShapes,
+  NodeStore,
+  type OctreeNode,
+  type VoxelKey,
+} from "../octree/index.js";
 import { NodeAccess } from "../query/index.js";
 import type {
   EncodedChunk,
@@ -91,6 +98,8 @@ export class PlacedOctree {
   readonly access: NodeAccess;
   /** Brings nodes for views. */
   readonly stream: NodeStream;
+  /** What frames ask of the points that are here. */
+  readonly shapes = new NodeShapes<NodeVertices>();
   /** The plane of a map that it lies in; undefined: it lies on the globe. */
   readonly plane: MapPlane | undefined;
   readonly #parts: OctreeParts;
@@ -128,6 +137,11 @@ export class PlacedOctree {
       },
       limits,
     );
+    // First of all listeners, so that the others find the node as it is by then.
+    this.stream.subscribe({
+      nodeLoaded: (node) => this.shapes.add(node, this.stream.vertices(node)!),
+      nodeEvicted: (node) => this.shapes.remove(node),
+    });
   }
 
   /** Sphere around all points; undefined where they have no place. */

@@ -24,6 +24,7 @@ import { FrameAllowance } from "./frame-allowance.js";
 import type { FrameCamera } from "./frame-camera.js";
 import type { ContentRequest, LayerContent } from "./layer-content.js";
 import { sceneFacts } from "./scene-facts.js";
+import type { NodesHere } from "./spacing-facts.js";
 import { cameraGround, type FrameGround, StillFrame } from "./still-frame.js";
 
 /** What a layer is asked to show, as its properties stand at a frame. */
@@ -115,6 +116,8 @@ export class LayerFrames<V extends ViewTypes> {
   /** Whether the last frame drew its points, and did not only show a picture of them that was there. */
   #drawn = false;
   #frameStart = 0;
+  /** Of the last selection; longer than that, so that it serves many. */
+  #slots = new Int32Array(0);
   /** Milliseconds from the frame before this one to it; 0 where they did not follow each other. */
   #interval = 0;
 
@@ -192,14 +195,15 @@ export class LayerFrames<V extends ViewTypes> {
     const selection = this.#select(settings, camera, allowance);
     if (this.#tooLong("selection", allowance)) return "unfinished";
     const renderer = rendererOf();
-    const vertices = this.#verticesOf(selection);
-    const facts = this.#facts(settings, camera, selection, vertices, renderer.silhouettes);
+    const here = this.#here(selection);
+    const facts = this.#facts(settings, camera, selection, here, renderer.silhouettes);
     if (this.#tooLong("facts", allowance)) return "unfinished";
     const forced = renderer.blends ? settings.forced : { ...settings.forced, splats: false };
     const plan = this.#plan(style, facts, forced);
     if (this.#tooLong("plan", allowance)) return "unfinished";
     const ground = this.#ground(settings, camera, renderer);
     const { depth } = camera;
+    const vertices = this.#verticesOf(here);
     const request = { selection, vertices, changes: stream.changes, plan, clips, allowance, depth };
     const { content } = renderer;
     const waiting = content.prepare(request);
@@ -240,11 +244,20 @@ export class LayerFrames<V extends ViewTypes> {
     return this.#selection;
   }
 
-  /** What is here of a selection's nodes, at the same indices: looked up once in a frame. */
-  #verticesOf({ nodes }: Selection): (NodeVertices | undefined)[] {
-    const { stream } = this.#octree;
+  /** What is here of a selection's nodes. */
+  #here({ nodes }: Selection): NodesHere {
+    if (this.#slots.length < nodes.length) this.#slots = new Int32Array(2 * nodes.length);
+    const slots = this.#slots.subarray(0, nodes.length);
+    const { shapes } = this.#octree;
+    for (let index = 0; index < nodes.length; index++) slots[index] = shapes.slotOf(nodes[index]);
+    return { slots, shapes };
+  }
+
+  /** Their points, at the same indices. */
+  #verticesOf({ slots }: NodesHere): (NodeVertices | undefined)[] {
+    const { shapes } = this.#octree;
     const vertices: (NodeVertices | undefined)[] = [];
-    for (let index = 0; index < nodes.length; index++) vertices.push(stream.vertices(nodes[index]));
+    for (let index = 0; index < slots.length; index++) vertices.push(shapes.points(slots[index]));
     return vertices;
   }
 
@@ -252,18 +265,18 @@ export class LayerFrames<V extends ViewTypes> {
     { filter }: LayerSettings,
     camera: FrameCamera,
     selection: Selection,
-    vertices: readonly (NodeVertices | undefined)[],
+    here: NodesHere,
     silhouettes: number | undefined,
   ): SceneFacts {
     const { attributes } = this.#cloud;
     const { volumes } = this.#clips;
-    return sceneFacts(camera, selection, vertices, {
+    return sceneFacts(camera, selection, here, {
       attributes,
       clips: volumes?.cutting ?? 0,
       highlights: volumes?.highlighting ?? 0,
       filter,
       silhouettes,
-      placing: placingFacts(this.#placing, vertices),
+      placing: placingFacts(this.#placing, here.slots, here.shapes),
     });
   }
 

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { OctreeNode, type Selection, type VoxelKey } from "../octree/index.js";
+import { OctreeNode, type Selection, type ShapedPoints, type VoxelKey } from "../octree/index.js";
+import { nodesHere } from "../octree/nodes-here.fixture.js";
 import type { FrameCamera } from "./frame-camera.js";
 import { sceneFacts } from "./scene-facts.js";
-import type { NodeShape } from "./spacing-facts.js";
 
 const HALF = Math.SQRT1_2;
 
@@ -65,7 +65,7 @@ function factsOf(
   nodes: OctreeNode[],
   counts: number[],
   spacings: number[],
-  of: (node: OctreeNode) => NodeShape | undefined = verticesOf,
+  of: (node: OctreeNode) => ShapedPoints | undefined = verticesOf,
 ) {
   const selection: Selection = {
     ...{
@@ -80,7 +80,7 @@ function factsOf(
     },
     points: counts.reduce((sum, count) => sum + count, 0),
   };
-  return sceneFacts(camera, selection, nodes.map(of), layer);
+  return sceneFacts(camera, selection, nodesHere(nodes, nodes.map(of)), layer);
 }
 
 describe("what is known of the spacing", () => {

@@ -1,7 +1,7 @@
 import type { PlacingFacts, PointFilter, SceneFacts, StyledAttribute } from "../effects/index.js";
-import { pixelsPerMetre, type Selection } from "../octree/index.js";
+import { pixelsPerMetre, type Selection, SHAPE, type ShapedPoints } from "../octree/index.js";
 import type { FrameCamera } from "./frame-camera.js";
-import { Extent, type NodeShape, spacingFacts } from "./spacing-facts.js";
+import { Extent, type NodesHere, spacingFacts } from "./spacing-facts.js";
 
 /** Bits of the depth buffers that are drawn with. */
 const DEPTH_BITS = 24;
@@ -20,12 +20,12 @@ export interface LayerFacts {
 /**
  * The numbers that the magnitudes of effects are computed from. What is done for each node makes no objects and looks nothing
  * up: a view that moves needs it in every frame, of a thousand nodes or more.
- * @param shapes of the selection's nodes, at the same indices, as far as they are here
+ * @param here what is here of the selection's nodes
  */
 export function sceneFacts(
   camera: FrameCamera,
   selection: Selection,
-  shapes: readonly (NodeShape | undefined)[],
+  here: NodesHere,
   layer: LayerFacts,
 ): SceneFacts {
   const { view, pixelRatio } = camera;
@@ -35,9 +35,9 @@ export function sceneFacts(
     pixelRatio,
     nodes: nodes.length,
     points,
-    ...spacingFacts(camera, selection, shapes),
+    ...spacingFacts(camera, selection, here),
     ...depthFacts(camera, distances(camera, selection)),
-    placingPixels: placingPixels(camera, shapes),
+    placingPixels: placingPixels(camera, here),
     ...layer,
   };
 }
@@ -89,36 +89,54 @@ const ROUNDOFF = 2 ** -24;
  * the way from its frame to the eye, seen from as near as its box comes to the camera. Of four products with rounded factors
  * that is no more than 5 u per term (N. J. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., 3.1).
  */
-function placingPixels({ view, near }: FrameCamera, shapes: readonly (NodeShape | undefined)[]): number {
+function placingPixels({ view, near }: FrameCamera, { slots, shapes }: NodesHere): number {
   const { position } = view;
   const perspective = view.projection.kind === "perspective";
   const metre = pixelsPerMetre(view);
+  const { numbers } = shapes;
   let greatest = 0;
-  for (let index = 0; index < shapes.length; index++) {
-    const shape = shapes[index];
+  for (let index = 0; index < slots.length; index++) {
+    if (slots[index] < 0) continue;
+    const begin = shapes.begin(slots[index]);
+    const x = position[0] - numbers[begin + SHAPE.origin];
+    const y = position[1] - numbers[begin + SHAPE.origin + 1];
+    const z = position[2] - numbers[begin + SHAPE.origin + 2];
+    const bound = numbers[begin + SHAPE.bound];
+    const reach = numbers[begin + SHAPE.reachSquared];
+    const range = Math.sqrt(x * x + y * y + z * z);
+    const off = bound + rounding(reach, range);
+    // No place of the box is nearer than the sphere around it: most nodes are less far off than one before them at any.
+    const nearest = perspective ? Math.max(near, range - Math.sqrt(reach)) : 1;
+    if (off * metre * SAFE < greatest * nearest) continue;
+    const shape = shapes.points(slots[index]);
     if (!shape) continue;
-    const { box, bound } = shape;
-    const { origin, rotation } = shape.frame;
-    const x = position[0] - origin[0];
-    const y = position[1] - origin[1];
-    const z = position[2] - origin[2];
-    let away = 0;
-    let reach = 0;
-    let range = 0;
-    for (let axis = 0; axis < 3; axis++) {
-      const low = box[axis];
-      const high = box[axis + 3];
-      // Of the eye in the node's frame.
-      const at = rotation[3 * axis] * x + rotation[3 * axis + 1] * y + rotation[3 * axis + 2] * z;
-      const outside = at < low ? low - at : at > high ? at - high : 0;
-      const farthest = Math.max(Math.abs(low), Math.abs(high));
-      away += outside * outside;
-      reach += farthest * farthest;
-      range += at * at;
-    }
-    const rounding = 5 * ROUNDOFF * (Math.sqrt(3 * reach) + Math.sqrt(range));
-    const distance = perspective ? Math.max(near, Math.sqrt(away)) : 1;
-    greatest = Math.max(greatest, ((bound + rounding) * metre) / distance);
+    const distance = perspective ? Math.max(near, distanceToBox(shape, x, y, z)) : 1;
+    greatest = Math.max(greatest, (off * metre) / distance);
   }
   return greatest;
+}
+
+/** More than what rounding to float64 may make of the comparison of two numbers. */
+const SAFE = 1 + 1e-9;
+
+/**
+ * What float32 costs, metres.
+ * @param reach sum of the squares of the greatest coordinates on each axis, square metres
+ * @param range distance of the eye from the origin of the node's frame, metres
+ */
+function rounding(reach: number, range: number): number {
+  return 5 * ROUNDOFF * (Math.sqrt(3 * reach) + range);
+}
+
+/** Distance of a node's box from a place that lies so far from the origin of its frame, metres: ECEF, or map. */
+function distanceToBox({ box, frame: { rotation } }: ShapedPoints, x: number, y: number, z: number): number {
+  let away = 0;
+  for (let axis = 0; axis < 3; axis++) {
+    const low = box[axis];
+    const high = box[axis + 3];
+    const at = rotation[3 * axis] * x + rotation[3 * axis + 1] * y + rotation[3 * axis + 2] * z;
+    const outside = at < low ? low - at : at > high ? at - high : 0;
+    away += outside * outside;
+  }
+  return Math.sqrt(away);
 }

@@ -1,32 +1,30 @@
-import { drawnSpacing, footprint, groundSpacing } from "../effects/index.js";
-import { type OctreeNode, outsideFrustum, type Selection } from "../octree/index.js";
-import type { NodeVertices } from "../workers/index.js";
+import { footprint, groundSpacing, spacingOf } from "../effects/index.js";
+import { type NodeShapes, type OctreeNode, outsideFrustum, type Selection, SHAPE } from "../octree/index.js";
 import type { FrameCamera } from "./frame-camera.js";
 
-/** Of a node's points: their box in the node's frame, metres, and the map from there to the node's cube. */
-type Extents = Readonly<Record<keyof Pick<NodeVertices, "box" | "toCube">, ArrayLike<number>>>;
-
-/** What is known of a node's points once they are here. */
-export type NodeShape = Extents & Pick<NodeVertices, "frame" | "bound">;
-
-/** Of a node whose points are not here. */
-const NO_BOX: readonly number[] = [];
+/** What is here of the nodes of a selection. */
+export interface NodesHere {
+  /** Their slots in {@link shapes}, at the same indices; below 0 where a node's points are not here. */
+  readonly slots: Int32Array;
+  readonly shapes: NodeShapes;
+}
 
 /**
  * How far apart the points lie where nothing finer is drawn over them.
- * @param shapes of the selection's nodes, at the same indices, as far as they are here
+ * @param here what is here of the selection's nodes
  */
 export function spacingFacts(
   { view, width }: FrameCamera,
   selection: Selection,
-  shapes: readonly (NodeShape | undefined)[],
+  { slots, shapes }: NodesHere,
 ) {
   const { nodes, counts, spacings } = selection;
+  const { numbers } = shapes;
   const picture = width * view.height;
   let all = true;
   for (let index = 0; index < nodes.length; index++) {
     nodes[index].index = index;
-    if (!shapes[index]) all = false;
+    if (slots[index] < 0) all = false;
   }
   const spacing = new Extent();
   const level = new Extent();
@@ -36,20 +34,17 @@ export function spacingFacts(
   let patched = 0;
   for (let index = 0; index < nodes.length; index++) {
     const node = nodes[index];
-    const { bounds, key } = node;
+    const { bounds, key, pointCount } = node;
     if (!bounds) continue;
-    const shape = shapes[index];
-    const apart = drawnSpacing({
-      key,
-      points: node.pointCount,
-      count: counts[index],
-      spacing: bounds.spacing,
-      // What is not here yet is expected to be as its level says.
-      leaf: shape !== undefined && isLeaf(node),
-      box: shape ? shape.box : NO_BOX,
-    });
-    const pixelsPerMetre = spacings[index] / bounds.spacing;
-    const octants = shape ? octantsUnder(shape) : 1;
+    const { spacing: least } = bounds;
+    const isHere = slots[index] >= 0;
+    const begin = isHere ? shapes.begin(slots[index]) : 0;
+    const area = isHere ? footprint(numbers[begin + SHAPE.longest], numbers[begin + SHAPE.middle], least) : 0;
+    // What is not here yet is expected to be as its level says.
+    const alone = isHere && isLeaf(node) ? area : undefined;
+    const apart = spacingOf(key.depth, pointCount, counts[index], least, alone);
+    const pixelsPerMetre = spacings[index] / least;
+    const octants = isHere ? numbers[begin + SHAPE.octants] : 1;
     const bare = shareInSight(node, octants, view, nodes, undefined);
     if (bare > 0) {
       level.add(key.depth);
@@ -60,10 +55,10 @@ export function spacingFacts(
       }
     }
     // Sizes are for what is drawn now.
-    if (!shape) continue;
-    const share = all ? bare : shareInSight(node, octants, view, nodes, shapes);
+    if (!isHere) continue;
+    const share = all ? bare : shareInSight(node, octants, view, nodes, slots);
     if (share === 0) continue;
-    const pixels = footprint(shape.box, bounds.spacing) * pixelsPerMetre * pixelsPerMetre;
+    const pixels = area * pixelsPerMetre * pixelsPerMetre;
     patches.spacings[patched] = apart;
     patches.pixels[patched++] = share * Math.min(picture, pixels);
   }
@@ -88,14 +83,14 @@ function isLeaf({ children }: OctreeNode): boolean {
  * one that is in view and not drawn. What lies outside the picture is coarse, and nobody sees it.
  * @param octants that its points pass at least
  * @param nodes that are drawn, each with its index
- * @param shapes where only those of them are drawn that are here
+ * @param slots where only those of them are drawn that are here
  */
 function shareInSight(
   { children }: OctreeNode,
   octants: number,
   view: FrameCamera["view"],
   nodes: readonly OctreeNode[],
-  shapes: readonly (NodeShape | undefined)[] | undefined,
+  slots: Int32Array | undefined,
 ): number {
   if (!children) return 1;
   let all = 0;
@@ -107,19 +102,11 @@ function shareInSight(
     const { index } = child;
     // Nothing is read beyond the end of an array, which would take longer from then on.
     const listed = index < nodes.length && nodes[index] === child;
-    const drawn = listed && (!shapes || shapes[index] !== undefined);
+    const drawn = listed && (!slots || slots[index] >= 0);
     if (!drawn && (!child.bounds || !outsideFrustum(view, child.bounds))) open++;
   }
   const bare = Math.max(0, octants - all);
   return (bare + open) / (bare + all);
-}
-
-/** Octants of its cube that a surface passes which is as long and as wide as a node's points: 1, 2 or 4. */
-function octantsUnder({ box, toCube }: Extents): number {
-  const half = 0.5 / Math.sqrt(toCube[0] ** 2 + toCube[1] ** 2 + toCube[2] ** 2);
-  let octants = 1;
-  for (let axis = 0; axis < 3; axis++) if (box[axis + 3] - box[axis] > half) octants *= 2;
-  return Math.min(4, octants);
 }
 
 /** Least and greatest of what was added; 0 and 0 where nothing was. */

@@ -2,14 +2,14 @@ import fc from "fast-check";
 import { expect, it } from "vitest";
 import { inSteps, nodeLayoutOf, planEffects, WEBGL2 } from "../effects/index.js";
 import { richFacts, styleOf } from "../effects/scene.fixture.js";
-import { OctreeNode, type Selection } from "../octree/index.js";
+import { OctreeNode, type Selection, type ShapedPoints } from "../octree/index.js";
+import { nodesHere } from "../octree/nodes-here.fixture.js";
 import { reachOf, stepBound, stepOver, toSteps } from "../workers/position-steps.js";
 import { positionBox } from "../workers/records.js";
 import type { FrameCamera } from "./frame-camera.js";
 import type { Gpu, GpuTypes } from "./gpu.js";
 import { NodeTable } from "./node-table.js";
 import { sceneFacts } from "./scene-facts.js";
-import type { NodeShape } from "./spacing-facts.js";
 
 /** Axes as they are, about the origin. */
 const FRAME = { origin: new Float64Array(3), rotation: Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1) };
@@ -23,7 +23,7 @@ const view = (position: readonly [number, number, number]): FrameCamera => ({
 });
 
 /** What a node's points are stated to be off on screen. */
-function placingPixels(vertices: NodeShape, eye: readonly [number, number, number]): number {
+function placingPixels(vertices: ShapedPoints, eye: readonly [number, number, number]): number {
   const node = new OctreeNode({ depth: 0, x: 0, y: 0, z: 0 }, "listed");
   node.bounds = { x: 0, y: 0, z: 0, radius: 1, spacing: 1 };
   const selection = { nodes: [node], points: 1, counts: [1], spacings: [1] } as unknown as Selection;
@@ -31,7 +31,7 @@ function placingPixels(vertices: NodeShape, eye: readonly [number, number, numbe
     ...{ attributes: [], clips: 0, highlights: 0 },
     ...{ filter: undefined, silhouettes: undefined, placing: undefined },
   };
-  return sceneFacts(view(eye), selection, [vertices], layer).placingPixels!;
+  return sceneFacts(view(eye), selection, nodesHere([node], [vertices]), layer).placingPixels!;
 }
 
 it("states what whole steps and float32 do on the way to the eye, whatever the node and the camera", () => {

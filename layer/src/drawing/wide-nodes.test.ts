@@ -1,6 +1,7 @@
 import { exactTransform, fitPlacement, placeIntegers, pointTransform } from "@groma/georef";
 import { expect, it } from "vitest";
 import { OctreeNode, type Selection } from "../octree/index.js";
+import { nodesHere } from "../octree/nodes-here.fixture.js";
 import type { FrameCamera } from "./frame-camera.js";
 import { sceneFacts } from "./scene-facts.js";
 
@@ -90,7 +91,7 @@ it.each([
         counts: [count],
         spacings: [REFINED],
       } as unknown as Selection;
-      return sceneFacts(cameraAt(position), selection, [vertices], layer).placingPixels!;
+      return sceneFacts(cameraAt(position), selection, nodesHere([node], [vertices]), layer).placingPixels!;
     };
     const there = stated(refined);
     console.info(

@@ -11,7 +11,7 @@ export { composePointShader, nodeLayoutOf } from "./compose.js";
 export { composeQuad } from "./compose-quad.js";
 export { ASPRS_CLASSES, type ClassTable, type PointClass } from "./declaration/classes.js";
 export { OFFSET } from "./declaration/colouring.js";
-export { drawnSpacing, footprint } from "./declaration/drawn-spacing.js";
+export { footprint, spacingOf } from "./declaration/drawn-spacing.js";
 export type { ColumnScale, PlacingFacts, SceneFacts, StyledNode } from "./declaration/facts.js";
 export {
   checkFilter,
@@ -69,7 +69,6 @@ export {
   type CloudPlacing,
   cloudPlacing,
   type PlacedCloud,
-  type PlacedNode,
   placingFacts,
 } from "./placing-facts.js";
 export {

@@ -1,4 +1,5 @@
 import { type AccuracyPart, ecefToGeodetic } from "@groma/georef";
+import { type NodeShapes, SHAPE } from "../octree/index.js";
 import type { PlacingFacts } from "./declaration/facts.js";
 
 /** A data set as far as its placing is stated; a `PointCloud` is one. */
@@ -15,17 +16,6 @@ export interface PlacedCloud {
   };
   readonly height: { readonly kind: PlacingFacts["heights"] };
   readonly accuracy: { readonly parts: readonly AccuracyPart[] };
-}
-
-/** A drawn node as far as its placing is certified. */
-export interface PlacedNode {
-  readonly scheme: string;
-  /** Metres. */
-  readonly bound: number;
-  /** Least and greatest position in its frame: min x, y, z, max x, y, z, metres. */
-  readonly box: ArrayLike<number>;
-  /** Length that its positions are stored in whole multiples of, metres; undefined where they are float32. */
-  readonly step?: number | undefined;
 }
 
 /** What holds for a data set whatever is drawn of it. */
@@ -62,31 +52,34 @@ export function cloudPlacing(cloud: PlacedCloud, tolerance = TOLERANCE): CloudPl
   };
 }
 
-/** The same with the nodes that are drawn. @param nodes undefined: not here, and not drawn */
-export function placingFacts(cloud: CloudPlacing, nodes: readonly (PlacedNode | undefined)[]): PlacingFacts {
-  const schemes: Record<string, number> = {};
+/**
+ * The same with the nodes that are drawn.
+ * @param slots of the nodes in `shapes`; below 0: not here, and not drawn
+ */
+export function placingFacts(cloud: CloudPlacing, slots: Int32Array, shapes: NodeShapes): PlacingFacts {
+  const { numbers } = shapes;
+  const counts: number[] = shapes.schemes.map(() => 0);
+  /** Indices of the schemes, in the order in which the nodes come to them. */
+  const found: number[] = [];
   let nodeEdge = 0;
   let bound = 0;
   let storageBound = 0;
   let steps = 0;
   let floats = 0;
-  for (let index = 0; index < nodes.length; index++) {
-    const node = nodes[index];
-    if (!node) continue;
-    const { scheme, box, step } = node;
-    schemes[scheme] = (schemes[scheme] ?? 0) + 1;
-    if (step === undefined) floats++;
+  for (let index = 0; index < slots.length; index++) {
+    if (slots[index] < 0) continue;
+    const begin = shapes.begin(slots[index]);
+    const scheme = numbers[begin + SHAPE.scheme];
+    if (counts[scheme]++ === 0) found.push(scheme);
+    const step = numbers[begin + SHAPE.step];
+    if (step === 0) floats++;
     else steps++;
-    if (node.bound > bound) bound = node.bound;
-    let reach = 0;
-    for (let axis = 0; axis < 3; axis++) {
-      const low = box[axis];
-      const high = box[axis + 3];
-      nodeEdge = Math.max(nodeEdge, high - low);
-      reach = Math.max(reach, Math.abs(low), Math.abs(high));
-    }
+    bound = Math.max(bound, numbers[begin + SHAPE.bound]);
+    nodeEdge = Math.max(nodeEdge, numbers[begin + SHAPE.longest]);
     // Half a unit in the last place of each of three coordinates, and half a step.
-    storageBound = Math.max(storageBound, Math.sqrt(3) * (reach * 2 ** -24 + (step ?? 0) / 2));
+    storageBound = Math.max(storageBound, numbers[begin + SHAPE.reach] * 2 ** -24 + step / 2);
   }
+  const schemes = Object.fromEntries(found.map((scheme) => [shapes.schemes[scheme], counts[scheme]]));
+  storageBound *= Math.sqrt(3);
   return { ...cloud, schemes, nodeEdge, bound, storageBound, stored: { steps, floats } };
 }

@@ -1,6 +1,7 @@
 export { ByteLedger } from "./byte-ledger.js";
 export type { BoundsOf } from "./demand.js";
 export { type CacheLimits, type Cost, LruCache } from "./lru-cache.js";
+export { NodeShapes, SHAPE, type ShapedPoints } from "./node-shapes.js";
 export type { NodeState } from "./node-state.js";
 export { NodeStore } from "./node-store.js";
 export { type HierarchyPage, type NodeBounds, OctreeNode } from "./octree-node.js";

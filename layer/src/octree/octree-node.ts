@@ -46,6 +46,8 @@ export class OctreeNode {
    * has it at this index, whoever set that.
    */
   index = 0;
+  /** Where the numbers of its points stand in the {@link NodeShapes} of its octree, which sets it; −1 where they are not here. */
+  slot = -1;
   #state: NodeState;
 
   constructor(key: VoxelKey, state: "page" | "empty" | "listed" = "empty") {

@@ -24,19 +24,35 @@ export interface DrawnDensity {
  * 7, 4): its points lie on the two longer sides of their box.
  */
 export function drawnSpacing({ key, points, count, leaf, spacing, box }: DrawnDensity): number {
-  const above = key.depth > 0 ? 1 / (4 * spacing * spacing) : 0;
-  const full = 1 / (spacing * spacing);
-  const own = leaf ? count / footprint(box, spacing) : (full - above) * (points > 0 ? count / points : 1);
-  const density = above + own;
-  return density > 0 ? 1 / Math.sqrt(density) : spacing;
-}
-
-/** The two longer sides of a box, each at least `least` long, multiplied: square metres. */
-export function footprint(box: ArrayLike<number>, least: number): number {
   const x = box[3] - box[0];
   const y = box[4] - box[1];
   const z = box[5] - box[2];
   const longest = Math.max(x, y, z);
   const middle = Math.max(Math.min(x, y), Math.min(Math.max(x, y), z));
+  const area = leaf ? footprint(longest, middle, spacing) : undefined;
+  return spacingOf(key.depth, points, count, spacing, area);
+}
+
+/**
+ * The same in numbers, for what is asked of many nodes in each frame.
+ * @param depth level of the node
+ * @param area {@link footprint} of a leaf, square metres; undefined of other nodes
+ */
+export function spacingOf(
+  depth: number,
+  points: number,
+  count: number,
+  spacing: number,
+  area: number | undefined,
+): number {
+  const above = depth > 0 ? 1 / (4 * spacing * spacing) : 0;
+  const full = 1 / (spacing * spacing);
+  const own = area === undefined ? (full - above) * (points > 0 ? count / points : 1) : count / area;
+  const density = above + own;
+  return density > 0 ? 1 / Math.sqrt(density) : spacing;
+}
+
+/** The two longer sides of a box, each at least `least` long, multiplied: square metres. */
+export function footprint(longest: number, middle: number, least: number): number {
   return Math.max(longest, least) * Math.max(middle, least);
 }
