@@ -10,7 +10,7 @@ import type { Context, FrameState, PickId } from "./engine/cesium-private.js";
 import { GpuObjects } from "./engine/gpu-objects.js";
 import { RenderStates } from "./engine/render-states.js";
 import type { WindowPosition } from "./layer-options.js";
-import { type CesiumNode, type CesiumView, matrixOf, NodeDrawable } from "./node-drawable.js";
+import { type CesiumNode, type CesiumView, matrixOf, NodeDrawable, NodePlaces } from "./node-drawable.js";
 import { NumberPicture } from "./number-picture.js";
 import { OffscreenPass } from "./offscreen-pass.js";
 import { candidatesAt } from "./pick-candidates.js";
@@ -39,13 +39,14 @@ export class LayerRenderer implements Renderer<CesiumView> {
   constructor(context: Context, owner: object, picked: object, generation: number) {
     const objects = new GpuObjects(context, owner, generation);
     const pass = new OffscreenPass(this.#states);
+    const places = new NodePlaces();
     this.objects = objects;
     this.#pickId = context.createPickId(picked);
     this.#drawing = new PointDrawing(objects, owner, this.#pickId, pass, this.#states);
     this.content = new LayerContent<CesiumView>(
       objects,
       this.#drawing.uniforms.values,
-      (pages, vertices, heightOffset) => new NodeDrawable(pages, vertices, heightOffset),
+      (pages, vertices, slot, heightOffset) => new NodeDrawable(pages, vertices, slot, places, heightOffset),
     );
     this.#picked = new NumberPicture(objects, pass);
     this.#probed = new NumberPicture(objects, pass);

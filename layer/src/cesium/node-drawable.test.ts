@@ -4,7 +4,7 @@ import { describe, expect, it } from "vitest";
 import type { DrawnVertices } from "../drawing/drawn-vertices.js";
 import type { VertexPages } from "../drawing/vertex-pages.js";
 import type { CesiumTypes } from "./engine/gpu-objects.js";
-import { matrixOf, NodeDrawable, writeToEye } from "./node-drawable.js";
+import { matrixOf, NodeDrawable, NodePlaces, PLACE, writeToEye } from "./node-drawable.js";
 
 describe("matrixOf", () => {
   it("takes the node frame to ECEF without losing a nanometre", () => {
@@ -56,11 +56,22 @@ it("writes what takes stored positions to the eye, rounded once, in rows", () =>
   geodeticToEcef(0.15, 0.82, 500, origin);
   const frame = eastNorthUp(origin);
   const vertices = { frame, box: [0, 0, 0, 1, 1, 1], columns: new Map(), step: 2 ** -10 };
-  const node = new NodeDrawable({} as VertexPages<CesiumTypes>, vertices as unknown as DrawnVertices, 7);
+  const places = new NodePlaces();
+  const nodeOf = (slot: number, heightOffset: number) =>
+    new NodeDrawable(
+      {} as VertexPages<CesiumTypes>,
+      vertices as unknown as DrawnVertices,
+      slot,
+      places,
+      heightOffset,
+    );
+  const node = nodeOf(3, 7);
+  // Room for more is made without losing it.
+  nodeOf(40, 9);
   const eye = Cartesian3.fromRadians(0.1501, 0.8201, 900);
   const view = Matrix4.inverseTransformation(Transforms.eastNorthUpToFixedFrame(eye), new Matrix4());
   const table = new Float32Array(20).fill(9);
-  writeToEye(Matrix4.toArray(view), node.toGlobe, table, 4);
+  writeToEye(Matrix4.toArray(view), places.numbers, places.begin(node.slot) + PLACE.toGlobe, table, 4);
   const product = Matrix4.multiplyTransformation(view, matrixOf({ frame }, 7), new Matrix4());
   const steps = Matrix4.multiplyByUniformScale(product, 2 ** -10, new Matrix4());
   const rows = Matrix4.toArray(Matrix4.transpose(steps, new Matrix4())).slice(0, 12).map(Math.fround);

@@ -14,42 +14,92 @@ export interface CesiumView extends CesiumTypes {
 /** A node as a frame shows it in Cesium. */
 export type CesiumNode = DrawnNode<CesiumView>;
 
+/** Where the numbers of a place stand, from the first of its node on: see {@link NodePlaces}. */
+export const PLACE = { toGlobe: 0, centre: 12, radius: 15 } as const;
+
+/**
+ * Where nodes are drawn, in one array of numbers by the slots of the nodes, since all of them are read in each frame of a view that
+ * moves: three rows of the matrix that takes positions as they are stored to ECEF, then the sphere around the node, ECEF, metres.
+ */
+export class NodePlaces {
+  #numbers = new Float64Array(0);
+
+  /** The numbers of all slots; another array once there are more nodes. */
+  get numbers(): Float64Array {
+    return this.#numbers;
+  }
+
+  /** First number of a slot. */
+  begin(slot: number): number {
+    return 16 * slot;
+  }
+
+  write(slot: number, modelMatrix: Matrix4, step: number, { center, radius }: BoundingSphere): void {
+    const begin = this.begin(slot);
+    if (begin + 16 > this.#numbers.length) {
+      const before = this.#numbers;
+      this.#numbers = new Float64Array(2 * begin + 16);
+      this.#numbers.set(before);
+    }
+    const numbers = this.#numbers;
+    const columns = Matrix4.toArray(modelMatrix);
+    for (let row = 0; row < 3; row++) {
+      for (let column = 0; column < 4; column++) {
+        const value = columns[4 * column + row];
+        numbers[begin + PLACE.toGlobe + 4 * row + column] = column < 3 ? step * value : value;
+      }
+    }
+    numbers[begin + PLACE.centre] = center.x;
+    numbers[begin + PLACE.centre + 1] = center.y;
+    numbers[begin + PLACE.centre + 2] = center.z;
+    numbers[begin + PLACE.radius] = radius;
+  }
+}
+
 /** A node on the GPU, and where it is. */
 export class NodeDrawable extends PagedNode<CesiumTypes> implements UploadedNode {
-  #place: ReturnType<typeof placeOf>;
+  /** Where it and its neighbours are drawn. */
+  readonly places: NodePlaces;
+  #modelMatrix: Matrix4;
+  #sphere: BoundingSphere;
 
-  /** @param heightOffset metres above its place at which it is drawn */
-  constructor(pages: VertexPages<CesiumTypes>, vertices: DrawnVertices, heightOffset: number) {
-    super(pages, vertices);
-    this.#place = placeOf(vertices, heightOffset);
+  /**
+   * @param slot its own in `places`
+   * @param heightOffset metres above its place at which it is drawn
+   */
+  constructor(
+    pages: VertexPages<CesiumTypes>,
+    vertices: DrawnVertices,
+    slot: number,
+    places: NodePlaces,
+    heightOffset: number,
+  ) {
+    super(pages, vertices, slot);
+    this.places = places;
+    this.#modelMatrix = matrixOf(vertices, heightOffset);
+    this.#sphere = sphereOf(vertices, this.#modelMatrix);
+    this.#writePlace();
   }
 
   /** Node frame → ECEF, as it is drawn. */
   get modelMatrix(): Matrix4 {
-    return this.#place.modelMatrix;
-  }
-
-  /** Positions as they are stored → ECEF, column by column: what its product with the view is formed from. */
-  get toGlobe(): readonly number[] {
-    return this.#place.toGlobe;
+    return this.#modelMatrix;
   }
 
   /** Sphere around the node as it is drawn, ECEF, metres. */
   get sphere(): BoundingSphere {
-    return this.#place.sphere;
+    return this.#sphere;
   }
 
   lift(heightOffset: number): void {
-    this.#place = placeOf(this.vertices, heightOffset);
+    this.#modelMatrix = matrixOf(this.vertices, heightOffset);
+    this.#sphere = sphereOf(this.vertices, this.#modelMatrix);
+    this.#writePlace();
   }
-}
 
-/** Where a node is drawn: so many metres above its place, along its own up. */
-function placeOf(node: Pick<DrawnVertices, "frame" | "box" | "step">, heightOffset: number) {
-  const modelMatrix = matrixOf(node, heightOffset);
-  const { step = 1 } = node;
-  const toGlobe = Matrix4.toArray(modelMatrix).map((value, at) => (at < 12 ? step * value : value));
-  return { modelMatrix, toGlobe, sphere: sphereOf(node, modelMatrix) };
+  #writePlace(): void {
+    this.places.write(this.slot, this.#modelMatrix, this.vertices.step ?? 1, this.#sphere);
+  }
 }
 
 /**
@@ -71,14 +121,15 @@ export function matrixOf(
 }
 
 /**
- * Writes the product of two affine matrices, which are given column by column, row by row from a component on: stored
- * positions → eye, composed in float64 and only then rounded.
- * @param view ECEF → eye
- * @param model positions as they are stored → ECEF
+ * Writes the product of two affine matrices, row by row from a component on: stored positions → eye, composed in float64 and only
+ * then rounded.
+ * @param view ECEF → eye, column by column
+ * @param numbers with three rows of the matrix that takes positions as they are stored to ECEF, from `from` on
  */
 export function writeToEye(
   view: readonly number[],
-  model: readonly number[],
+  numbers: Float64Array,
+  from: number,
   table: Float32Array,
   at: number,
 ): void {
@@ -87,10 +138,10 @@ export function writeToEye(
     const y = view[row + 4];
     const z = view[row + 8];
     const to = at + 4 * row;
-    table[to] = x * model[0] + y * model[1] + z * model[2];
-    table[to + 1] = x * model[4] + y * model[5] + z * model[6];
-    table[to + 2] = x * model[8] + y * model[9] + z * model[10];
-    table[to + 3] = x * model[12] + y * model[13] + z * model[14] + view[row + 12];
+    table[to] = x * numbers[from] + y * numbers[from + 4] + z * numbers[from + 8];
+    table[to + 1] = x * numbers[from + 1] + y * numbers[from + 5] + z * numbers[from + 9];
+    table[to + 2] = x * numbers[from + 2] + y * numbers[from + 6] + z * numbers[from + 10];
+    table[to + 3] = x * numbers[from + 3] + y * numbers[from + 7] + z * numbers[from + 11] + view[row + 12];
   }
 }
 

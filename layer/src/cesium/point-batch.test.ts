@@ -3,7 +3,7 @@ import { expect, it } from "vitest";
 import { PointDraws } from "../drawing/point-draws.js";
 import { attributeSet } from "../drawing/vertex-attributes.js";
 import type { Context, VertexArray } from "./engine/cesium-private.js";
-import type { CesiumNode } from "./node-drawable.js";
+import { type CesiumNode, NodePlaces } from "./node-drawable.js";
 import { type DrawState, NodesVolume, PointBatch } from "./point-batch.js";
 
 /** A context that keeps what is done with it. */
@@ -38,13 +38,17 @@ const state = {
 it("draws exactly its nodes, each by its row in the table, whenever Cesium binds it", () => {
   const { calls, objects, arrayOf } = recorder();
   const batch = new PointBatch(objects);
+  const places = new NodePlaces();
+  for (const slot of [0, 1, 2]) {
+    places.write(slot, Matrix4.IDENTITY, 1, new BoundingSphere(Cartesian3.UNIT_X, slot + 1));
+  }
   const node = (name: string, row: number, count: number) =>
     ({
       row,
       count,
       uploaded: {
         ...{ arrayOf: () => arrayOf(name), first: 100 * row },
-        sphere: new BoundingSphere(Cartesian3.UNIT_X, row + 1),
+        ...{ places, slot: row },
       },
     }) as unknown as CesiumNode;
   const nodes = [node("a", 0, 10), node("c", 2, 7)];
@@ -71,9 +75,12 @@ it("draws exactly its nodes, each by its row in the table, whenever Cesium binds
 
 it("lies as near and as far as its nodes do, not as the sphere around them", () => {
   const volume = new NodesVolume();
-  const at = (x: number, y: number) => ({
-    uploaded: { sphere: new BoundingSphere(new Cartesian3(x, y, 0), 1) },
-  });
+  const places = new NodePlaces();
+  let slot = 0;
+  const at = (x: number, y: number) => {
+    places.write(slot, Matrix4.IDENTITY, 1, new BoundingSphere(new Cartesian3(x, y, 0), 1));
+    return { uploaded: { places, slot: slot++ } };
+  };
   volume.hold([at(100, 0), at(100, 5000)]);
   const { start, stop } = volume.computePlaneDistances(Cartesian3.ZERO, Cartesian3.UNIT_X);
   expect([start, stop]).toEqual([99, 101]);

@@ -4,7 +4,7 @@ import { NODE_NUMBER } from "../effects/index.js";
 import { BatchArray } from "./engine/batch-array.js";
 import { DrawCommand, type RenderState, type UniformMap } from "./engine/cesium-private.js";
 import type { CesiumTypes, GpuObjects } from "./engine/gpu-objects.js";
-import type { CesiumNode } from "./node-drawable.js";
+import { type CesiumNode, type NodeDrawable, PLACE } from "./node-drawable.js";
 
 /** How nodes are drawn: by which program, where to, and with which values. */
 export interface DrawState {
@@ -68,16 +68,14 @@ export class NodesVolume extends BoundingSphere {
   #end = 0;
 
   /** Stands for the spheres of these nodes from now on. */
-  hold(nodes: readonly { readonly uploaded: { readonly sphere: BoundingSphere } }[]): void {
+  hold(nodes: readonly { readonly uploaded: Pick<NodeDrawable, "places" | "slot"> }[]): void {
     this.#end = 4 * nodes.length;
     if (this.#balls.length < this.#end) this.#balls = new Float64Array(2 * this.#end);
     const balls = this.#balls;
     for (let index = 0, at = 0; index < nodes.length; index++, at += 4) {
-      const { center, radius } = nodes[index].uploaded.sphere;
-      balls[at] = center.x;
-      balls[at + 1] = center.y;
-      balls[at + 2] = center.z;
-      balls[at + 3] = radius;
+      const { places, slot } = nodes[index].uploaded;
+      const from = places.begin(slot) + PLACE.centre;
+      for (let number = 0; number < 4; number++) balls[at + number] = places.numbers[from + number];
     }
     const x = this.#middle(0);
     const y = this.#middle(1);

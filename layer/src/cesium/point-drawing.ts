@@ -10,7 +10,7 @@ import { type Command, type FrameState, Pass, type PickId } from "./engine/cesiu
 import type { GpuObjects } from "./engine/gpu-objects.js";
 import { GpuTimer, hookCommand } from "./engine/gpu-timer.js";
 import type { RenderStates } from "./engine/render-states.js";
-import { type CesiumNode, type CesiumView, writeToEye } from "./node-drawable.js";
+import { type CesiumNode, type CesiumView, PLACE, writeToEye } from "./node-drawable.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
 import { OffscreenTarget, PictureUniforms } from "./offscreen-target.js";
 import { PointBatch } from "./point-batch.js";
@@ -106,7 +106,8 @@ export class PointDrawing {
     for (const group of groups) {
       const toEye = group.placeIn("u_modelView") ?? 0;
       group.place(1, by, ({ uploaded }, _, table, begin) => {
-        writeToEye(by, uploaded.toGlobe, table, begin + toEye);
+        const { places, slot } = uploaded;
+        writeToEye(by, places.numbers, places.begin(slot) + PLACE.toGlobe, table, begin + toEye);
       });
     }
   }

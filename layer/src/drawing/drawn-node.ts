@@ -84,32 +84,3 @@ export function byGroup<V extends ViewTypes>(nodes: Iterable<DrawnNode<V>>): Gro
   for (const members of groups.values()) members.sort((a, b) => a.row - b.row);
   return groups;
 }
-
-/** Nodes in an order in which those of one page follow each other, pages and their nodes as they came. */
-export function byPage<Node extends { readonly uploaded: Pick<UploadedNode, "page"> }>(
-  nodes: readonly Node[],
-): Node[] {
-  const numbers = new Map<object | undefined, number>();
-  const pageOf = new Int32Array(nodes.length);
-  /** Of each page its nodes, then the index of the next one of them. */
-  const next: number[] = [];
-  for (let index = 0; index < nodes.length; index++) {
-    const { page } = nodes[index].uploaded;
-    let number = numbers.get(page);
-    if (number === undefined) {
-      number = next.push(0) - 1;
-      numbers.set(page, number);
-    }
-    pageOf[index] = number;
-    next[number]++;
-  }
-  let begin = 0;
-  for (let number = 0; number < next.length; number++) {
-    const own = next[number];
-    next[number] = begin;
-    begin += own;
-  }
-  const ordered = nodes.slice();
-  for (let index = 0; index < nodes.length; index++) ordered[next[pageOf[index]]++] = nodes[index];
-  return ordered;
-}

@@ -62,6 +62,21 @@ describe("LayerFrames, in a view of no library at all", () => {
     expect(renderer.drawn).toHaveLength(1);
   });
 
+  it("says of the nodes to be drawn how far away they begin", async () => {
+    const { cloud, frames, settle, renderer } = await setUp();
+    await settle(settingsOf());
+    const prepare = vi.spyOn(renderer.content, "prepare");
+    const { x, y, z, radius } = cloud.bounds;
+    for (const metres of [3000, 20]) {
+      const camera = cameraOver(cloud, metres);
+      frames.draw(settingsOf(), camera, () => renderer);
+      const { position } = camera.view;
+      const away = Math.hypot(x - position[0]!, y - position[1]!, z - position[2]!);
+      const nearest = prepare.mock.lastCall![0].nearest![0]!;
+      expect(nearest).toBeCloseTo(Math.max(camera.near, away - radius), 3);
+    }
+  });
+
   it("finds out nothing anew for a view that stands still, until something that it rests on changes", async () => {
     const { cloud, frames, frame, settle, renderer } = await setUp();
     const settings = settingsOf();

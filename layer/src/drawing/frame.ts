@@ -116,8 +116,9 @@ export class LayerFrames<V extends ViewTypes> {
   /** Whether the last frame drew its points, and did not only show a picture of them that was there. */
   #drawn = false;
   #frameStart = 0;
-  /** Of the last selection; longer than that, so that it serves many. */
+  /** Of the last selection's nodes, their slots, and how far away they begin, metres; longer, so that they serve many. */
   #slots = new Int32Array(0);
+  #nearest = new Float32Array(0);
   /** Milliseconds from the frame before this one to it; 0 where they did not follow each other. */
   #interval = 0;
 
@@ -204,7 +205,10 @@ export class LayerFrames<V extends ViewTypes> {
     const ground = this.#ground(settings, camera, renderer);
     const { depth } = camera;
     const vertices = this.#verticesOf(here);
-    const request = { selection, vertices, changes: stream.changes, plan, clips, allowance, depth };
+    const request = {
+      ...{ selection, vertices, changes: stream.changes, nearest: this.#nearest },
+      ...{ plan, clips, allowance, depth },
+    };
     const { content } = renderer;
     const waiting = content.prepare(request);
     renderer.draw();
@@ -246,7 +250,10 @@ export class LayerFrames<V extends ViewTypes> {
 
   /** What is here of a selection's nodes. */
   #here({ nodes }: Selection): NodesHere {
-    if (this.#slots.length < nodes.length) this.#slots = new Int32Array(2 * nodes.length);
+    if (this.#slots.length < nodes.length) {
+      this.#slots = new Int32Array(2 * nodes.length);
+      this.#nearest = new Float32Array(2 * nodes.length);
+    }
     const slots = this.#slots.subarray(0, nodes.length);
     const { shapes } = this.#octree;
     for (let index = 0; index < nodes.length; index++) slots[index] = shapes.slotOf(nodes[index]);
@@ -270,14 +277,12 @@ export class LayerFrames<V extends ViewTypes> {
   ): SceneFacts {
     const { attributes } = this.#cloud;
     const { volumes } = this.#clips;
-    return sceneFacts(camera, selection, here, {
-      attributes,
-      clips: volumes?.cutting ?? 0,
-      highlights: volumes?.highlighting ?? 0,
-      filter,
-      silhouettes,
+    const known = {
+      ...{ attributes, filter, silhouettes },
+      ...{ clips: volumes?.cutting ?? 0, highlights: volumes?.highlighting ?? 0 },
       placing: placingFacts(this.#placing, here.slots, here.shapes),
-    });
+    };
+    return sceneFacts(camera, selection, here, known, this.#nearest);
   }
 
   #plan(style: PointCloudStyle, facts: SceneFacts, forced: Forced): EffectPlan {

@@ -1,7 +1,8 @@
 import { type EffectPlan, widestPoint, withoutClips } from "../effects/index.js";
 import type { ByteLedger, OctreeNode, Selection } from "../octree/index.js";
 import type { ClipAnswers } from "./clip-answers.js";
-import { byPage, type DrawnNode, type GroupedNodes, type ViewTypes } from "./drawn-node.js";
+import { DrawOrder } from "./draw-order.js";
+import type { DrawnNode, GroupedNodes, ViewTypes } from "./drawn-node.js";
 import type { DrawnVertices } from "./drawn-vertices.js";
 import type { FrameAllowance } from "./frame-allowance.js";
 import type { Gpu } from "./gpu.js";
@@ -19,6 +20,8 @@ export interface ContentRequest {
   readonly selection: Pick<Selection, "nodes" | "counts">;
   /** What is here of these nodes, at the same indices. */
   readonly vertices: readonly (DrawnVertices | undefined)[];
+  /** How far away these nodes begin, above 0, metres; undefined where it does not matter which are drawn first. */
+  readonly nearest?: ArrayLike<number> | undefined;
   /** Another number than before whenever points that are here may look different. */
   readonly changes: number;
   readonly plan: EffectPlan;
@@ -35,6 +38,15 @@ interface Drawing<V extends ViewTypes> extends DrawnNode<V> {
   clipRecords: readonly [first: number, count: number];
 }
 
+/** Nodes that are drawn with the same effects. */
+interface Members<V extends ViewTypes> {
+  readonly group: NodeGroup<V>;
+  readonly plan: EffectPlan;
+  readonly nodes: Drawing<V>[];
+  /** How far away they begin, at the same indices; empty where that is not known. */
+  readonly nearest: number[];
+}
+
 const NO_RECORDS = [0, 0] as const;
 
 /** What a layer has on the GPU of one context, and what of it the last frame shows. */
@@ -44,6 +56,7 @@ export class LayerContent<V extends ViewTypes> {
   readonly #materials: Materials<V>;
   readonly #pages: VertexPages<V>;
   readonly #uploads: NodeUploads<V["node"]>;
+  readonly #order = new DrawOrder();
   #depth: LogarithmicDepth = { own: false, scene: false };
   #nodes: DrawnNode<V>[] = [];
   #groups: NodeGroup<V>[] = [];
@@ -52,19 +65,24 @@ export class LayerContent<V extends ViewTypes> {
 
   /**
    * @param base uniforms that the view itself fills
-   * @param makeNode a node of which nothing is in the pages yet, so many metres above its place
+   * @param makeNode a node of which nothing is in the pages yet, of a slot, so many metres above its place
    */
   constructor(
     gpu: Gpu<V>,
     base: V["uniforms"],
-    makeNode: (pages: VertexPages<V>, vertices: DrawnVertices, heightOffset: number) => V["node"],
+    makeNode: (
+      pages: VertexPages<V>,
+      vertices: DrawnVertices,
+      slot: number,
+      heightOffset: number,
+    ) => V["node"],
   ) {
     this.#gpu = gpu;
     this.programs = new Programs(gpu);
     this.#materials = new Materials(gpu, base);
     this.#pages = new VertexPages(gpu);
-    this.#uploads = new NodeUploads((vertices, heightOffset) =>
-      makeNode(this.#pages, vertices, heightOffset),
+    this.#uploads = new NodeUploads((vertices, slot, heightOffset) =>
+      makeNode(this.#pages, vertices, slot, heightOffset),
     );
   }
 
@@ -203,15 +221,18 @@ export class LayerContent<V extends ViewTypes> {
   /** @param uploaded what is on the GPU of the selection's nodes, at the same indices */
   #collect(
     material: Material<V>,
-    { selection, clips: answers }: ContentRequest,
+    { selection, clips: answers, nearest }: ContentRequest,
     uploaded: readonly (V["node"] | undefined)[],
   ): DrawnNode<V>[] {
     const reads = this.#reads(material);
     const { plan } = material;
     const plain = withoutClips(plan);
-    const cut = { group: material.groupOf(plan), plan, nodes: [] as Drawing<V>[] };
-    const whole =
-      plain === plan ? cut : { group: material.groupOf(plain), plan: plain, nodes: [] as Drawing<V>[] };
+    const membersOf = (plan: EffectPlan): Members<V> => ({
+      ...{ group: material.groupOf(plan), plan },
+      ...{ nodes: [], nearest: [] },
+    });
+    const cut = membersOf(plan);
+    const whole = plain === plan ? cut : membersOf(plain);
     const drawn: Drawing<V>[] = [];
     const { nodes, counts } = selection;
     let firstId = 0;
@@ -221,7 +242,8 @@ export class LayerContent<V extends ViewTypes> {
       const clips = answers.of(there.vertices);
       if (!clips || clips.state === "out") continue;
       const count = Math.min(counts[index], there.vertices.count);
-      const { group, nodes: members } = clips.state === "in" ? whole : cut;
+      const members = clips.state === "in" ? whole : cut;
+      const { group } = members;
       // Spread into one another, objects would take longer than all else that is done for a node.
       const one: Drawing<V> = {
         node: nodes[index],
@@ -234,7 +256,8 @@ export class LayerContent<V extends ViewTypes> {
         octreeIndex: 0,
         clipRecords: NO_RECORDS,
       };
-      members.push(one);
+      members.nodes.push(one);
+      if (nearest) members.nearest.push(nearest[index]);
       drawn.push(one);
       firstId += count;
     }
@@ -245,8 +268,8 @@ export class LayerContent<V extends ViewTypes> {
     }
     for (let index = 0; index < clipRecords.length; index++) drawn[index].clipRecords = clipRecords[index];
     this.#groups = [];
-    for (const { group, plan, nodes: members } of whole === cut ? [cut] : [cut, whole]) {
-      const ordered = byPage(members);
+    for (const { group, plan, nodes: members, nearest: distances } of whole === cut ? [cut] : [cut, whole]) {
+      const ordered = this.#order.of(members, nearest && distances);
       for (let row = 0; row < ordered.length; row++) ordered[row].row = row;
       group.take(plan, ordered);
       if (ordered.length > 0) this.#groups.push(group);

@@ -3,9 +3,11 @@ import { expect, it, vi } from "vitest";
 import { defaultStyle, planEffects } from "../effects/index.js";
 import { richFacts } from "../effects/scene.fixture.js";
 import { OctreeNode } from "../octree/index.js";
+import { DrawList } from "./draw-list.js";
 import type { DrawnVertices } from "./drawn-vertices.js";
 import { FrameAllowance } from "./frame-allowance.js";
 import type { ContentRequest } from "./layer-content.js";
+import { attributeSet } from "./vertex-attributes.js";
 import { TestRenderer } from "./view.fixture.js";
 
 /** Nodes that are drawn, and points of each. */
@@ -42,18 +44,24 @@ function counter(objects: readonly object[]) {
   };
 }
 
-it("draws a moving frame of 1,000 nodes by few calls, and makes nothing on the GPU", () => {
+/** Frames of 1,000 nodes that are on the GPU. */
+function frames() {
   const { gpu, content } = new TestRenderer();
   const nodes = Array.from({ length: NODES }, (_, x) => new OctreeNode({ depth: 10, x, y: 0, z: 0 }));
   const plan = planEffects(defaultStyle({ attributes: [] }), richFacts());
   const vertices = nodes.map(verticesOf);
   const volumes = { state: "in", count: 0, texels: [] } as const;
-  const request = (counts: number[]): ContentRequest => ({
-    ...{ selection: { nodes, counts }, vertices, changes: 0, plan },
+  const request = (counts: number[], nearest?: number[]): ContentRequest => ({
+    ...{ selection: { nodes, counts }, vertices, changes: 0, nearest, plan },
     clips: { form: () => 0, of: () => volumes, advance: () => undefined },
     ...{ depth: { own: false, scene: false }, allowance: new FrameAllowance(() => 0, 1) },
   });
   for (let left = 20; left > 0; left--) content.prepare(request(nodes.map(() => POINTS)));
+  return { gpu, content, nodes, request };
+}
+
+it("draws a moving frame of 1,000 nodes by few calls, and makes nothing on the GPU", () => {
+  const { gpu, content, nodes, request } = frames();
   const place = vi.fn();
   for (const group of content.groups) group.place(1, [0], place);
   expect([content.points, place.mock.calls.length]).toEqual([NODES * POINTS, NODES]);
@@ -82,4 +90,30 @@ it("draws a moving frame of 1,000 nodes by few calls, and makes nothing on the G
   // One that turns on the spot shows the same: where all of it lies is written anew, and nothing twice.
   for (const by of [70, 70]) for (const group of content.groups) group.place(1, [by], place);
   expect(counted()).toEqual({ setTexture: 1, writeTexture: 1 });
+});
+
+it("draws nodes of a page from near to far, each by its row, while points keep their numbers", () => {
+  const { content, nodes, request } = frames();
+  const counts = nodes.map(() => POINTS);
+  // Every tenth is as far as the one before it, so that some are alike.
+  const nearest = nodes.map((_, index) => 1 + ((index * 389) % NODES) * (index % 10 === 9 ? 0 : 1));
+  content.prepare(request(counts, nearest));
+  const [group] = content.groups;
+  const drawn = group!.nodes;
+  const distances = drawn.map(({ node }) => nearest[nodes.indexOf(node)]!);
+  expect(new Set(drawn.map(({ node }) => node)).size).toBe(NODES);
+  expect(drawn.map(({ row }) => row)).toEqual(drawn.map((_, index) => index));
+  let pages = 0;
+  for (const [at, { uploaded }] of drawn.entries()) {
+    if (uploaded.page !== drawn[at - 1]?.uploaded.page) pages++;
+    // Distances within a thousandth of their range, as a logarithm, count as the same.
+    else expect(distances[at - 1]).toBeLessThanOrEqual(1.02 * distances[at]!);
+  }
+  expect(pages).toBe(new Set(drawn.map(({ uploaded }) => uploaded.page)).size);
+  expect(pages).toBeGreaterThan(1);
+  const numbered = content.nodes.map(({ node, firstId }) => [node, firstId]);
+  expect(numbered).toEqual(nodes.map((node, index) => [node, POINTS * index]));
+  const list = new DrawList<object>();
+  list.fill(drawn, attributeSet([]));
+  expect(list.runs).toBe(pages);
 });

@@ -34,7 +34,7 @@ function nodeOf(x: number) {
   const uploaded = {
     vertices: { columns: { get }, toCube: Array(12).fill(0) },
     first: 10,
-    styled: undefined,
+    slot: x,
   };
   const node = new OctreeNode({ depth: 1, x, y: 0, z: 0 });
   const drawn = (row: number, firstId: number) =>

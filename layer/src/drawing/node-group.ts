@@ -13,8 +13,11 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
   #plan: EffectPlan;
   #nodes: readonly DrawnNode<V>[] = [];
   #rows = 0;
-  /** What the values of nodes follow from besides themselves; another object once that is another. */
+  /** What the values of nodes follow from besides themselves. */
   #styled: StyledBy | undefined;
+  /** What effects say of nodes, as rows of the table by their slots, and of which node each of these rows is. */
+  #values = new Float32Array(0);
+  readonly #valued: (V["node"] | undefined)[] = [];
   /** What the table on the GPU was written for. */
   #placed: FrameGround | undefined;
 
@@ -55,6 +58,7 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
     const by = this.#styled;
     if (by?.style === style && by.filter === filter && by.attributes === attributes) return;
     this.#styled = { style, filter, attributes };
+    this.#valued.length = 0;
   }
 
   /** Draws a node no more; the rows of the others stay. */
@@ -88,7 +92,9 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
       for (let index = 0; index < this.#nodes.length; index++) {
         const node = this.#nodes[index];
         const row = copy * this.#rows + node.row;
-        table.write(row, this.#valuesOf(node), node);
+        const { uploaded } = node;
+        if (this.#valued[uploaded.slot] !== uploaded) this.#form(node);
+        table.write(row, this.#values, uploaded.slot, node);
         place(node, copy, data, table.beginOf(row));
       }
     }
@@ -104,20 +110,23 @@ export class NodeGroup<V extends ViewTypes> implements DrawnWith<V> {
     this.#table.destroy();
   }
 
-  /** What effects say of a node, formed once for a style. */
-  #valuesOf({ node, uploaded }: DrawnNode<V>): Float32Array {
-    const by = this.#styled;
-    const { styled } = uploaded;
-    if (styled && styled.by === by) return styled.row;
+  /** Forms what effects say of a node, once for a style. */
+  #form({ node, uploaded }: DrawnNode<V>): void {
+    const { slot } = uploaded;
     const { columns, toCube, step } = uploaded.vertices;
     const values = nodeUniforms(this.#plan, {
       ...{ columns, toCube, step },
       level: node.key.depth,
       spacing: node.bounds?.spacing ?? 0,
     });
-    const row = this.#table.rowOf(values, step);
-    uploaded.styled = { by, row };
-    return row;
+    const table = this.#table;
+    if (table.beginOf(slot + 1) > this.#values.length) {
+      const before = this.#values;
+      this.#values = new Float32Array(2 * table.beginOf(slot + 1));
+      this.#values.set(before);
+    }
+    table.writeValues(this.#values, slot, values, step);
+    this.#valued[slot] = uploaded;
   }
 }
 

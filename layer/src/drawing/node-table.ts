@@ -46,14 +46,18 @@ export class NodeTable<T extends GpuTypes> {
     return 4 * this.#layout.texels * row;
   }
 
+  /** Components of a row. */
+  get width(): number {
+    return 4 * this.#layout.texels;
+  }
+
   /**
-   * A row with these values, to be copied into the table as long as they hold; all others are 0.
+   * Writes a row of another array with these values, to be copied into the table as long as they hold; all others are 0.
    * @param step metres that the positions of its node are stored in
    */
-  rowOf(values: NodeValues, step: number | undefined): Float32Array {
-    const row = new Float32Array(4 * this.#layout.texels);
-    writeNode(this.#layout, row, 0, values, step);
-    return row;
+  writeValues(rows: Float32Array, row: number, values: NodeValues, step: number | undefined): void {
+    rows.fill(0, this.beginOf(row), this.beginOf(row + 1));
+    writeNode(this.#layout, rows, row, values, step);
   }
 
   /** Makes room for so many rows, which are all to be written then. */
@@ -68,12 +72,15 @@ export class NodeTable<T extends GpuTypes> {
 
   /**
    * Writes a row but for what the view says of it.
-   * @param values of the node, as {@link rowOf} gives them
+   * @param rows where the values of the node stand, as {@link writeValues} writes them
+   * @param from the row of these
    */
-  write(row: number, values: Float32Array, node: DrawnNode): void {
+  write(row: number, rows: Float32Array, from: number, node: DrawnNode): void {
     const data = this.#data;
-    const begin = this.beginOf(row);
-    for (let at = 0; at < values.length; at++) data[begin + at] = values[at];
+    const { width } = this;
+    const begin = width * row;
+    const first = width * from;
+    for (let at = 0; at < width; at++) data[begin + at] = rows[first + at];
     // Programs count from the first vertex of the page.
     if (this.#firstId !== undefined) {
       writeInteger(data, begin + this.#firstId, node.firstId - node.uploaded.first);

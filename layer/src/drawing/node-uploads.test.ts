@@ -38,7 +38,7 @@ function counted() {
   const count = (kind: string) =>
     [...alive].filter((object) => (object as { kind: string }).kind === kind).length;
   const pages = new VertexPages(gpu);
-  const uploads = new NodeUploads((vertices) => new Uploaded(pages, vertices));
+  const uploads = new NodeUploads((vertices, slot) => new Uploaded(pages, vertices, slot));
   /** Uploads what a frame with time for so many steps allows. */
   const upload = (
     { nodes, vertices }: ReturnType<typeof nodesOf>,

@@ -9,16 +9,16 @@ const BYTES = 4 * 1024 * 1024;
 /** A node on the GPU, as a view draws it. */
 export interface UploadedNode {
   readonly vertices: DrawnVertices;
-  /** What tells the page that it lies in from others: nodes of one page can be drawn by one call. */
-  readonly page: object | undefined;
+  /** Its number among all that is on the GPU: what is kept of each lies there in arrays. One that is freed leaves it to another. */
+  readonly slot: number;
+  /** Number of the page that it lies in: nodes of one page can be drawn by one call. */
+  readonly page: number;
   /** Its first vertex there. */
   readonly first: number;
   /** Whether its points have changed since it was made, so that another one has to take its place. */
   readonly outdated: boolean;
   /** Bytes of its page that it fills. */
   readonly bytes: number;
-  /** What effects say of it as a row of a table of nodes, and by which style, told apart by identity. */
-  styled: { readonly by: unknown; readonly row: Float32Array } | undefined;
   /** Whether programs that read these attributes can draw it. */
   has(set: AttributeSet): boolean;
   /** Puts on the GPU what programs with these attributes need. */
@@ -48,14 +48,17 @@ export function isReady(uploaded: UploadedNode, sets: readonly AttributeSet[]): 
 /** The nodes of a layer that are on the GPU. */
 export class NodeUploads<Node extends UploadedNode> {
   readonly #nodes = new Map<OctreeNode, Node>();
-  readonly #make: (vertices: DrawnVertices, heightOffset: number) => Node;
+  readonly #make: (vertices: DrawnVertices, slot: number, heightOffset: number) => Node;
+  /** Slots that were left, and the next one that nobody had. */
+  readonly #left: number[] = [];
+  #next = 0;
   #heightOffset = 0;
   /** The changes of points up to which nodes were looked through for outdated ones, and whether some were. */
   #looked: number | undefined;
   #outdated = false;
 
   /** @param make a node of which nothing is on the GPU yet, so many metres above its place */
-  constructor(make: (vertices: DrawnVertices, heightOffset: number) => Node) {
+  constructor(make: (vertices: DrawnVertices, slot: number, heightOffset: number) => Node) {
     this.#make = make;
   }
 
@@ -103,10 +106,10 @@ export class NodeUploads<Node extends UploadedNode> {
       }
       // An outdated one is drawn until another is whole.
       const kept = there?.outdated ? undefined : there;
-      const uploaded = kept ?? this.#make(content, this.#heightOffset);
+      const uploaded = kept ?? this.#make(content, this.#left.pop() ?? this.#next++, this.#heightOffset);
       const before = uploaded.bytes;
       for (const set of sets) uploaded.upload(set);
-      if (!kept) there?.destroy();
+      if (!kept && there) this.#destroy(there);
       this.#nodes.set(node, uploaded);
       all[index] = uploaded;
       left -= uploaded.bytes - before;
@@ -134,14 +137,20 @@ export class NodeUploads<Node extends UploadedNode> {
 
   /** Frees what a node has on the GPU. */
   free(node: OctreeNode): void {
-    this.#nodes.get(node)?.destroy();
+    const uploaded = this.#nodes.get(node);
+    if (uploaded) this.#destroy(uploaded);
     this.#nodes.delete(node);
   }
 
   /** Frees all. */
   destroy(): void {
-    for (const uploaded of this.#nodes.values()) uploaded.destroy();
+    for (const uploaded of this.#nodes.values()) this.#destroy(uploaded);
     this.#nodes.clear();
+  }
+
+  #destroy(uploaded: Node): void {
+    uploaded.destroy();
+    this.#left.push(uploaded.slot);
   }
 
   /** Whether any node is outdated, in view or not: found out when points may have changed, and while some are. */

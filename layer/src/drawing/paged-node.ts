@@ -29,6 +29,7 @@ interface PagedArray<T extends GpuTypes> {
  */
 export class PagedNode<T extends GpuTypes> implements PageTenant {
   readonly vertices: DrawnVertices;
+  readonly slot: number;
   readonly #pages: VertexPages<T>;
   /** The colours that it was made with. */
   readonly #colours: Column | undefined;
@@ -36,14 +37,14 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   readonly #arrays = new Map<string, PagedArray<T>>();
   /** The one that was last asked for, most likely the next as well. */
   #last: PagedArray<T> | undefined;
-  /** What effects say of it, kept by whoever draws it. */
-  styled: { readonly by: unknown; readonly row: Float32Array } | undefined;
-  #slot: PageSlot<T> | undefined;
+  #place: PageSlot<T> | undefined;
   #bytes = 0;
 
-  constructor(pages: VertexPages<T>, vertices: DrawnVertices) {
+  /** @param slot its number among all that is on the GPU */
+  constructor(pages: VertexPages<T>, vertices: DrawnVertices, slot: number) {
     this.#pages = pages;
     this.vertices = vertices;
+    this.slot = slot;
     this.#colours = vertices.columns.get("rgb");
   }
 
@@ -57,9 +58,9 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     return this.#bytes;
   }
 
-  /** What tells its page from others; nodes of one page can be drawn by one call. */
-  get page(): object | undefined {
-    return this.#slot?.page;
+  /** Number of its page; nodes of one page can be drawn by one call. */
+  get page(): number {
+    return this.#place?.page.number ?? 0;
   }
 
   /** How its positions are stored: four uint16 where they lie at whole steps, else three float32. */
@@ -69,7 +70,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
 
   /** Its first vertex in the page. */
   get first(): number {
-    return this.#slot?.first ?? 0;
+    return this.#place?.first ?? 0;
   }
 
   /** Whether programs that read these attributes can draw the node. */
@@ -90,8 +91,8 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
       this.#last = found;
       return found.array;
     }
-    const slot = this.#slot ?? this.#pages.reserve(this.vertices.count, this, this.positions);
-    this.#slot = slot;
+    const slot = this.#place ?? this.#pages.reserve(this.vertices.count, this, this.positions);
+    this.#place = slot;
     const { page } = slot;
     const inputs = set.attributes.map((attribute): VertexInput<T["buffer"]> => {
       const { location, normalized, column } = attribute;
@@ -113,13 +114,13 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     const signatures = new Set(sets.map(({ signature }) => signature));
     for (const [signature, { name }] of this.#arrays) {
       if (signatures.has(signature)) continue;
-      this.#slot?.page.leaveArray(name);
+      this.#place?.page.leaveArray(name);
       this.#arrays.delete(signature);
     }
     const columns = new Set([POSITION, ...sets.flatMap((set) => set.columns)]);
     for (const [column, { buffer, bytes }] of this.#columns) {
       if (columns.has(column)) continue;
-      this.#slot?.page.leave(buffer);
+      this.#place?.page.leave(buffer);
       this.#columns.delete(column);
       this.#bytes -= bytes;
     }
@@ -128,13 +129,13 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   move(to: PageSlot<T>): void {
     const sets = [...this.#arrays.values()].map(({ set }) => set);
     this.destroy();
-    this.#slot = to;
+    this.#place = to;
     for (const set of sets) this.upload(set);
   }
 
   /** Frees all that the node has on the GPU. */
   destroy(): void {
-    const slot = this.#slot;
+    const slot = this.#place;
     if (!slot) return;
     for (const { name } of this.#arrays.values()) slot.page.leaveArray(name);
     for (const { buffer } of this.#columns.values()) slot.page.leave(buffer);
@@ -142,7 +143,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     this.#last = undefined;
     this.#columns.clear();
     this.#bytes = 0;
-    this.#slot = undefined;
+    this.#place = undefined;
     this.#pages.release(slot);
   }
 

@@ -141,6 +141,20 @@ describe("what is known of the spacing", () => {
   });
 });
 
+it("tells how far away nodes begin: from the camera, or ahead of it where nothing shrinks with distance", () => {
+  const nodes = [nodeAt({ depth: 0, x: 0, y: 0, z: 0 }, [30, 40, 0], 10), nodeAt(keys[0]!, [5, 0, 0], 10)];
+  const selection = { nodes, counts: [100, 100], spacings: [2, 2], points: 200 } as unknown as Selection;
+  const nearest = (seen: FrameCamera) => {
+    const told = new Float32Array(2);
+    sceneFacts(seen, selection, nodesHere(nodes, nodes.map(verticesOf)), layer, told);
+    return [...told];
+  };
+  const near = Math.fround(0.1);
+  expect(nearest(camera)).toEqual([40, near]);
+  const flat = { ...camera.view, projection: { kind: "orthographic", extent: 100 } as const };
+  expect(nearest({ ...camera, view: flat })).toEqual([20, near]);
+});
+
 describe("what a point may be off on screen", () => {
   const node = nodeAt({ depth: 0, x: 0, y: 0, z: 0 }, [20, 0, 0], 10);
   /** Of a node that is as wide as `half` says on each side of x = 20 and lies from z = -5 down, in view from the origin. */

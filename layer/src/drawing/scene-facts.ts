@@ -21,12 +21,14 @@ export interface LayerFacts {
  * The numbers that the magnitudes of effects are computed from. What is done for each node makes no objects and looks nothing
  * up: a view that moves needs it in every frame, of a thousand nodes or more.
  * @param here what is here of the selection's nodes
+ * @param nearest is given how far away each node of the selection begins, metres: the near plane where that is farther
  */
 export function sceneFacts(
   camera: FrameCamera,
   selection: Selection,
   here: NodesHere,
   layer: LayerFacts,
+  nearest: Float32Array = new Float32Array(selection.nodes.length),
 ): SceneFacts {
   const { view, pixelRatio } = camera;
   const { nodes, points } = selection;
@@ -36,14 +38,16 @@ export function sceneFacts(
     nodes: nodes.length,
     points,
     ...spacingFacts(camera, selection, here),
-    ...depthFacts(camera, distances(camera, selection)),
+    ...depthFacts(camera, distances(camera, selection, nearest)),
     placingPixels: placingPixels(camera, here),
     ...layer,
   };
 }
 
 /** Least and greatest distance of nodes, metres. */
-function distances({ view: { position }, near }: FrameCamera, { nodes }: Selection) {
+function distances({ view, near }: FrameCamera, { nodes }: Selection, nearest: Float32Array) {
+  const { position, direction } = view;
+  const perspective = view.projection.kind === "perspective";
   const distance = new Extent();
   for (let index = 0; index < nodes.length; index++) {
     const { bounds } = nodes[index];
@@ -53,8 +57,11 @@ function distances({ view: { position }, near }: FrameCamera, { nodes }: Selecti
     const z = bounds.z - position[2];
     // The root of the sum, since hypot is many times slower and nothing overflows here.
     const away = Math.sqrt(x * x + y * y + z * z);
-    distance.add(Math.max(near, away - bounds.radius));
+    const least = Math.max(near, away - bounds.radius);
+    distance.add(least);
     distance.add(away + bounds.radius);
+    const ahead = x * direction[0] + y * direction[1] + z * direction[2];
+    nearest[index] = perspective ? least : Math.max(near, ahead - bounds.radius);
   }
   return distance.range;
 }

@@ -58,7 +58,8 @@ it("states what whole steps and float32 do on the way to the eye, whatever the n
       ];
       const shift = rows.map((row) => -row.reduce((sum, value, axis) => sum + value * eye[axis]!, 0));
       const columns = [0, 1, 2].flatMap((column) => [...rows.map((row) => row[column]!), 0]);
-      const row = table.rowOf({ u_modelView: [...columns, ...shift, 1] }, step);
+      const row = new Float32Array(table.width);
+      table.writeValues(row, 0, { u_modelView: [...columns, ...shift, 1] }, step);
       const matrix = row.subarray(at, at + 12);
 
       const bound = stepBound(step);

@@ -112,10 +112,14 @@ describe("nodes in pages", () => {
     columns: readonly Column[] = [],
     step?: number,
   ) =>
-    new TestNode(pages, {
-      ...{ positions: new Float32Array(3 * count).fill(count), count, step },
-      columns: new Map(columns.map((column) => [column.name, column])),
-    } as unknown as ConstructorParameters<typeof TestNode>[1]);
+    new TestNode(
+      pages,
+      {
+        ...{ positions: new Float32Array(3 * count).fill(count), count, step },
+        columns: new Map(columns.map((column) => [column.name, column])),
+      } as unknown as ConstructorParameters<typeof TestNode>[1],
+      0,
+    );
   const classes = (count: number, constant?: number): Column => ({
     ...{ name: "classification", components: 1, scale: 1, offset: 0, bound: 0 },
     data: new Uint16Array(constant === undefined ? count : 0).fill(700),

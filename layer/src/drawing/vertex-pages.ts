@@ -45,6 +45,8 @@ interface Shared<Thing> {
  * programs read, so that nodes which lie here can be drawn by one call.
  */
 export class VertexPage<T extends GpuTypes> {
+  /** Its number among the pages that there are; one that is given up leaves it to another. */
+  readonly number: number;
   readonly capacity: number;
   readonly positions: PagePositions;
   readonly #gpu: Gpu<T>;
@@ -54,8 +56,9 @@ export class VertexPage<T extends GpuTypes> {
   readonly #arrays = new Map<string, Shared<T["vertexArray"]>>();
   #used = 0;
 
-  constructor(gpu: Gpu<T>, capacity: number, positions: PagePositions) {
+  constructor(gpu: Gpu<T>, number: number, capacity: number, positions: PagePositions) {
     this.#gpu = gpu;
+    this.number = number;
     this.capacity = capacity;
     this.positions = positions;
     this.#gaps = [{ first: 0, count: capacity }];
@@ -234,7 +237,9 @@ export class VertexPages<T extends GpuTypes> {
   }
 
   #add(capacity: number, positions: PagePositions): VertexPage<T> {
-    const page = new VertexPage(this.#gpu, capacity, positions);
+    let number = 0;
+    while (this.#pages.some((page) => page.number === number)) number++;
+    const page = new VertexPage(this.#gpu, number, capacity, positions);
     this.#pages.push(page);
     return page;
   }

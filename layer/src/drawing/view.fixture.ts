@@ -151,7 +151,7 @@ export class TestRenderer implements LayerRenderer<TestView> {
   readonly content = new LayerContent<TestView>(
     this.gpu,
     new PlainUniforms(),
-    (pages, vertices) => new TestNode(pages, vertices),
+    (pages, vertices, slot) => new TestNode(pages, vertices, slot),
   );
   readonly blends = true;
   readonly silhouettes = undefined;

@@ -42,7 +42,7 @@ export class LayerRenderer implements Renderer<GlView> {
     this.content = new LayerContent<GlView>(
       this.objects,
       this.#view,
-      (pages, vertices) => new NodeDrawable(pages, vertices),
+      (pages, vertices, slot) => new NodeDrawable(pages, vertices, slot),
     );
   }
 

@@ -22,8 +22,8 @@ export class NodeDrawable extends PagedNode<GlTypes> implements UploadedNode {
   /** Node frame → its frame on the globe, column-major. */
   readonly onGlobe: readonly number[];
 
-  constructor(pages: VertexPages<GlTypes>, vertices: DrawnVertices) {
-    super(pages, vertices);
+  constructor(pages: VertexPages<GlTypes>, vertices: DrawnVertices, slot: number) {
+    super(pages, vertices, slot);
     this.onGlobe = columnMajor(vertices.onGlobe?.fromMap ?? STAYS);
   }
 
