@@ -52,5 +52,9 @@ export interface Georeference {
   /** Files of the geoids that heights go through; empty where they are drawn as they are. */
   readonly geoids: readonly string[];
   readonly tolerance: number;
+  /**
+   * What a drawn position is worth. Of a recorded way it is reckoned when asked for, which takes as long as placing a node.
+   * @throws PlacementError PLACE_TOLERANCE
+   */
   readonly accuracy: StatedAccuracy;
 }

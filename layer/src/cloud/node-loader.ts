@@ -53,8 +53,8 @@ export class NodeLoader {
   readonly #reading = new Map<string, Promise<NodeRecords>>();
   #appearance: Appearance | undefined;
   #judging: Promise<Judged> | undefined;
-  /** The node that was begun before it was asked for. */
-  #begun: { readonly name: string; readonly vertices: Promise<NodeVertices> } | undefined;
+  /** The node that was begun before it was asked for; undefined where it cannot be had ahead. */
+  #begun: { readonly name: string; readonly vertices: Promise<NodeVertices | undefined> } | undefined;
 
   constructor(parts: LoaderParts) {
     this.#parts = parts;
@@ -67,13 +67,15 @@ export class NodeLoader {
   }
 
   /**
-   * Begins with a node that will be asked for, where its points need not decide how all look. What fails is told to whoever asks.
+   * Begins with a node that will be asked for, where its points need not decide how all look. What fails is told to whoever
+   * asks, who may do so before the node is listed: it is made once.
+   * @param listed the node; undefined where it is not known ahead
    */
-  begin(node: ListedNode): void {
+  begin(name: string, listed: Promise<ListedNode | undefined>): void {
     if (!this.#appearance) return;
-    const vertices = this.#make(node, undefined);
+    const vertices = listed.then((node) => node && this.#make(node, undefined));
     vertices.catch(() => undefined);
-    this.#begun = { name: node.name, vertices };
+    this.#begun = { name, vertices };
   }
 
   /** @throws SourceError, DecodeError, PlacementError */
@@ -81,7 +83,8 @@ export class NodeLoader {
     if (this.#begun?.name === node.name) {
       const { vertices } = this.#begun;
       this.#begun = undefined;
-      return unlessAborted(vertices, signal);
+      const begun = await unlessAborted(vertices, signal);
+      if (begun) return begun;
     }
     if (!this.#appearance) {
       this.#judging ??= this.#judge(firstNode(this.#parts.root) ?? node);

@@ -149,12 +149,11 @@ export class PlacedOctree {
     return this.#bounds;
   }
 
-  /** Has the root decoded before it stands in the octree. @param read what {@link readRootAhead} has come to */
-  async beginRoot(read: Promise<HierarchyEntry | undefined>): Promise<void> {
-    const root = await read;
-    if (!root) return;
-    const { pointCount, address } = root;
-    this.loader.begin({ name: keyName(root), key: this.store.root.key, address, pointCount });
+  /** Has the root decoded before it stands in the octree. @param read what {@link readRootAhead} will come to */
+  beginRoot(read: Promise<HierarchyEntry | undefined>): void {
+    const { name, key } = this.store.root;
+    const listed = read.then((root) => root && { name, key, ...root });
+    this.loader.begin(name, listed);
   }
 
   /** Goes by another box of all points from now on. */

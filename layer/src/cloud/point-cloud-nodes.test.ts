@@ -1,7 +1,9 @@
 import { describe, expect, it, vi } from "vitest";
 import type { View } from "../octree/index.js";
+import { NodeAccess } from "../query/index.js";
 import { type TinyCopc, tinyCopc } from "../sources/copc/tiny-copc.fixture.js";
 import { BlobSource, type ByteSource } from "../sources/index.js";
+import type { NodeJob } from "../workers/index.js";
 import { open, pagedFile, Recorder, twoNodes, UTM, withRecord } from "./opened-cloud.fixture.js";
 import { PointCloud } from "./point-cloud.js";
 
@@ -71,6 +73,40 @@ describe("nodes and points of a PointCloud", () => {
     expect(executor.jobs.map(({ node, appearance }) => [node, appearance?.ranges.get("gpsTime")])).toEqual([
       ["1-1-0-1", [1e8, 2e8]],
     ]);
+  });
+
+  it.each([
+    ["before the octree is opened, where it is here", 0, ["0-0-0-0", "opened"]],
+    ["for whoever asks before it is here", 20, ["opened", "0-0-0-0"]],
+  ])("has the root made once %s", async (_, delay, order) => {
+    const statistics = { version: 1, points: 10, rgbBits: 16, classes: {}, returns: {}, attributes: [] };
+    const content = new TextEncoder().encode(JSON.stringify(statistics));
+    const bytes = tinyCopc({ records: [...(withRecord.records ?? []), ["groma", 2, content]] });
+    const chunkAt = new DataView(bytes.buffer).getUint32(96, true);
+    const source: ByteSource = {
+      ...{ name: "a.copc.laz", size: bytes.length },
+      read: async (begin, end) => {
+        if (begin === chunkAt && delay > 0) await new Promise((resume) => setTimeout(resume, delay));
+        return bytes.slice(begin, end);
+      },
+    };
+    const seen: string[] = [];
+    class Noting extends Recorder {
+      override run(job: NodeJob) {
+        seen.push(job.node);
+        return super.run(job);
+      }
+    }
+    const openRoot = vi.spyOn(NodeAccess.prototype, "openRoot");
+    openRoot.mockImplementationOnce(function (this: NodeAccess, signal) {
+      seen.push("opened");
+      return this.openRoot(signal);
+    });
+    const cloud = await PointCloud.open(source, { executor: new Noting() }, true);
+    cloud.stream.loadRoot();
+    await vi.waitFor(() => expect(cloud.globe.store.root.state).toBe("ready"));
+    expect(seen).toEqual(order);
+    openRoot.mockRestore();
   });
 
   it("DECODE_TOO_LARGE for a node that would unpack to gigabytes, before its chunk is read", async () => {

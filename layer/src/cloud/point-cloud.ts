@@ -20,6 +20,7 @@ import {
   type QueryOptions,
   type QueryParts,
 } from "../query/index.js";
+import { nextTurn } from "../query/pace.js";
 import {
   type LasEnvelope,
   type PointSource,
@@ -77,8 +78,6 @@ export class PointCloud implements PointOrigin {
   readonly crs: Crs;
   /** What the heights are measured from. */
   readonly height: HeightReference;
-  /** What a drawn position is worth: named parts and their sum, metres. */
-  readonly accuracy: StatedAccuracy;
   /** Who named the coordinate system. */
   readonly basis: "given" | "record" | "file";
   /** What the places come from. */
@@ -105,6 +104,7 @@ export class PointCloud implements PointOrigin {
   #bounds: NodeBounds;
   #warnings: readonly SourceWarning[];
   readonly #truth: Truth;
+  #accuracy!: StatedAccuracy;
   readonly #executor: NodeExecutor;
   readonly #ownsExecutor: boolean;
   readonly #shared: Opened["shared"];
@@ -129,7 +129,6 @@ export class PointCloud implements PointOrigin {
     this.identity = source.identity;
     this.crs = crs;
     this.height = crs.height;
-    this.accuracy = georeference.accuracy;
     this.basis = georeference.basis;
     this.engine = georeference.engine;
     this.operation = georeference.operation;
@@ -193,8 +192,13 @@ export class PointCloud implements PointOrigin {
       const georeference = await georeferenceOf(source, options);
       signal?.throwIfAborted();
       cloud = new PointCloud({ source, georeference, executor, shared, ahead }, options);
-      if (onGlobe) void cloud.globe.beginRoot(root);
+      if (onGlobe) {
+        cloud.globe.beginRoot(root);
+        // A root that is here goes to a worker before this thread is busy with what that need not wait for.
+        await nextTurn();
+      }
       await cloud.globe.access.openRoot(signal);
+      cloud.#accuracy = georeference.accuracy;
       signal?.throwIfAborted();
       return cloud;
     } catch (thrown) {
@@ -204,6 +208,11 @@ export class PointCloud implements PointOrigin {
       // Whatever an abort made fail on the way.
       throw signal?.aborted ? signal.reason : thrown;
     }
+  }
+
+  /** What a drawn position is worth: named parts and their sum, metres. */
+  get accuracy(): StatedAccuracy {
+    return this.#accuracy;
   }
 
   /** Brings nodes for views of the globe. @internal */

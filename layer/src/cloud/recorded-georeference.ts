@@ -3,6 +3,7 @@ import {
   type GeoreferenceRecord,
   greatestBound,
   RecordError,
+  type StatedAccuracy,
   statedAccuracy,
   type Truth,
   type TruthSources,
@@ -25,13 +26,21 @@ export function recorded(
 ): Georeference {
   const { crs, similarity, engine, operation } = record;
   const { transformation } = source.crs;
-  const bound = boundOf(truth, source, tolerance);
-  // The record's own fit is the converter's default; what holds here is the tolerance of this page.
-  const parts = record.accuracy.map((part) => (part.name === "fit" ? { ...part, metres: bound } : part));
+  let stated: StatedAccuracy | undefined;
+  const reckoned = () => {
+    const bound = boundOf(truth, source, tolerance);
+    // The record's own fit is the converter's default; what holds here is the tolerance of this page.
+    return statedAccuracy(
+      record.accuracy.map((part) => (part.name === "fit" ? { ...part, metres: bound } : part)),
+    );
+  };
   return {
     ...mapOf({ crs, similarity, transformation }, truth),
     ...{ crs, basis: "record", tolerance, engine, operation },
-    accuracy: statedAccuracy(parts),
+    get accuracy() {
+      stated ??= reckoned();
+      return stated;
+    },
   };
 }
 

@@ -30,7 +30,7 @@ let channel: MessageChannel | undefined;
  * Comes after whoever waits for the thread by now, and no later: a timer would let it lie idle for a millisecond in Node,
  * and for four in a page, as long as the task ran before.
  */
-function nextTurn(): Promise<void> {
+export function nextTurn(): Promise<void> {
   return new Promise((resolve) => {
     if (setImmediate) {
       setImmediate(resolve);
