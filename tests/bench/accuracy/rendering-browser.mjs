@@ -19,11 +19,7 @@ export async function openScene(root, file, folder, pose, cacheBytes) {
   const source = join(root, "tests/bench/accuracy/rendering");
   const scene = await openScanPage(root, source, file, folder);
   try {
-    const session = await scene.page.context().browser().newBrowserCDPSession();
-    await scene.page.exposeFunction("processorTime", async () => {
-      const { processInfo } = await session.send("SystemInfo.getProcessInfo");
-      return processInfo.reduce((sum, { cpuTime }) => sum + 1000 * cpuTime, 0);
-    });
+    await tellProcessorTime(scene.page);
     const renderer = await scene.page.evaluate(
       async ([address, pose, cacheBytes]) => {
         window.bench = await window.Bench.open(address, pose, cacheBytes);
@@ -65,6 +61,18 @@ export async function openScanPage(root, source, file, folder, graphics = "softw
     await close();
     throw thrown;
   }
+}
+
+/**
+ * Has a page know `processorTime()`: milliseconds of the processor that all threads of all processes of its browser have taken, in
+ * steps of 10 ms.
+ */
+export async function tellProcessorTime(page) {
+  const session = await page.context().browser().newBrowserCDPSession();
+  await page.exposeFunction("processorTime", async () => {
+    const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+    return processInfo.reduce((sum, { cpuTime }) => sum + 1000 * cpuTime, 0);
+  });
 }
 
 /** Its launch of Chromium is that of the tests. */

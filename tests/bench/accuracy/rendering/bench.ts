@@ -1,7 +1,7 @@
 import { ClipSet, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
-import { onPoints } from "../../../browser/stage/point-calls.js";
 import type { LayerOptions, Pose } from "../../../browser/stage/setting.js";
 import { Stage } from "../../../browser/stage/stage.js";
+import { settle } from "../../settle.js";
 import { type Coverage, countingFragments, fragmentsIn, holesIn, outlineOf, WHITE } from "./coverage.js";
 import { type Difference, differenceOf, type Picture, pictureOf, strip } from "./picture.js";
 
@@ -134,7 +134,7 @@ export class Bench {
     const stage = this.#stages.on;
     this.#shown.on = undefined;
     stage.layer.style = WHITE;
-    await settle(stage);
+    await settle(stage, LONGEST_LOADING);
     const holes = holesIn(this.#picture("on"), outline);
     const overdraw = fragmentsIn(
       countingFragments(stage, () => this.#picture("on")),
@@ -189,7 +189,7 @@ export class Bench {
     if (wholeNodes) this.#whole.add(stage.layer);
     stage.scene.primitives.add(stage.layer);
     stage.look(this.#pose);
-    await settle(stage);
+    await settle(stage, LONGEST_LOADING);
     const { pointsDrawn, nodesLoaded, bytesPerPoint } = stage.layer.statistics;
     const effects = stage.layer.ledger.filter(({ active }) => active).map(({ effect }) => effect);
     return { points: pointsDrawn, nodes: nodesLoaded, bytes: bytesPerPoint, effects };
@@ -233,15 +233,5 @@ export class Bench {
     }
     for (const side of SIDES) this.#stages[side].look(this.#pose);
     return times;
-  }
-}
-
-/** Loads and uploads all that a stage wants; points are not drawn meanwhile, which would take most of the time. */
-async function settle(stage: Stage): Promise<void> {
-  const end = onPoints(stage.gl, () => {});
-  try {
-    await stage.settle([stage.layer], LONGEST_LOADING);
-  } finally {
-    end();
   }
 }

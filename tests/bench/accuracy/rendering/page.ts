@@ -5,8 +5,6 @@ declare global {
     /** What the report's Node side works with. */
     readonly Bench: typeof Bench;
     bench: Bench;
-    /** Milliseconds that all processes of the browser took of the processor so far. */
-    readonly processorTime: () => Promise<number>;
   }
 }
 

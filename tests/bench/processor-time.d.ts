@@ -1,0 +1,4 @@
+interface Window {
+  /** Milliseconds of the processor that all threads of the browser have taken; there where `tellProcessorTime` made it. */
+  readonly processorTime: () => Promise<number>;
+}
