@@ -10,10 +10,10 @@ import {
 import type { CesiumTypes, GpuObjects } from "./engine/gpu-objects.js";
 import type { RenderStates } from "./engine/render-states.js";
 
-/** Corners of a triangle that covers the picture. */
-const CORNERS = new Float32Array([-1, -1, 3, -1, -1, 3]);
+/** Corners of a square, as a strip of triangles; the program lays it over the part of the picture that shows points. */
+const CORNERS = new Float32Array([0, 0, 1, 0, 0, 1, 1, 1]);
 
-/** Puts a picture of the points into the scene: a triangle over the whole of it, with colours and depths. */
+/** Puts a picture of the points into the scene: a rectangle over what shows points of it, with colours and depths. */
 export class CompositeQuad {
   readonly #objects: GpuObjects;
   readonly #owner: object;
@@ -46,8 +46,8 @@ export class CompositeQuad {
       ...changing,
       owner: this.#owner,
       vertexArray: this.#vertexArray(),
-      primitiveType: PrimitiveType.TRIANGLES,
-      count: 3,
+      primitiveType: PrimitiveType.TRIANGLE_STRIP,
+      count: 4,
       modelMatrix: Matrix4.IDENTITY,
     });
     return this.#command;

@@ -1,4 +1,4 @@
-import { BoundingRectangle, Cartesian3 } from "cesium";
+import { BoundingRectangle, Cartesian3, Cartesian4 } from "cesium";
 import { type Framebuffer, PassState, type PickId, type Texture } from "./engine/cesium-private.js";
 import type { GpuObjects, TexelType } from "./engine/gpu-objects.js";
 import { UniformValues } from "./engine/uniform-values.js";
@@ -49,6 +49,8 @@ export class OffscreenTarget {
 /** Uniforms that the drawing side itself fills: the pick colour, and the picture that a quad reads. */
 export class PictureUniforms {
   readonly values: UniformValues;
+  /** The part of the picture that shows points, as `coveredPart` gives it. */
+  readonly coveredPart = new Cartesian4();
   readonly #depthRange = new Cartesian3();
   #picture: Picture | undefined;
 
@@ -58,6 +60,7 @@ export class PictureUniforms {
       u_color: () => this.#picture?.colour,
       u_depth: () => this.#picture?.depth,
       u_depthRange: () => this.#depthRange,
+      u_coveredPart: () => this.coveredPart,
     });
   }
 

@@ -6,6 +6,7 @@ import type { Material } from "../drawing/material.js";
 import { quadProgramOf } from "../drawing/program-needs.js";
 import { type EffectPlan, type PointPass, passesOf } from "../effects/index.js";
 import { CompositeQuad } from "./composite-quad.js";
+import { coveredPart } from "./covered-part.js";
 import { type Command, type FrameState, Pass, type PickId } from "./engine/cesium-private.js";
 import type { GpuObjects } from "./engine/gpu-objects.js";
 import { GpuTimer, hookCommand } from "./engine/gpu-timer.js";
@@ -140,8 +141,8 @@ export class PointDrawing {
     { plan, uniforms }: Material<CesiumView>,
     content: LayerContent<CesiumView>,
   ): Command {
-    const { context, camera } = frameState;
-    const { nodes, grouped, programs, depth } = content;
+    const { context, camera, pixelRatio } = frameState;
+    const { nodes, grouped, programs, depth, widestPoint } = content;
     const { points: passes, translucent } = passesOf(plan);
     const { drawingBufferWidth: width, drawingBufferHeight: height } = context;
     const picture = this.#target.prepare(width, height, passes.includes("splat") ? "halfFloat" : "byte");
@@ -153,6 +154,10 @@ export class PointDrawing {
     });
     context.uniformState.updateFrustum(camera.frustum as PointFrustum["frustum"]);
     this.uniforms.take(picture, frustum);
+    // Half the width of a point, and a pixel for what is rounded; the picture is 2 by 2.
+    const reach = widestPoint * pixelRatio + 2;
+    const margin = [reach / width, reach / height] as const;
+    coveredPart(camera.viewMatrix, frustum, spheresOf(nodes), margin, this.uniforms.coveredPart);
     const program = programs.of(quadProgramOf(plan, depth));
     const sphere = BoundingSphere.fromBoundingSpheres([...spheresOf(nodes)]);
     return this.#quad.command(program, uniforms.map, sphere, translucent);

@@ -56,7 +56,8 @@ function describe(effects, inSight, step) {
     "Splats and Eye-Dome Lighting share one pass over the points for their depth: with both, a frame takes " +
     `${times(find("Eye-Dome Lighting, 4, on"))} that of splats. ` +
     `Logarithmic depth takes ${times(find("logarithmic"))} the frame time of a linear one, positions as float32 ` +
-    `(a tolerance of ${length(FINE)}, 16 bytes a point with colours) ${times(find("positions"))} that of whole steps (12 bytes). ` +
+    `(a tolerance of ${length(FINE)}, 16 bytes a point with colours) ${times(find("positions"))} that of whole steps (12 bytes); ` +
+    "the cloud with that tolerance has read no more than its view wants, and so leaves out nodes of which less than an eighth would show. " +
     "A filter draws what it leaves out outside the picture: its points are counted all the same. The scan records no " +
     "classes: the colours are those of one.\n\n" +
     "**Storage** is the distance of stored coordinates, as the vertex shader brings them back in float32, from the " +

@@ -69,13 +69,15 @@ export const CESIUM: ShaderTarget = {
   writeDepth: WRITE_DEPTH,
   eyeZ: EYE_Z,
   quad: {
-    // One triangle over the whole picture, from corners at −1 and 3.
+    // A rectangle over the part that shows points: left, bottom, right and top.
     vertex: `in vec2 a_corner;
 out vec2 v_textureCoordinates;
+uniform vec4 u_coveredPart;
 
 void main() {
-  v_textureCoordinates = a_corner * 0.5 + 0.5;
-  gl_Position = vec4(a_corner, 0.0, 1.0);
+  vec2 place = mix(u_coveredPart.xy, u_coveredPart.zw, a_corner);
+  v_textureCoordinates = place * 0.5 + 0.5;
+  gl_Position = vec4(place, 0.0, 1.0);
 }
 `,
     functions: [EYE_Z, WRITE_DEPTH],
