@@ -43,7 +43,8 @@ export { geodeticToEcef } from "./ellipsoid/geodetic-to-ecef.js";
 export { ENGINE, type ExactTransform, exactTransform } from "./engines/exact.js";
 export { type SourceTransform, sourceTransform } from "./engines/inverse-truth.js";
 export { type LocalPlane, localPlane } from "./engines/local-plane.js";
-export { isOwnPlane, type MapPlane, planeTransform, truthOnMap } from "./engines/map-plane.js";
+export { isOwnPlane, planeTransform, truthOnMap } from "./engines/map-plane.js";
+export type { MapPlane } from "./engines/on-map.js";
 export { type GridPlane, gridPlane, type PlaneInverse } from "./engines/projection.js";
 export { truthOf } from "./engines/settled-truth.js";
 export {
@@ -55,6 +56,7 @@ export {
   type Truth,
   type TruthSources,
 } from "./engines/truth.js";
+export { truthOnWebMercator, WEB_MERCATOR_PLANE } from "./engines/web-mercator-plane.js";
 export { boundsInWords, coordinate } from "./errors/coordinates.js";
 export {
   ArgumentError,

@@ -14,11 +14,14 @@ import {
   type MapPlane,
   placeIntegers,
   planeTransform,
+  pointTransform,
   resolveCrs,
   type Step,
   type StepwiseTruth,
   type Truth,
   truthOnMap,
+  truthOnWebMercator,
+  WEB_MERCATOR_PLANE,
   WGS84,
 } from "../index.js";
 import { samplerOf } from "../transformation/sampler.fixture.js";
@@ -194,5 +197,29 @@ describe("placing in the plane of a map", () => {
     expect(() => planeTransform({ ...planeOf("EPSG:3857", 0), definition: "+proj=none" })).toThrow(
       /CRS_UNSUPPORTED: EPSG:3857/,
     );
+  });
+
+  it("has the plane of Web Mercator without proj4js where proj4js has it, on the turn of the middle", () => {
+    const crs = resolveCrs({ file: "utm", given: "+proj=utm +zone=1 +south +ellps=WGS84 +units=m" });
+    const plane: MapPlane = { ...WEB_MERCATOR_PLANE, middle: 179.995 * DEGREE, own: false };
+    const exact = exactTransform(crs, 5);
+    const own = pointTransform(truthOnWebMercator(exact, plane, 5, 1, "utm")!);
+    const other = pointTransform(truthOnMap(exact, plane, 5, 1, "utm"));
+    const [here, there] = [new Float64Array(3), new Float64Array(3)];
+    for (const [x, y] of [
+      [166_021, 8_000_000],
+      [500_000, 5_000_000],
+      [833_000, 1_200_000],
+    ]) {
+      own(x, y, 40, here, 0);
+      other(x, y, 40, there, 0);
+      expect([...there].every(Number.isFinite)).toBe(true);
+      expect(Math.hypot(...here.map((value, axis) => value - there[axis]))).toBeLessThan(1e-7);
+    }
+    for (const foreign of [
+      { ...plane, wraps: false },
+      { ...plane, definition: "+proj=longlat" },
+    ])
+      expect(truthOnWebMercator(exact, foreign, 5, 1, "utm")).toBeUndefined();
   });
 });

@@ -1,3 +1,4 @@
+import { exactTransform, pointTransform, resolveCrs, WEB_MERCATOR_PLANE } from "@groma/georef";
 import proj4 from "proj4";
 import { describe, expect, it } from "vitest";
 import type { View } from "../octree/index.js";
@@ -119,14 +120,20 @@ describe("a data set on maps", () => {
     await expect(cloud.maps.acquire(far)).rejects.toThrow(/PLACE_MAP/);
   });
 
-  it("CRS_NOT_LOADED where a projection is asked for at once, before any is loaded", async () => {
+  it("CRS_NOT_LOADED where a projection is asked for at once, before any but Web Mercator is loaded", async () => {
     // A module of its own: for others of this run the projections may have come already.
     const fresh = "./map-octrees.js?fresh";
     const { MapOctrees, loadProjections }: typeof mapOctrees = await import(fresh);
-    const maps = new MapOctrees({ source: { name: "a" } } as never, { now: () => ({}) } as never);
-    const unloaded = expect.objectContaining({ code: "CRS_NOT_LOADED" });
-    expect(() => maps.truthIn(MERCATOR)).toThrow(unloaded);
+    const crs = resolveCrs({ file: "a", given: UTM });
+    const boundingBox = { min: [500_000, 5_000_000, 0], max: [500_100, 5_000_100, 9] };
+    const data = { crs, truth: exactTransform(crs), spec: { heights: [0, 9] }, now: () => ({ boundingBox }) };
+    const maps = new MapOctrees({ source: { name: "a" } } as never, data as never);
+    const there = new Float64Array(3);
+    pointTransform(maps.truthIn(WEB_MERCATOR_PLANE))(500_000, 5_000_000, 0, there, 0);
+    const [, y] = proj4(UTM, "EPSG:3857").forward([500_000, 5_000_000]);
+    expect(there[1]).toBeCloseTo(y, 6);
+    expect(() => maps.truthIn(OWN)).toThrow(expect.objectContaining({ code: "CRS_NOT_LOADED" }));
     await loadProjections();
-    expect(() => maps.truthIn(MERCATOR)).not.toThrow(unloaded);
+    expect(maps.truthIn(OWN)).toBeTypeOf("function");
   });
 });

@@ -2,7 +2,7 @@ import { CrsError, PlacementError, type Truth } from "@groma/georef";
 import { type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
 import type { SourceBox } from "../sources/contract/point-source.js";
 import type { Appearance, NodeVertices } from "../workers/index.js";
-import type { PlaceableData, PlaneOfMap } from "./map-truth.js";
+import { type PlaceableData, type PlaneOfMap, truthInWebMercator } from "./map-truth.js";
 import { NodeGeometry } from "./node-geometry.js";
 import { packagedModule } from "./packaged-file.js";
 import { type OctreeParts, PlacedOctree, SHARED_PAGES } from "./placed-octree.js";
@@ -13,11 +13,11 @@ export interface MapProjection extends PlaneOfMap {
   readonly tolerance: number;
 }
 
-let loaded: typeof import("./map-truth.js") | undefined;
+let loaded: typeof import("./projected-truth.js") | undefined;
 
-/** What knows the planes of maps: proj4js and what uses it. */
-async function projections(): Promise<typeof import("./map-truth.js")> {
-  loaded ??= await packagedModule(() => import("./map-truth.js"));
+/** What knows the planes of maps other than Web Mercator: proj4js and what uses it. */
+async function projections(): Promise<typeof import("./projected-truth.js")> {
+  loaded ??= await packagedModule(() => import("./projected-truth.js"));
   return loaded;
 }
 
@@ -91,8 +91,11 @@ export class MapOctrees {
   /** Source coordinates → the plane of a projection. @throws CrsError CRS_UNSUPPORTED, CRS_NOT_LOADED */
   truthIn(projection: PlaneOfMap): Truth {
     const { name } = this.#parts.source;
+    const { boundingBox } = this.#map.now();
+    const known = truthInWebMercator(projection, this.#map, boundingBox, name);
+    if (known) return known.onMap;
     if (!loaded) throw notLoaded(projection.code);
-    return loaded.truthInPlane(projection, this.#map, this.#map.now().boundingBox, name).onMap;
+    return loaded.truthInPlane(projection, this.#map, boundingBox, name).onMap;
   }
 
   /** A view ends; what only it used is given up. */
@@ -123,9 +126,10 @@ export class MapOctrees {
   async #open(projection: MapProjection): Promise<PlacedOctree> {
     const { spec, crs, made, now, onGlobe } = this.#map;
     const { source } = this.#parts;
-    const { truthInPlane } = await projections();
+    const { plane, onMap } =
+      truthInWebMercator(projection, this.#map, now().boundingBox, source.name) ??
+      (await projections()).truthInPlane(projection, this.#map, now().boundingBox, source.name);
     const { boundingBox, appearance } = now();
-    const { plane, onMap } = truthInPlane(projection, this.#map, boundingBox, source.name);
     const { cube, spacing } = source;
     const geometry = new NodeGeometry({ cube, spacing, boundingBox }, onMap, crs);
     if (!geometry.bounds(ROOT_KEY)) throw noPlace(source.name, plane.code);

@@ -1,11 +1,10 @@
 import {
   type Crs,
   ecefToGeodetic,
-  isOwnPlane,
   type MapPlane,
   pointTransform,
   type Truth,
-  truthOnMap,
+  truthOnWebMercator,
 } from "@groma/georef";
 import type { SourceBox } from "../sources/contract/point-source.js";
 import type { DataSetSpec } from "../workers/index.js";
@@ -28,28 +27,37 @@ export interface TruthInPlane {
   readonly onMap: Truth;
 }
 
+/** A projection that is not Mercator's: its plane is never that of Web Mercator. */
+const ANOTHER = /\+proj=(?!merc\b|webmerc\b)\w/;
+
 /**
- * The map of a data set to the plane of a projection, by proj4js.
+ * The map of a data set to the plane of Web Mercator, without proj4js.
  * @param file name for error messages
- * @throws CrsError CRS_UNSUPPORTED where proj4js does not know the projection
+ * @returns undefined for other planes, and where it may be the data set's own
  */
-export function truthInPlane(
+export function truthInWebMercator(
   projection: PlaneOfMap,
   { truth, spec, crs }: PlaceableData,
   boundingBox: SourceBox,
   file: string,
-): TruthInPlane {
-  const { code, definition, metresPerUnit, wraps } = projection;
-  const { min, max } = boundingBox;
+): TruthInPlane | undefined {
+  if (spec.similarity === undefined && !ANOTHER.test(crs.proj4)) return undefined;
+  const plane = { ...planeOf(projection), middle: middleLongitude(truth, boundingBox), own: false };
+  const [low, high] = spec.heights;
+  const onMap = truthOnWebMercator(truth, plane, (low + high) / 2, crs.verticalUnit.size, file);
+  return onMap && { plane, onMap };
+}
+
+/** What of a projection is plain data of its plane. */
+export function planeOf({ code, definition, metresPerUnit, wraps }: PlaneOfMap): PlaneOfMap {
+  return { code, definition, metresPerUnit, wraps };
+}
+
+/** Longitude of the middle of a data set, radians; 0 where it has no place. */
+export function middleLongitude(truth: Truth, { min, max }: SourceBox): number {
   const [x, y, z] = [0, 1, 2].map((axis) => (min[axis] + max[axis]) / 2);
   const place = new Float64Array(3);
   pointTransform(truth)(x, y, z, place, 0);
   ecefToGeodetic(place[0], place[1], place[2], place);
-  const middle = Number.isFinite(place[0]) ? place[0] : 0;
-  const box = { minX: min[0], minY: min[1], maxX: max[0], maxY: max[1] };
-  const body = spec.similarity !== undefined;
-  const own = !body && isOwnPlane(crs, { code, definition }, box);
-  const plane = { code, definition, metresPerUnit, wraps, middle, own };
-  const [low, high] = spec.heights;
-  return { plane, onMap: truthOnMap(truth, plane, (low + high) / 2, crs.verticalUnit.size, file) };
+  return Number.isFinite(place[0]) ? place[0] : 0;
 }

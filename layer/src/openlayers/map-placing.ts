@@ -55,10 +55,7 @@ export class MapPlacing {
     return this.#pending;
   }
 
-  /**
-   * Has the points placed as a map wants them, unless they are, or are being placed.
-   * @throws CrsError CRS_PROJECTION, once, where the projection is not registered with proj4
-   */
+  /** Has the points placed as a map wants them, unless they are, or are being placed. */
   want(wish: PlacingWish, gl: WebGL2RenderingContext): void {
     const asked = this.#asked;
     const { cloud, projection, finest } = wish;
@@ -66,14 +63,11 @@ export class MapPlacing {
     this.#asked = wish;
     this.#turn++;
     this.#dropNext();
-    try {
-      const placing = cloud.maps.acquire(projectionOfMap(projection, finest, cloud.name));
-      this.#pending = true;
-      void this.#await(placing, wish, gl, this.#turn);
-    } catch (thrown) {
-      this.#failed(wish);
-      throw thrown;
-    }
+    this.#pending = true;
+    const placing = projectionOfMap(projection, finest, cloud.name).then((asked) =>
+      cloud.maps.acquire(asked),
+    );
+    void this.#await(placing, wish, gl, this.#turn);
   }
 
   /**

@@ -1,4 +1,4 @@
-import { ecefToGeodetic, placePoint, pointIn, resolveCrs } from "@groma/georef";
+import { ecefToGeodetic, placePoint, pointIn, resolveCrs, WEB_MERCATOR_PLANE } from "@groma/georef";
 import { beforeAll, describe, expect, it } from "vitest";
 import { recordFields } from "../sources/las/record-fields.js";
 import type { Decoders } from "./decoders.js";
@@ -298,6 +298,8 @@ describe("runNodeJob", () => {
     const { transformation: _, ...foreign } = plain;
     const known = preparedOnce({ ...foreign, transformation }, projections);
     expect(await known()).toBe(await known());
+    const inMercator = { ...WEB_MERCATOR_PLANE, middle: (9 * Math.PI) / 180, own: false };
+    await preparedOnce({ ...plain, transformation, plane: inMercator }, projections)();
     expect(asked).toBe(0);
     const unknown = preparedOnce(foreign, projections);
     await expect(unknown()).rejects.toThrow("offline");

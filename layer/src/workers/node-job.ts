@@ -10,6 +10,7 @@ import {
   pointTransform,
   recordedTruth,
   type Truth,
+  truthOnWebMercator,
 } from "@groma/georef";
 import { badChunk } from "./chunk-layout.js";
 import { cubeMap, localOf } from "./cube-map.js";
@@ -51,10 +52,13 @@ export async function prepareDataSet(
   const middle = (heights[0] + heights[1]) / 2;
   const recorded = recordedTruth(spec, file);
   if (recorded && !plane) return { spec, truth: recorded };
+  const { size } = crs.verticalUnit;
+  const known = recorded && plane && truthOnWebMercator(recorded, plane, middle, size, file);
+  if (known) return { spec, truth: known, globe: pointTransform(recorded) };
   const { truthOf, truthOnMap } = await projections();
   const truth = recorded ?? truthOf(spec, middle, file);
   if (!plane) return { spec, truth };
-  const onMap = truthOnMap(truth, plane, middle, crs.verticalUnit.size, file);
+  const onMap = truthOnMap(truth, plane, middle, size, file);
   return { spec, truth: onMap, globe: pointTransform(truth) };
 }
 
