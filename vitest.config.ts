@@ -52,12 +52,12 @@ export default defineConfig({
       test: {
         name,
         include,
-        // A browser test fills both cores by itself.
+        // Files of the browser share one Chromium, and what they build.
         fileParallelism: !["browser", "install"].includes(name),
         // Projects of one file at a time go by themselves, after the others.
         sequence: { groupOrder: ["browser", "install"].includes(name) ? 1 : 0 },
         // Loading the modules anew for each of many short files takes as long as the tests themselves.
-        isolate: !["unit", "browser"].includes(name),
+        isolate: !["unit", "browser", "numerics", "architecture"].includes(name),
       },
     })),
   },
