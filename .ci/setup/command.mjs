@@ -1,5 +1,19 @@
 import { spawn } from "node:child_process";
 
+/** What runs, and is not to run on where set-up is given up. */
+const children = new Set();
+process.on("exit", () => {
+  for (const child of children) child.kill();
+});
+
+/** Starts a program, which ends with this process at the latest. */
+function start(program, args, options) {
+  const child = spawn(program, args, options);
+  children.add(child);
+  child.on("close", () => children.delete(child));
+  return child;
+}
+
 /** A set-up step could not be done; the message is the one line that a person needs. */
 export class SetupError extends Error {}
 
@@ -14,7 +28,7 @@ export class SetupError extends Error {}
  */
 export function command(program, args, { cwd, advice, env = {} }) {
   return new Promise((resolve, reject) => {
-    const child = spawn(program, args, {
+    const child = start(program, args, {
       cwd,
       env: { ...process.env, ...env },
       stdio: ["ignore", "pipe", "pipe"],
@@ -40,7 +54,7 @@ export function command(program, args, { cwd, advice, env = {} }) {
 /** Whether a program can be started at all. */
 export async function available(program, args = ["--version"]) {
   return new Promise((resolve) => {
-    const child = spawn(program, args, { stdio: "ignore", shell: process.platform === "win32" });
+    const child = start(program, args, { stdio: "ignore", shell: process.platform === "win32" });
     child.on("error", () => resolve(false));
     child.on("close", (code) => resolve(code === 0));
   });
@@ -55,7 +69,7 @@ export async function available(program, args = ["--version"]) {
  */
 export async function attempt(program, args) {
   return new Promise((resolve) => {
-    const child = spawn(program, args, { stdio: ["ignore", "ignore", "pipe"] });
+    const child = start(program, args, { stdio: ["ignore", "ignore", "pipe"] });
     let errors = "";
     child.stderr.on("data", (chunk) => {
       errors += chunk;

@@ -4,7 +4,12 @@ import { attempt, available, command, SetupError } from "./command.mjs";
 import { digest, isDone, markDone } from "./stamp.mjs";
 import { ensurePrograms } from "./system.mjs";
 
-/** @typedef {{ name: string, run: (root: string) => Promise<string> }} Step a step says in a word or two what it did */
+/**
+ * @typedef {object} Step
+ * @property {string} name
+ * @property {Step[]} [after] steps that it needs, or that would hold up each other: cargo, and apt, do one thing at a time
+ * @property {(root: string) => Promise<string>} run says in a word or two what it did
+ */
 
 const npm = (root, args, advice) => command("npm", args, { cwd: root, advice });
 
@@ -23,6 +28,7 @@ const node = {
 /** @type {Step} */
 const packages = {
   name: "npm packages",
+  after: [node],
   async run(root) {
     const stamp = join(root, "node_modules/.groma-lock");
     const lock = digest(root, ["package-lock.json"]);
@@ -73,18 +79,21 @@ async function buildWasm(root, crate, target) {
 /** LAZ of the page and of the command, as WebAssembly. @type {Step} */
 const laz = {
   name: "LAZ as WebAssembly",
+  after: [core],
   run: (root) => buildWasm(root, "converter/wasm", "wasm32-unknown-unknown"),
 };
 
 /** The core for the page, which indexes scans in it. It needs files, and so a system: WASI. @type {Step} */
 const pageCore = {
   name: "core as WebAssembly",
+  after: [laz],
   run: (root) => buildWasm(root, "converter", "wasm32-wasip1"),
 };
 
 /** @type {Step} */
 const typescript = {
   name: "libraries and page",
+  after: [packages, laz, pageCore],
   async run(root) {
     const stamp = join(root, "demo/dist/.groma-built");
     const sources = digest(root, [
@@ -137,12 +146,14 @@ async function script(root, name) {
 /** @type {Step} */
 const browser = {
   name: "Chromium",
+  after: [proj],
   run: (root) => ensurePrograms([{ program: "chromium", args: ["--version"], package: "chromium" }], root),
 };
 
 /** @type {Step} */
 const referees = {
   name: "Python referees",
+  after: [browser],
   async run(root) {
     await ensurePrograms(
       [{ program: "python3", args: ["-c", "import venv, ensurepip"], package: "python3-venv" }],
@@ -171,6 +182,7 @@ const referees = {
 /** Reads formats other than LAS; its tests say that they skip where it cannot be had. @type {Step} */
 const pdal = {
   name: "PDAL",
+  after: [referees],
   async run(root) {
     const { code, said } = await script(root, "install-pdal");
     return code === 0 ? said : `not there (${said})`;
