@@ -1,5 +1,5 @@
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, statSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join, parse } from "node:path";
 import { projectRoot } from "./project.js";
 
@@ -8,18 +8,51 @@ const core = join(projectRoot, "converter/target/release/groma-core");
 const folder = join(projectRoot, "tests/artifacts/copc");
 
 /**
- * The COPC file that `groma convert` makes of a scan; made again only when the converter is newer than the result.
+ * The COPC file that `groma convert` makes of a scan; made again only when the converter is newer than the result. Tests
+ * of several processes ask for it, of which one makes it and the others wait.
  *
  * @returns absolute path
  * @throws Error with what the command printed, when it fails
  */
 export function converted(scan: string): string {
   const output = join(folder, `${parse(scan).name}.copc.laz`);
+  const lock = `${output}.lock`;
   const newest = Math.max(...[groma, core, scan].map((file) => statSync(file).mtimeMs));
-  if (existsSync(output) && statSync(output).mtimeMs > newest) return output;
+  const there = () => existsSync(output) && statSync(output).mtimeMs > newest;
   mkdirSync(folder, { recursive: true });
-  convert(scan, output);
+  while (!there()) {
+    if (!taken(lock)) {
+      Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, 100);
+      continue;
+    }
+    try {
+      if (!there()) convert(scan, output);
+    } finally {
+      rmSync(lock);
+    }
+  }
   return output;
+}
+
+/** Takes a lock, unless a process that still runs has it. */
+function taken(lock: string): boolean {
+  try {
+    writeFileSync(lock, String(process.pid), { flag: "wx" });
+    return true;
+  } catch {
+    if (!holderRuns(lock)) rmSync(lock, { force: true });
+    return false;
+  }
+}
+
+function holderRuns(lock: string): boolean {
+  try {
+    const holder = Number(readFileSync(lock, "utf8"));
+    // Until its number is written nobody stands there.
+    return holder === 0 || process.kill(holder, 0);
+  } catch (thrown) {
+    return (thrown as NodeJS.ErrnoException).code !== "ESRCH";
+  }
 }
 
 /** Runs `groma convert`. @throws Error with what the command printed, when it fails */
