@@ -1,7 +1,5 @@
-import { type BoundingSphere, Cartesian3, Cartesian4, Matrix4 } from "cesium";
+import { type BoundingSphere, Cartesian4, Matrix4 } from "cesium";
 import type { PointFrustum } from "./point-frustum.js";
-
-const eye = new Cartesian3();
 
 /**
  * The part of the picture that spheres lie in, as left, bottom, right and top in normalized device coordinates, from −1 to 1;
@@ -17,32 +15,41 @@ export function coveredPart(
   [beside, above]: readonly [number, number],
   result = new Cartesian4(),
 ): Cartesian4 {
+  const view = Matrix4.toArray(viewMatrix);
   const [scaleX, , , , , scaleY, , , shiftX, shiftY, , , moveX, moveY] = Matrix4.toArray(projectionMatrix);
-  let [left, bottom, right, top] = [1, 1, -1, -1];
+  let left = Number.POSITIVE_INFINITY;
+  let bottom = Number.POSITIVE_INFINITY;
+  let right = Number.NEGATIVE_INFINITY;
+  let top = Number.NEGATIVE_INFINITY;
   for (const { center, radius } of spheres) {
-    const { x, y, z } = Matrix4.multiplyByPoint(viewMatrix, center, eye);
-    const nearest = orthographic ? 1 : -z - radius;
-    const farthest = orthographic ? 1 : -z + radius;
-    if (farthest <= 0) continue;
+    const x = view[0] * center.x + view[4] * center.y + view[8] * center.z + view[12];
+    const y = view[1] * center.x + view[5] * center.y + view[9] * center.z + view[13];
+    const depth = -(view[2] * center.x + view[6] * center.y + view[10] * center.z + view[14]);
+    if (depth + radius <= 0) continue;
     // Beside the camera a sphere may show anywhere.
-    if (nearest < near && !orthographic) return Cartesian4.fromElements(-1, -1, 1, 1, result);
-    const [aside, up] = orthographic ? [moveX, moveY] : [-shiftX, -shiftY];
-    left = Math.min(left, least(scaleX * (x - radius), nearest, farthest) + aside);
-    right = Math.max(right, -least(-scaleX * (x + radius), nearest, farthest) + aside);
-    bottom = Math.min(bottom, least(scaleY * (y - radius), nearest, farthest) + up);
-    top = Math.max(top, -least(-scaleY * (y + radius), nearest, farthest) + up);
+    if (!orthographic && depth - radius < near) return Cartesian4.fromElements(-1, -1, 1, 1, result);
+    // Without perspective a length takes as much at any depth.
+    const nearest = orthographic ? 1 : 1 / (depth - radius);
+    const farthest = orthographic ? 1 : 1 / (depth + radius);
+    const [west, east] = [x - radius, x + radius];
+    const [south, north] = [y - radius, y + radius];
+    left = Math.min(left, west * (west < 0 ? nearest : farthest));
+    right = Math.max(right, east * (east < 0 ? farthest : nearest));
+    bottom = Math.min(bottom, south * (south < 0 ? nearest : farthest));
+    top = Math.max(top, north * (north < 0 ? farthest : nearest));
   }
-  const within = (place: number) => Math.min(Math.max(place, -1), 1);
+  const aside = orthographic ? moveX : -shiftX;
+  const up = orthographic ? moveY : -shiftY;
   return Cartesian4.fromElements(
-    within(left - beside),
-    within(bottom - above),
-    within(right + beside),
-    within(top + above),
+    within(scaleX * left + aside - beside),
+    within(scaleY * bottom + up - above),
+    within(scaleX * right + aside + beside),
+    within(scaleY * top + up + above),
     result,
   );
 }
 
-/** The least that a length takes on screen at any depth between two. */
-function least(length: number, nearest: number, farthest: number): number {
-  return length / (length < 0 ? nearest : farthest);
+/** The place in the picture that is nearest to one on its plane. */
+function within(place: number): number {
+  return Math.min(Math.max(place, -1), 1);
 }

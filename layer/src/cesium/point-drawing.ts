@@ -1,4 +1,4 @@
-import { BoundingSphere, type Camera, Matrix4 } from "cesium";
+import { type BoundingSphere, type Camera, Matrix4 } from "cesium";
 import type { DrawnWith } from "../drawing/drawn-node.js";
 import type { GpuMilliseconds } from "../drawing/frame.js";
 import type { LayerContent } from "../drawing/layer-content.js";
@@ -14,7 +14,7 @@ import type { RenderStates } from "./engine/render-states.js";
 import { type CesiumNode, type CesiumView, PLACE, writeToEye } from "./node-drawable.js";
 import type { OffscreenPass, PassSetting } from "./offscreen-pass.js";
 import { OffscreenTarget, PictureUniforms } from "./offscreen-target.js";
-import { PointBatch } from "./point-batch.js";
+import { NodesVolume, PointBatch } from "./point-batch.js";
 import { fitFrustum, type PointFrustum } from "./point-frustum.js";
 
 /** Stretches of a frame that are measured: drawing the points, and putting their picture into the scene. */
@@ -31,6 +31,8 @@ export class PointDrawing {
   readonly #timer: GpuTimer;
   readonly #target: OffscreenTarget;
   readonly #quad: CompositeQuad;
+  /** Around the nodes of the picture. */
+  readonly #volume = new NodesVolume();
   /** The command of each group; it goes with it, since what Cesium derives from it keeps programs and uniforms. */
   readonly #batches = new WeakMap<DrawnWith<CesiumView>, PointBatch>();
   /** What is in the picture, and the commands that put it into the scene. */
@@ -146,7 +148,8 @@ export class PointDrawing {
     const { points: passes, translucent } = passesOf(plan);
     const { drawingBufferWidth: width, drawingBufferHeight: height } = context;
     const picture = this.#target.prepare(width, height, passes.includes("splat") ? "halfFloat" : "byte");
-    const frustum = fitFrustum(camera, spheresOf(nodes));
+    this.#volume.hold(nodes);
+    const frustum = fitFrustum(camera, [this.#volume]);
     const setting = (pass: PointPass) => this.setting(pass, frustum, content);
     this.#timer.measure(labelOf(plan, "points"), () => {
       this.#pass.clear(context, picture.target);
@@ -159,8 +162,7 @@ export class PointDrawing {
     const margin = [reach / width, reach / height] as const;
     coveredPart(camera.viewMatrix, frustum, spheresOf(nodes), margin, this.uniforms.coveredPart);
     const program = programs.of(quadProgramOf(plan, depth));
-    const sphere = BoundingSphere.fromBoundingSpheres([...spheresOf(nodes)]);
-    return this.#quad.command(program, uniforms.map, sphere, translucent);
+    return this.#quad.command(program, uniforms.map, this.#volume, translucent);
   }
 
   #batchOf(group: DrawnWith<CesiumView>): PointBatch {
