@@ -35,8 +35,9 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   readonly #colours: Column | undefined;
   readonly #columns = new Map<string, PagedColumn>();
   readonly #arrays = new Map<string, PagedArray<T>>();
-  /** The one that was last asked for, most likely the next as well. */
-  #last: PagedArray<T> | undefined;
+  /** What was last asked for, most likely the next as well. */
+  #lastSet: AttributeSet | undefined;
+  #lastArray: T["vertexArray"] | undefined;
   #place: PageSlot<T> | undefined;
   #bytes = 0;
 
@@ -74,8 +75,8 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   }
 
   /** Whether programs that read these attributes can draw the node. */
-  has({ signature }: AttributeSet): boolean {
-    return this.#last?.set.signature === signature || this.#arrays.has(signature);
+  has(set: AttributeSet): boolean {
+    return this.#lastSet === set || this.#arrays.has(set.signature);
   }
 
   /** Puts on the GPU what programs with these attributes need. */
@@ -85,10 +86,11 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
 
   /** The vertex array that programs with these attributes read, made where it is not there. */
   arrayOf(set: AttributeSet): T["vertexArray"] {
-    if (this.#last?.set.signature === set.signature) return this.#last.array;
+    if (this.#lastSet === set && this.#lastArray) return this.#lastArray;
     const found = this.#arrays.get(set.signature);
     if (found) {
-      this.#last = found;
+      this.#lastSet = set;
+      this.#lastArray = found.array;
       return found.array;
     }
     const slot = this.#place ?? this.#pages.reserve(this.vertices.count, this, this.positions);
@@ -110,7 +112,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
 
   /** Frees what programs with other attributes than these read. */
   keep(sets: readonly AttributeSet[]): void {
-    this.#last = undefined;
+    this.#forget();
     const signatures = new Set(sets.map(({ signature }) => signature));
     for (const [signature, { name }] of this.#arrays) {
       if (signatures.has(signature)) continue;
@@ -140,11 +142,16 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     for (const { name } of this.#arrays.values()) slot.page.leaveArray(name);
     for (const { buffer } of this.#columns.values()) slot.page.leave(buffer);
     this.#arrays.clear();
-    this.#last = undefined;
+    this.#forget();
     this.#columns.clear();
     this.#bytes = 0;
     this.#place = undefined;
     this.#pages.release(slot);
+  }
+
+  #forget(): void {
+    this.#lastSet = undefined;
+    this.#lastArray = undefined;
   }
 
   /** Writes a column into the page; undefined where the data set has no such attribute. */

@@ -1,7 +1,7 @@
 import type { HierarchyPage, NodeBounds, OctreeNode } from "./octree-node.js";
 import { PriorityQueue } from "./priority-queue.js";
 import { type Demand, shareOf, thresholdFor } from "./share.js";
-import { distanceTo, horizonOf, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
+import { distanceToMiddle, horizonOf, outsideFrustum, pixelsPerMetre, type View } from "./view.js";
 
 /** Gives a node's bounds; called once per node that a view reaches. */
 export type BoundsOf = (node: OctreeNode) => NodeBounds;
@@ -55,6 +55,7 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
   const fringe: OctreeNode[] = [];
   const demand: Demand = { sizes: [], caps: [], pixels: [], base: [], prefix };
   const metre = pixelsPerMetre(view);
+  const orthographic = view.projection.kind === "orthographic";
   const behindHorizon = horizonOf(view);
   // What is gathered already passes the limit down to this spacing, and more only widens it. Nothing below it shows but
   // of nodes that have none above them.
@@ -65,12 +66,13 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
   const consider = (node: OctreeNode, above: number, base: boolean) => {
     node.bounds ??= boundsOf(node);
     const { bounds } = node;
-    const distance = view.projection.kind === "orthographic" ? 1 : distanceTo(view, bounds);
+    const length = distanceToMiddle(view, bounds);
+    const distance = orthographic ? 1 : Math.max(0, length - bounds.radius);
     const pixels = (bounds.spacing * metre) / distance;
     if (!base && 2 * pixels <= FRINGE * error) return;
     if (!base && 2 * pixels < floor) return;
     if (outsideFrustum(view, bounds) || behindHorizon(bounds) || rejects?.(bounds)) return;
-    const own = distance === 0 ? AROUND * bounds.spacing : pixels * weightOf(view, bounds);
+    const own = distance === 0 ? AROUND * bounds.spacing : pixels * weightOf(view, bounds, length);
     const weighted = own < above ? own : above;
     if (!base && 2 * weighted < floor) return;
     if (base) bases++;
@@ -154,12 +156,14 @@ function sparseness(points: number, { radius, spacing }: NodeBounds): number {
   return points > 0 ? Math.max(1, (Math.sqrt(2 / points) * radius) / spacing) : 1;
 }
 
-/** 1 for a node in the middle of the picture, 0.75 beside the camera, 0.5 behind it. */
-function weightOf({ position, direction }: View, bounds: NodeBounds): number {
+/**
+ * 1 for a node in the middle of the picture, 0.75 beside the camera, 0.5 behind it.
+ * @param length distance from the camera to the middle of its sphere, metres
+ */
+function weightOf({ position, direction }: View, bounds: NodeBounds, length: number): number {
   const x = bounds.x - position[0];
   const y = bounds.y - position[1];
   const z = bounds.z - position[2];
-  const length = Math.sqrt(x * x + y * y + z * z);
   if (length <= bounds.radius) return 1;
   return 0.75 + (0.25 * (x * direction[0] + y * direction[1] + z * direction[2])) / length;
 }

@@ -34,12 +34,16 @@ const OCCLUDER_DEPTH = 12_000;
 
 /** Distance from the camera to a node's sphere, metres; 0 inside. */
 export function distanceTo(view: View, bounds: NodeBounds): number {
-  const { position } = view;
+  return Math.max(0, distanceToMiddle(view, bounds) - bounds.radius);
+}
+
+/** Distance from the camera to the middle of a node's sphere, metres. */
+export function distanceToMiddle({ position }: View, bounds: NodeBounds): number {
   const x = bounds.x - position[0];
   const y = bounds.y - position[1];
   const z = bounds.z - position[2];
   // The root of the sum, since hypot is many times slower and nothing overflows here.
-  return Math.max(0, Math.sqrt(x * x + y * y + z * z) - bounds.radius);
+  return Math.sqrt(x * x + y * y + z * z);
 }
 
 /** True where a node's sphere lies wholly on the outer side of a plane of the frustum. */
