@@ -4,6 +4,7 @@ import { join } from "node:path";
 import { openScanPage, SCAN } from "./accuracy/rendering-browser.mjs";
 import { converted } from "./converted.mjs";
 import { CATEGORIES, phasesOf } from "./frames/trace.mjs";
+import { writeNodes } from "./gpu/report.mjs";
 
 /** Source coordinates of the middle of what is looked at. */
 const AT = [637_290, 851_210, 430];
@@ -20,7 +21,8 @@ const FOREIGN = ["scene", "GL data", "GL programs", "garbage"];
 /**
  * How long the main thread is held by the layer while a scan is loaded, flown over, restyled and cut: in each frame by
  * its update and what the application calls, between frames by what workers send. In system Chromium with WebGL in
- * software, where calls of WebGL take what a driver would not: they are told apart.
+ * software, where calls of WebGL take what a driver would not: they are told apart. Before that, what a thousand nodes and
+ * more take of a frame, which goes into docs/bench/frames.md.
  */
 export async function bench(root) {
   const scan = join(root, "../shared/data/autzen.laz");
@@ -36,18 +38,47 @@ export async function bench(root) {
     try {
       console.log(`${setting}, load ${loadavg()[0].toFixed(1)}`);
       const browser = page.context().browser();
-      await browser.startTracing(page, { categories: CATEGORIES });
-      await page.evaluate(([scan, at]) => new window.Frames().run(scan, at), [SCAN, AT]);
-      const phases = phasesOf(await browser.stopTracing());
-      if (watch.errors.length > 0) throw new Error(`the page failed: ${watch.errors.join("; ")}`);
+      const traced = async (work) => {
+        await browser.startTracing(page, { categories: CATEGORIES });
+        const result = await page.evaluate(work, [SCAN, AT]);
+        const phases = phasesOf(await browser.stopTracing());
+        if (watch.errors.length > 0) throw new Error(`the page failed: ${watch.errors.join("; ")}`);
+        return { result, phases };
+      };
+      const load = loadavg()[0];
+      const many = await traced(([scan, at]) => new window.ManyNodes().run(scan, at));
+      const nodes = nodesRow(many.result, many.phases);
+      writeNodes(root, { setting, load, ...nodes });
+      console.table([nodes]);
+      const { phases } = await traced(([scan, at]) => new window.Frames().run(scan, at));
       console.table(phases.map(parts));
-      return phases.map(row);
+      return [...phases.map(row), nodes];
     } finally {
       await close();
     }
   } finally {
     rmSync(folder, { recursive: true });
   }
+}
+
+/**
+ * What many nodes take of a frame: CPU milliseconds of the page's thread, medians of all frames, all that Cesium does for it
+ * included, and microseconds for each node, without what the same frame takes where the layers are hidden.
+ */
+function nodesRow({ clouds, nodes, points }, phases) {
+  const milliseconds = (name) => {
+    const { frames } = phases.find((phase) => phase.name === name);
+    const times = frames.map(({ cpu }) => Object.values(cpu).reduce((sum, time) => sum + time, 0));
+    return times.sort((a, b) => a - b)[Math.floor(times.length / 2)];
+  };
+  const [moving, still, empty] = ["moving", "still", "empty"].map(milliseconds);
+  const perNode = (time) => Number(((1000 * (time - empty)) / nodes).toFixed(2));
+  const precise = (time) => Number(time.toFixed(2));
+  return {
+    ...{ phase: "many nodes", clouds, nodes, points },
+    ...{ "moving, ms": precise(moving), "still, ms": precise(still), "empty, ms": precise(empty) },
+    ...{ "moving, µs a node": perNode(moving), "still, µs a node": perNode(still) },
+  };
 }
 
 /** CPU milliseconds of a frame that are the layer's own. */

@@ -2,6 +2,7 @@ import { geodesicFrom } from "@groma/georef";
 import { Clip, ClipSet, PointCloud, PointCloudLayer } from "@groma/layer/cesium";
 import { onPoints } from "../../browser/stage/point-calls.js";
 import { Stage } from "../../browser/stage/stage.js";
+import { ManyNodes } from "./many-nodes.js";
 import { frame, phase, within, wrap } from "./marks.js";
 import { markGl, markLayer, markMessages } from "./parts.js";
 
@@ -150,5 +151,5 @@ function reach(index: number): number {
   return 200 + 100 * Math.sin(0.3 * index);
 }
 
-Object.assign(window, { Frames });
+Object.assign(window, { Frames, ManyNodes });
 document.body.dataset.ready = "true";

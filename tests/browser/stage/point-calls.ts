@@ -38,16 +38,21 @@ export function onPoints(gl: WebGL2RenderingContext, instead: (call: PointCall) 
   undo.push(() => {
     gl.drawArrays = drawArrays;
   });
+  /** Counts of no vertices. */
+  let none = new Int32Array(0);
   const watched = new Set<MultiDraw>();
   const watch = (extension: MultiDraw | null) => {
     if (!extension || watched.has(extension)) return;
     watched.add(extension);
     const own = extension.multiDrawArraysWEBGL;
     extension.multiDrawArraysWEBGL = function (mode, firsts, firstsAt, counts, countsAt, draws) {
+      if (none.length < counts.length) none = new Int32Array(counts.length);
       instead({
-        counts: [...counts.subarray(countsAt, countsAt + draws)],
+        get counts() {
+          return [...counts.subarray(countsAt, countsAt + draws)];
+        },
         draw: (vertices) => {
-          const shown = vertices === "none" ? new Int32Array(countsAt + draws) : counts;
+          const shown = vertices === "none" ? none : counts;
           own.call(this, mode, firsts, firstsAt, shown, countsAt, draws);
         },
       });
