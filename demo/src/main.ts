@@ -44,6 +44,7 @@ import { VIEW_GROUPS } from "./panel/view-fields.js";
 import { ProfilePanel } from "./profile/profile-panel.js";
 import { type Aspect, type Flight, goToCloud, goToPlaces, goToView } from "./scene/camera.js";
 import { ClipBox } from "./scene/clip-box.js";
+import { drawChanges } from "./scene/on-demand.js";
 import { Picking } from "./scene/picking.js";
 import { Screenshot } from "./screenshot/screenshot.js";
 import { addBaseMap, addTerrain, createViewer, watchDrawing } from "./viewer.js";
@@ -122,6 +123,11 @@ function start(viewer: Viewer): void {
     for (const tool of tools) if (!tool.finish()) tool.cancel();
   });
   for (const tool of tools) tool.onChange(() => drawingHint.show(measuring.hint || profile.hint));
+  drawChanges(
+    viewer.scene,
+    () => clouds.layers,
+    () => ledger.frames,
+  );
   const navigation = new PointNavigation(viewer);
   new Moving(navigation, viewer.canvas, () => measuring.tool.drawing !== undefined || profile.drawing);
   const groma: Groma = {

@@ -37,6 +37,9 @@ export function createViewer(container: HTMLElement): Viewer {
       scene3DOnly: true,
       // Points are squares of whole pixels: several samples a pixel would cost time and change nothing.
       msaaSamples: 1,
+      // A frame that would show what the one before does takes battery and fan for nothing.
+      requestRenderMode: true,
+      maximumRenderTimeChange: Number.POSITIVE_INFINITY,
       showRenderLoopErrors: false,
       creditContainer: credits,
     });

@@ -52,7 +52,7 @@ export async function bench(root) {
       const best = new Map();
       for (let round = 0; round < ROUNDS; round++) {
         for (const name of PAGES) {
-          const { page, watch } = await openPage(browser, { width: 960, height: 600 });
+          const { page, watch } = await openPage(browser, { width: 960, height: 600 }, "whole");
           page.setDefaultTimeout(240_000);
           await page.goto(`${server.address}/${name}.html`);
           await page.waitForSelector("body[data-ready]", { state: "attached" });

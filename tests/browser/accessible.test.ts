@@ -145,7 +145,10 @@ async function openAll(): Promise<void> {
   await page.waitForFunction(() => window.groma?.layer, undefined, { timeout: 120_000 });
   await page.selectOption("#views", "globe");
   await page.waitForFunction(
-    () => window.groma?.viewer.canvas.width === innerWidth && window.groma.layer?.settled,
+    () => {
+      const { viewer, layer } = window.groma;
+      return viewer.canvas.width === innerWidth * viewer.resolutionScale && layer?.settled;
+    },
     undefined,
     { timeout: 120_000 },
   );

@@ -1,4 +1,4 @@
-import type { Browser } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
 import { data } from "../project.js";
@@ -48,7 +48,7 @@ describe.skipIf(missing)(`Autzen on the globe${missing ? ` (skipped: ${missing})
   it("opens without an error and without a request that leaves the machine", {
     timeout: 240_000,
   }, async () => {
-    const { page, watch } = await openPage(browser, { width: 960, height: 600 });
+    const { page, watch } = await openPage(browser, { width: 960, height: 600 }, "whole");
     await page.goto(`${server.address}&budget=1000000`);
     await settle(page);
     const shown = await screenshot(page, "autzen-oblique");
@@ -58,6 +58,7 @@ describe.skipIf(missing)(`Autzen on the globe${missing ? ` (skipped: ${missing})
     expect(drawn).toBeGreaterThan(10_000);
     await page.waitForFunction((told) => document.querySelector("#count")!.textContent!.includes(told), told);
     expect(await page.textContent("#stage")).toBe("This view is complete.");
+    await nothingIsDrawnTwice(page);
     await hideCloud(page);
     const hidden = await screenshot(page, "autzen-oblique-hidden");
     let changed = 0;
@@ -111,3 +112,22 @@ describe.skipIf(missing)(`Autzen on the globe${missing ? ` (skipped: ${missing})
     await page.context().close();
   });
 });
+
+/** Waits until the globe draws no frame while the page has some, and then changes an option, which it draws. */
+async function nothingIsDrawnTwice(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    const { layer, viewer } = window.groma;
+    let drawn = 0;
+    viewer.scene.postRender.addEventListener(() => drawn++);
+    const frames = async () => {
+      drawn = 0;
+      for (let frame = 0; frame < 10; frame++) await new Promise(requestAnimationFrame);
+      return drawn;
+    };
+    while ((await frames()) > 0);
+    layer.filter = { ranges: { intensity: [0, 1] } };
+    while ((await frames()) === 0);
+    layer.filter = undefined;
+  });
+  await settle(page);
+}

@@ -45,7 +45,7 @@ async function told(page: Page): Promise<string> {
 const expected = (name: string) => join(import.meta.dirname, "expected", `${name}.aria.yml`);
 
 it("from an empty page to an exported profile, by keyboard alone", { timeout: 300_000 }, async () => {
-  const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
+  const { page, watch } = await openPage(browser, { width: 1000, height: 700 }, "coarse");
   await page.addInitScript(() => {
     (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;
   });
@@ -117,7 +117,7 @@ it("from an empty page to an exported profile, by keyboard alone", { timeout: 30
 });
 
 it("moves about the globe by keyboard alone, with a sheet of the keys", { timeout: 240_000 }, async () => {
-  const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
+  const { page, watch } = await openPage(browser, { width: 1000, height: 700 }, "coarse");
   await page.emulateMedia({ reducedMotion: "reduce" });
   await page.goto(server.address);
   await settle(page);
@@ -162,7 +162,7 @@ it("moves about the globe by keyboard alone, with a sheet of the keys", { timeou
 it("on a phone, what is drawn has the view for itself, with a way out that needs no keys", {
   timeout: 240_000,
 }, async () => {
-  const { page, watch } = await openPage(browser, { width: 390, height: 700 });
+  const { page, watch } = await openPage(browser, { width: 390, height: 700 }, "coarse");
   await page.goto(`${server.address}&fly=0&budget=2000`);
   await settle(page);
   const free = () =>

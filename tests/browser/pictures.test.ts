@@ -50,7 +50,7 @@ describe.skipIf(left)(`pictures of the manual${left ? ` (skipped: ${left})` : ""
   async function open(scan: string, query: string): Promise<Page> {
     const server = await view(converted(scan));
     servers.push(server);
-    const { page } = await openPage(browser, size);
+    const { page } = await openPage(browser, size, "whole");
     await page.goto(`${server.address}&fly=0&${query}`);
     await settle(page);
     return page;

@@ -56,7 +56,7 @@ describe.skipIf(scan.missing)(
     it("is drawn by clicks, shown whole, and exported to the bytes that the command line writes", {
       timeout: 480_000,
     }, async () => {
-      const { page, watch } = await openPage(browser, { width: 1000, height: 700 });
+      const { page, watch } = await openPage(browser, { width: 1000, height: 700 }, "coarse");
       // Browsers with a file picker ask the user; the download is what a test can take.
       await page.addInitScript(() => {
         (window as { showSaveFilePicker?: unknown }).showSaveFilePicker = undefined;

@@ -6,6 +6,9 @@ import { costWords, effectWords, frameWords, magnitudeWords, stateWords } from "
 /** Milliseconds between two writings: quick enough to be live, slow enough to be read. */
 const INTERVAL = 500;
 
+/** Frames that costs are measured in after a change. */
+const MEASURED = 30;
+
 /** The effects of a layer, what each would change and what it costs, live while it is open. */
 export class Ledger {
   readonly #place = byId("ledger", HTMLDetailsElement);
@@ -23,6 +26,11 @@ export class Ledger {
 
   /** Further rows, beside those of the layer; asked for whenever they are written. */
   further: () => readonly LedgerRow[] = () => [];
+
+  /** How many frames of a change it wants to see: costs are means of frames that follow each other. */
+  get frames(): number {
+    return this.#place.open ? MEASURED : 1;
+  }
 
   attach(layer: PointCloudLayer): void {
     this.#layer = layer;

@@ -8,7 +8,7 @@ export function testsOfSaving(stage: () => MeasuringStage): void {
   it("is saved, and after a reload by a link stands on the same records on both", {
     timeout: 200_000,
   }, async () => {
-    const { page, watch, onDemand, records, measured } = stage();
+    const { page, watch, records, measured } = stage();
     const download = page.waitForEvent("download");
     await page.click("#measure-save");
     const path = await (await download).path();
@@ -61,7 +61,6 @@ export function testsOfSaving(stage: () => MeasuringStage): void {
     const seen = await shown();
 
     await page.reload();
-    await onDemand();
     await settle(page);
     await page.locator("#picked").waitFor();
     const again = await shown();

@@ -41,17 +41,8 @@ export async function openMeasuring(scan: string) {
   const { page, watch } = await openPage(browser, { width: 1080, height: 400 });
   const session = await page.context().newCDPSession(page);
   await serveTerrain(page);
-  /** Has the globe draw on demand only, as measuring asks it to: else it takes the processor from all the rest. */
-  async function onDemand(): Promise<void> {
-    await page.waitForFunction(() => window.groma !== undefined);
-    await page.evaluate(() => {
-      window.groma.viewer.scene.requestRenderMode = true;
-    });
-  }
-
   /** Waits for both views. */
   async function ready(map = true): Promise<void> {
-    await onDemand();
     await settle(page);
     await page.evaluate(async (mapShows) => {
       const { beside } = window.groma;
@@ -151,6 +142,6 @@ export async function openMeasuring(scan: string) {
   };
   return {
     ...{ page, watch, session, places, close },
-    ...{ onDemand, ready, records, entries, tool, drawn, measured, moved, tap, press, clear, line },
+    ...{ ready, records, entries, tool, drawn, measured, moved, tap, press, clear, line },
   };
 }

@@ -9,7 +9,7 @@ export async function linkBringsTheProfileBack(page: Page, browser: Browser): Pr
   await page.press("#profile-from", "Enter");
   await completed(page);
   await page.locator("#copy-link").evaluate((button: HTMLButtonElement) => button.click());
-  const { page: other } = await openPage(browser, { width: 1000, height: 700 });
+  const { page: other } = await openPage(browser, { width: 1000, height: 700 }, "coarse");
   await other.goto(page.url());
   await completed(other);
   for (const field of ["#profile-name", "#profile-width", "#profile-from"])
