@@ -14,15 +14,15 @@ const environment = {
   ...(process.stdout.isTTY ? {} : { NO_COLOR: "1" }),
 };
 
-/** Runs a program with its output shown and returned. */
-function run(program, args) {
+/** Runs a program with its output returned, and shown as it comes unless it is held back. */
+function run(program, args, { held = false } = {}) {
   return new Promise((done) => {
     const child = spawn(program, args, { cwd: root, env: environment, stdio: ["ignore", "pipe", "pipe"] });
     let output = "";
     for (const stream of [child.stdout, child.stderr]) {
       stream.on("data", (chunk) => {
         output += chunk;
-        process.stdout.write(chunk);
+        if (!held) process.stdout.write(chunk);
       });
     }
     child.on("error", (error) => done({ code: 1, output: String(error) }));
@@ -30,7 +30,9 @@ function run(program, args) {
   });
 }
 
-const npx = (program, ...args) => run(process.execPath, [join(root, "node_modules", program), ...args]);
+const node = (program, args, how) =>
+  run(process.execPath, [join(root, "node_modules", program), ...args], how);
+const npx = (program, ...args) => node(program, args);
 const cargo = (...args) =>
   run("cargo", [args[0], "--manifest-path", "converter/Cargo.toml", ...args.slice(1)]);
 
@@ -55,25 +57,25 @@ async function rust() {
   return counts;
 }
 
-/** The TypeScript suite; a file that cannot be loaded counts as one failure. */
-async function vitest(rooms) {
-  const report = join(root, "tests/artifacts/vitest.json");
+/** Tests of the TypeScript suite in some rooms; a file that cannot be loaded counts as one failure. */
+async function vitest(rooms, how) {
+  const report = join(root, `tests/artifacts/vitest-${rooms.join("-")}.json`);
   rmSync(report, { force: true });
-  const projects = rooms.flatMap((room) => ["--project", room]);
-  const { code } = await npx(
+  const { code, output } = await node(
     "vitest/vitest.mjs",
-    "run",
-    ...projects,
-    "--reporter=default",
-    "--reporter=json",
-    `--outputFile.json=${report}`,
+    [
+      ...["run", ...rooms.flatMap((room) => ["--project", room])],
+      ...["--reporter=default", "--reporter=json", `--outputFile.json=${report}`],
+    ],
+    how,
   );
   try {
     const result = JSON.parse(readFileSync(report, "utf8"));
     const failed = Math.max(result.numFailedTests, code === 0 ? 0 : 1);
-    return { passed: result.numPassedTests, failed, skipped: result.numPendingTests + result.numTodoTests };
+    const skipped = result.numPendingTests + result.numTodoTests;
+    return { passed: result.numPassedTests, failed, skipped, output };
   } catch {
-    return { passed: 0, failed: 1, skipped: 0 };
+    return { passed: 0, failed: 1, skipped: 0, output };
   }
 }
 
@@ -88,18 +90,38 @@ const checks = {
     cargo("clippy", "--release", "--all-targets", "--locked", "--quiet", "--", "-D", "warnings"),
   ),
   "tests (Rust)": rust,
-  "tests (TypeScript)": () => vitest([]),
+  "tests (TypeScript)": () => vitest(["unit", "architecture", "numerics", "faults", "interop", "install"]),
 };
+
+const total = { passed: 0, failed: 0, skipped: 0 };
+
+/** Adds up what a check came to. */
+function count(counts) {
+  for (const key of Object.keys(total)) total[key] += counts[key];
+}
+
+/**
+ * Tests in the browser, which wait for a picture more often than not: beside all else they take what it leaves of the
+ * processor. What they say is shown at their end.
+ */
+async function browser() {
+  const counts = await vitest(["browser"], { held: true });
+  console.log(`\n── tests (TypeScript, in the browser)\n${counts.output}`);
+  count(counts);
+}
+
+/** All other checks, one after the other. */
+async function others() {
+  for (const [name, check] of Object.entries(checks)) {
+    console.log(`\n── ${name}`);
+    count(await check());
+  }
+}
 
 mkdirSync(join(root, "tests/artifacts"), { recursive: true });
 await setup(forTest);
 const rooms = process.argv.slice(2);
-const chosen = rooms.length === 0 ? checks : { "tests (TypeScript)": () => vitest(rooms) };
-const total = { passed: 0, failed: 0, skipped: 0 };
-for (const [name, check] of Object.entries(chosen)) {
-  console.log(`\n── ${name}`);
-  const counts = await check();
-  for (const key of Object.keys(total)) total[key] += counts[key];
-}
+if (rooms.length > 0) count(await vitest(rooms));
+else await Promise.all([browser(), others()]);
 console.log(`\n${total.passed} passed, ${total.failed} failed, ${total.skipped} skipped`);
 process.exitCode = total.failed === 0 && total.passed > 0 ? 0 : 1;
