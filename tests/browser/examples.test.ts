@@ -23,7 +23,8 @@ const oldest = join(projectRoot, "node_modules/cesium-engine-oldest");
 async function buildWithVite(): Promise<void> {
   const { build } = await import("vite");
   const configFile = join(examples, "vite.config.js");
-  await build({ configFile, logLevel: "error", build: { outDir: built, emptyOutDir: true } });
+  // Making it small takes most of the time and says nothing of whether it works.
+  await build({ configFile, logLevel: "error", build: { outDir: built, emptyOutDir: true, minify: false } });
   await build({
     ...{ configFile: false, root: examples, base: "/oldest/", logLevel: "error" },
     ...{ worker: { format: "es" }, resolve: { alias: { cesium: oldest } } },
@@ -36,7 +37,6 @@ async function buildWithVite(): Promise<void> {
     ],
     build: {
       ...{ outDir: join(built, "oldest"), target: "es2022" },
-      // Making it small says nothing of whether it works.
       minify: false,
       rolldownOptions: { input: join(examples, "vite/index.html") },
     },
@@ -47,7 +47,6 @@ async function buildWithWebpack(): Promise<void> {
   const { default: config } = await import(join(examples, "webpack/webpack.config.mjs"));
   const path = join(built, "webpack");
   await new Promise<void>((resolve, reject) => {
-    // Making it small takes most of the time and says nothing of whether it works.
     const options = { ...config, output: { ...config.output, path }, optimization: { minimize: false } };
     webpack(options, (error, stats) => {
       if (error) reject(error);
