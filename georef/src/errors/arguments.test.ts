@@ -22,7 +22,7 @@ const BETWEEN_OTHERS = [
     "levelFrame",
   ],
   ...["ownLevel", "ownLevelNote", "pointTransform", "publishedAccuracy", "requireSame", "sourceTransform"],
-  ...["spread", "truthOnMap", "undulationOf", "withHeights", "withWorthThere"],
+  ...["spread", "truthOnMap", "truthOnWebMercator", "undulationOf", "withHeights", "withWorthThere"],
 ];
 
 const exported = Object.entries(georef).flatMap(([name, value]) => {

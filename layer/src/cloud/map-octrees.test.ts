@@ -31,8 +31,9 @@ const EVERYTHING: View = {
 async function open() {
   const specs: DataSetSpec[] = [];
   const jobs: NodeJob[] = [];
+  const removed: number[] = [];
   const executor = {
-    ...{ pending: 0, removeDataSet: () => undefined, destroy: () => undefined },
+    ...{ pending: 0, removeDataSet: (dataSet: number) => removed.push(dataSet), destroy: () => undefined },
     addDataSet: (spec: DataSetSpec) => specs.push(spec),
     run: async (job: NodeJob) => {
       jobs.push(job);
@@ -51,7 +52,7 @@ async function open() {
     },
   } as ByteSource;
   const cloud = await PointCloud.fromUrl(source, { executor, crs: UTM, vertical: "ellipsoidal" });
-  return { cloud, specs, jobs, reads };
+  return { cloud, specs, jobs, reads, removed };
 }
 
 const settled = async (cloud: PointCloud, view: object, octree = cloud.globe) => {
@@ -118,6 +119,15 @@ describe("a data set on maps", () => {
     const { cloud } = await open();
     const far = { ...MERCATOR, code: "far", definition: "+proj=gnom +lat_0=-90 +lon_0=0 +ellps=WGS84" };
     await expect(cloud.maps.acquire(far)).rejects.toThrow(/PLACE_MAP/);
+  });
+
+  it("leaves nothing in an executor of others, where it goes while one is opened", async () => {
+    const { cloud, specs, removed } = await open();
+    const opening = cloud.maps.acquire(OWN);
+    cloud.destroy();
+    await opening.catch(() => undefined);
+    expect(specs).toHaveLength(2);
+    await expect.poll(() => removed).toEqual([1, 2]);
   });
 
   it("CRS_NOT_LOADED where a projection is asked for at once, before any but Web Mercator is loaded", async () => {

@@ -115,7 +115,11 @@ export class MapOctrees {
   }
 
   destroy(): void {
-    for (const octree of this.#made()) octree.destroy();
+    for (const { made, octree } of this.#entries.values()) {
+      if (made) made.destroy();
+      // One that is still being opened goes once it is there.
+      else octree.then((late) => late.destroy()).catch(() => undefined);
+    }
     this.#entries.clear();
   }
 
