@@ -46,6 +46,7 @@ import { type Aspect, type Flight, goToCloud, goToPlaces, goToView } from "./sce
 import { ClipBox } from "./scene/clip-box.js";
 import { drawChanges } from "./scene/on-demand.js";
 import { Picking } from "./scene/picking.js";
+import { steadyCamera } from "./scene/steady-camera.js";
 import { Screenshot } from "./screenshot/screenshot.js";
 import { addBaseMap, addTerrain, createViewer, watchDrawing } from "./viewer.js";
 
@@ -123,6 +124,7 @@ function start(viewer: Viewer): void {
     for (const tool of tools) if (!tool.finish()) tool.cancel();
   });
   for (const tool of tools) tool.onChange(() => drawingHint.show(measuring.hint || profile.hint));
+  steadyCamera(viewer.scene);
   drawChanges(
     viewer.scene,
     () => clouds.layers,

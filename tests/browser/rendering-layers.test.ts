@@ -220,10 +220,18 @@ describe.skipIf(pythonMissing)(
         for (let at = 0; at < 20; at++) stage.frame();
         const restyled = layer.settled;
         const drawn = frames - loading;
+        // By its own rounding, as Cesium does where somebody listens to the camera.
+        stage.scene.camera.direction.x += 2e-16;
+        const turned = layer.settled;
+        const still = frames;
+        layer.retryFailed();
+        for (let at = 0; at < 5; at++) stage.frame();
+        const retried = frames - still;
         stage.destroy();
-        return { settled, idle, restyled, drawn };
+        return { settled, idle, restyled, drawn, turned, retried };
       }, OBLIQUE);
-      expect(result).toMatchObject({ settled: true, idle: 0, restyled: true });
+      expect(result).toMatchObject({ settled: true, idle: 0, restyled: true, turned: true });
+      expect(result.retried).toBeGreaterThan(0);
       expect(result.drawn).toBeGreaterThan(0);
       expect(result.drawn).toBeLessThan(10);
     });

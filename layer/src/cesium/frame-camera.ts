@@ -21,8 +21,8 @@ export function cameraOfFrame(frameState: FrameState, lift: readonly [number, nu
 }
 
 /** Where a camera is and looks. */
-function poseOf({ positionWC, directionWC, upWC }: Camera): string {
-  return `${positionWC} ${directionWC} ${upWC}`;
+function poseOf({ positionWC, directionWC, upWC }: Camera): number[] {
+  return [positionWC, directionWC, upWC].flatMap(({ x, y, z }) => [x, y, z]);
 }
 
 /**

@@ -29,7 +29,12 @@ export class FrameEvents {
   /** Has the scene draw a frame whenever another view has changed the parts of a budget, in place of the one before. */
   watch(budget: SharedBudget | undefined): void {
     this.#unwatch();
-    this.#unwatch = budget?.onChange(() => this.#scene?.requestRender()) ?? (() => undefined);
+    this.#unwatch = budget?.onChange(() => this.redraw()) ?? (() => undefined);
+  }
+
+  /** Has the scene that showed the layer last draw a frame. */
+  redraw(): void {
+    this.#scene?.requestRender();
   }
 
   /** Warns once where a scene has views that points are not drawn in. */

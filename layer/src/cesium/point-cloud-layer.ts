@@ -313,6 +313,8 @@ export class PointCloudLayer {
   retryFailed(): void {
     this.#mustExist();
     this.cloud.stream.retryFailed();
+    // Only a frame asks for what its view wants.
+    this.#events.redraw();
   }
 
   /** Called by Cesium for each frame and pass. Never throws, which would end Cesium's render loop. @internal */

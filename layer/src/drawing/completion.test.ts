@@ -3,7 +3,7 @@ import { Completion, type FrameOutcome } from "./completion.js";
 
 const whole = { wanted: 4, ready: 4, failed: 0, pending: 0 };
 const outcome = (parts: Partial<FrameOutcome> = {}): FrameOutcome => ({
-  ...{ progress: whole, undrawn: 0, drawn: true, idle: true, pose: () => "here" },
+  ...{ progress: whole, undrawn: 0, drawn: true, idle: true, pose: () => [0.5] },
   ...parts,
 });
 
@@ -42,11 +42,11 @@ describe("Completion", () => {
 
   it("does not hold for a camera that has moved since, nor for another `show`", () => {
     const completion = new Completion();
-    let place = "here";
-    completion.note(outcome({ pose: () => place }));
-    place = "there";
+    let place = 0.5;
+    completion.note(outcome({ pose: () => [place] }));
+    place = 0.6;
     expect(completion.settled(true)).toBe(false);
-    place = "here";
+    place = 0.5 + 1e-15;
     expect([completion.settled(true), completion.settled(false)]).toEqual([true, false]);
     completion.rest(false);
     expect([completion.settled(true), completion.settled(false)]).toEqual([false, true]);

@@ -1,4 +1,5 @@
 import type { StreamProgress } from "../cloud/index.js";
+import { restsOn } from "./still-frame.js";
 
 const NOTHING: StreamProgress = { wanted: 0, ready: 0, failed: 0, pending: 0 };
 
@@ -13,7 +14,7 @@ export interface FrameOutcome {
   /** Whether nothing is on its way. */
   readonly idle: boolean;
   /** Where the camera is and looks now, in a form that can be compared; asked again by {@link Completion.settled}. */
-  readonly pose: () => string;
+  readonly pose: () => readonly number[];
 }
 
 /** What a frame changed. */
@@ -33,8 +34,8 @@ export class Completion {
   #settled = false;
   /** `show` as the last frame found it. */
   #shown: boolean | undefined;
-  #poseNow: (() => string) | undefined;
-  #pose = "";
+  #poseNow: (() => readonly number[]) | undefined;
+  #pose: readonly number[] = [];
 
   /** How far what the view wants is in the picture: a node that is here and not drawn is still pending. */
   get progress(): StreamProgress {
@@ -69,7 +70,7 @@ export class Completion {
 
   /** Whether the last frame showed all that can be had of what it was to show, and its camera stands where it stood. */
   settled(show: boolean): boolean {
-    const moved = this.#poseNow !== undefined && this.#pose !== this.#poseNow();
+    const moved = this.#poseNow !== undefined && !restsOn(this.#poseNow(), this.#pose);
     return this.#settled && this.#shown === show && !moved;
   }
 }

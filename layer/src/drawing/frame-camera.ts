@@ -14,5 +14,5 @@ export interface FrameCamera {
   /** Where depth is logarithmic. */
   readonly depth: LogarithmicDepth;
   /** Where the camera is and looks at the time of asking, in a form that can be compared. */
-  readonly pose: () => string;
+  readonly pose: () => readonly number[];
 }

@@ -24,7 +24,7 @@ const camera: FrameCamera = {
   pixelRatio: 1,
   near: 0.1,
   depth: { own: true, scene: true },
-  pose: () => "",
+  pose: () => [],
 };
 
 /** Axes as they are, about a place. */

@@ -19,7 +19,7 @@ const view = (position: readonly [number, number, number]): FrameCamera => ({
     ...{ position: [...position], direction: [1, 0, 0], planes: new Array(24).fill(0), height: 100 },
     ...{ projection: { kind: "perspective", fieldOfView: Math.PI / 2 }, horizon: false },
   },
-  ...{ width: 100, pixelRatio: 1, near: 0.1, depth: { own: true, scene: true }, pose: () => "" },
+  ...{ width: 100, pixelRatio: 1, near: 0.1, depth: { own: true, scene: true }, pose: () => [] },
 });
 
 /** What a node's points are stated to be off on screen. */

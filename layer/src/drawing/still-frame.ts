@@ -1,6 +1,6 @@
 import type { FrameCamera } from "./frame-camera.js";
 
-/** What a frame rested on: numbers and objects, each compared by identity. */
+/** What a frame rested on: numbers and objects. */
 export type FrameGround = readonly unknown[];
 
 /**
@@ -17,7 +17,7 @@ export class StillFrame {
 
   /** Whether the next frame rests on the same. */
   holds(ground: FrameGround): boolean {
-    return sameGround(ground, this.#ground);
+    return restsOn(ground, this.#ground);
   }
 
   /** Takes note of a frame. @param ground undefined where a further frame may show more */
@@ -26,6 +26,26 @@ export class StillFrame {
   }
 }
 
+/**
+ * Share of a number by which a camera may be another one and stand where it stood. Each time that Cesium looks at its heading,
+ * which it may do in every frame, it turns the camera by its own rounding.
+ */
+const ROUNDING = 1e-12;
+
+/** Whether all is the same, but for the rounding of numbers. */
+export function restsOn(a: FrameGround, b: FrameGround | undefined): boolean {
+  if (a.length !== b?.length) return false;
+  for (let at = 0; at < a.length; at++) if (!sameButRounded(a[at], b[at])) return false;
+  return true;
+}
+
+function sameButRounded(a: unknown, b: unknown): boolean {
+  if (Object.is(a, b)) return true;
+  if (typeof a !== "number" || typeof b !== "number") return false;
+  return Math.abs(a - b) <= ROUNDING * Math.max(1, Math.min(Math.abs(a), Math.abs(b)));
+}
+
+/** Whether all is the same, each number to its last bit. */
 export function sameGround(a: FrameGround, b: FrameGround | undefined): boolean {
   if (a.length !== b?.length) return false;
   for (let at = 0; at < a.length; at++) if (!Object.is(a[at], b[at])) return false;

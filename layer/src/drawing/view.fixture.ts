@@ -220,6 +220,6 @@ export function cameraOver({ bounds }: PointCloud, metres: number): FrameCamera 
     pixelRatio: 1,
     near: 0.1,
     depth: { own: false, scene: false },
-    pose: () => `${metres}`,
+    pose: () => [metres],
   };
 }

@@ -23,7 +23,7 @@ function cameraAt(position: readonly [number, number, number]): FrameCamera {
       ...{ position: [...position], direction: [1, 0, 0], planes: new Array(24).fill(0), height: HEIGHT },
       ...{ projection: { kind: "perspective", fieldOfView: FIELD_OF_VIEW }, horizon: false },
     },
-    ...{ width: HEIGHT, pixelRatio: 1, near: 0.1, depth: { own: true, scene: true }, pose: () => "" },
+    ...{ width: HEIGHT, pixelRatio: 1, near: 0.1, depth: { own: true, scene: true }, pose: () => [] },
   };
 }
 

@@ -73,7 +73,7 @@ export function mapCamera({
     pixelRatio,
     near,
     depth: { own: false, scene: false },
-    pose: () => `${center} ${resolution} ${rotation} ${size} ${pixelRatio}`,
+    pose: () => [...center, resolution, rotation, ...size, pixelRatio],
   };
   return {
     ...{ frame, width, height, pixelRatio, worlds, near, far },
