@@ -125,6 +125,9 @@ async function nothingIsDrawnTwice(page: Page): Promise<void> {
       return drawn;
     };
     while ((await frames()) > 0);
+    // The mark on a picked point goes with its record.
+    document.querySelector<HTMLButtonElement>("#unpick")!.click();
+    while ((await frames()) === 0);
     layer.filter = { ranges: { intensity: [0, 1] } };
     while ((await frames()) === 0);
     layer.filter = undefined;

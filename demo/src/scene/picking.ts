@@ -72,6 +72,7 @@ export class Picking {
     this.#found = undefined;
     if (this.#mark) this.#viewer.entities.remove(this.#mark);
     this.#mark = undefined;
+    this.#viewer.scene.requestRender();
     this.#told(undefined);
   }
 
@@ -100,7 +101,7 @@ export class Picking {
     return this.#picking.signal;
   }
 
-  /** Marks a point and tells of it; undefined: of none. */
+  /** Marks a point and tells of it; undefined: of none. A scene that draws on demand sees no entity come or go. */
   show(hit: Hit | undefined): void {
     this.clear();
     if (!hit) return;
