@@ -104,7 +104,10 @@ export class PointCloudLayer {
       nodeEvicted: (node) => this.#renderer?.content.free(node),
     });
     // On their way while the layer waits for its first frame.
-    if (this.#show) cloud.stream.loadRoot();
+    if (this.#show) {
+      cloud.stream.loadRoot();
+      this.#frames.rehearse(this);
+    }
   }
 
   /**
@@ -392,7 +395,9 @@ export class PointCloudLayer {
 
   #render(frameState: FrameState): void {
     const camera = cameraOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
-    const report = this.#frames.draw(this, camera, () => this.#rendererFor(frameState));
+    // Before the frame's time begins: what a context has, a browser may tell only once all is drawn that it was given.
+    const renderer = this.#rendererFor(frameState);
+    const report = this.#frames.draw(this, camera, () => renderer);
     this.#events.failed(this.#frames.takeFailure(), frameState);
     if (report === "blocked") {
       this.#rest();

@@ -50,6 +50,17 @@ describe("LayerFrames, in a view of no library at all", () => {
     expect(frames.ledger(renderer.content.material?.plan.active).some(({ active }) => active)).toBe(true);
   });
 
+  it("ends none early once it has rehearsed, which asks for the root and shows nothing", async () => {
+    const { cloud, frame, frames } = await setUp();
+    const settings = settingsOf();
+    const clock = vi.spyOn(performance, "now").mockImplementation(() => Number(clock.mock.calls.length) * 10);
+    frames.rehearse(settings);
+    expect(cloud.stream.active).toBe(1);
+    expect([frames.ledger(), frames.settled(true)]).toEqual([[], false]);
+    expect(frame(settings)).not.toBe("unfinished");
+    clock.mockRestore();
+  });
+
   it("draws its first frame with what is here, where that takes no time", async () => {
     const { cloud, frame, renderer } = await setUp();
     const settings = settingsOf();

@@ -38,6 +38,8 @@ export interface LayerSettings {
   readonly forced: Forced;
 }
 
+type SelectionSettings = Pick<LayerSettings, "maximumScreenSpaceError" | "pointBudget" | "budget">;
+
 /** GPU milliseconds, running means of the set of effects that is shown; undefined where the browser does not say. */
 export interface GpuMilliseconds {
   /** Drawing the points. */
@@ -88,8 +90,12 @@ function roomIn(budget: SharedBudget | undefined): boolean {
 /** Milliseconds; what lies further apart are frames on demand, whose distance says nothing. */
 const LONGEST_FRAME = 1000;
 
-/** A part of a frame whose first run takes long. */
-type Part = "selection" | "facts" | "plan";
+/** Radii of a data set from which nothing but its root is wanted. */
+const FAR = 1000;
+
+/** Parts of a frame whose first run takes long. */
+const PARTS = ["selection", "facts", "plan"] as const;
+type Part = (typeof PARTS)[number];
 
 /**
  * The frames of one layer in one view, whatever library draws them. The order of a frame: the volumes are followed, the
@@ -228,6 +234,27 @@ export class LayerFrames<V extends ViewTypes> {
     return { progress: this.#completion.progress, ...change };
   }
 
+  /**
+   * Runs what each frame runs before it draws, once, seen from so far away that the root alone is wanted: the browser compiles
+   * that code now, where no frame waits for it.
+   */
+  rehearse({ style, forced }: Pick<LayerSettings, "style" | "forced">): void {
+    const { x, y, z, radius } = this.#octree.bounds ?? this.#cloud.bounds;
+    const camera: FrameCamera = {
+      view: {
+        ...{ position: [x + FAR * radius, y, z], direction: [-1, 0, 0], planes: [], height: 1 },
+        ...{ projection: { kind: "perspective", fieldOfView: 1 }, horizon: false },
+      },
+      ...{ width: 1, pixelRatio: 1, near: radius, depth: { own: false, scene: true }, pose: () => [] },
+    };
+    const pointBudget = Number.POSITIVE_INFINITY;
+    const limits = { maximumScreenSpaceError: 1, pointBudget, budget: undefined };
+    const selection = this.#select(limits, camera, new FrameAllowance());
+    const facts = this.#facts({ filter: undefined }, camera, selection, this.#here(selection), undefined);
+    planEffects(style, facts, forced, this.#active);
+    for (const part of PARTS) this.#begun.add(part);
+  }
+
   /** What a frame rests on, as it stands now. */
   #ground(settings: LayerSettings, camera: FrameCamera, renderer: LayerRenderer<V>): FrameGround {
     const { maximumScreenSpaceError, pointBudget, budget, clips, style, filter, forced } = settings;
@@ -240,7 +267,7 @@ export class LayerFrames<V extends ViewTypes> {
     ];
   }
 
-  #select(settings: LayerSettings, { view }: FrameCamera, allowance: FrameAllowance): Selection {
+  #select(settings: SelectionSettings, { view }: FrameCamera, allowance: FrameAllowance): Selection {
     const { maximumScreenSpaceError, pointBudget, budget } = settings;
     const rejects = (bounds: NodeBounds) => this.#clips.rejects(bounds.onGlobe ?? bounds, allowance);
     const options = { maximumScreenSpaceError, pointBudget, budget, rejects };
@@ -269,7 +296,7 @@ export class LayerFrames<V extends ViewTypes> {
   }
 
   #facts(
-    { filter }: LayerSettings,
+    { filter }: Pick<LayerSettings, "filter">,
     camera: FrameCamera,
     selection: Selection,
     here: NodesHere,

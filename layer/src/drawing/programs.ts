@@ -28,6 +28,8 @@ export class Programs<T extends GpuTypes> {
   readonly #gpu: Gpu<T>;
   readonly #entries = new Map<string, Entry<T>>();
   #frame = 0;
+  /** Whether any program is linked. */
+  #linked = false;
 
   constructor(gpu: Gpu<T>) {
     this.#gpu = gpu;
@@ -57,8 +59,10 @@ export class Programs<T extends GpuTypes> {
     const [next] = open;
     const isNew = !this.#use(next);
     const { program, linked } = this.#entry(next);
-    // Its text took the time that there was.
-    if (isNew && !allowance.left) return false;
+    // Its text took the time that there was. The first program does not wait: nothing is shown yet, and the browser lets the
+    // compiler wait for all that the scene draws until the next frame.
+    if (isNew && this.#linked && !allowance.left) return false;
+    this.#linked = true;
     this.#gpu.link(program, next);
     linked.add(next.logarithmic);
     return open.length === 1;
