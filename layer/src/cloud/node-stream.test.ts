@@ -320,6 +320,24 @@ describe("NodeStream", () => {
     expect(stream.progress(other).ready).toBe(1);
   });
 
+  it("loads all that a view waits for after another has ended, without being told anew", async () => {
+    const { stream, calls, answer } = setUp({ children: 8, requests: 2 });
+    const other = {};
+    stream.update(viewer, viewAt(), traversal);
+    // Nearer to the other half of the children, so that nodes of both take turns.
+    stream.update(other, { ...viewAt(), position: [1000, 0, 500] }, traversal);
+    const answered = new Set<string>();
+    const answerNext = async () => {
+      const name = [...calls.keys()].find((asked) => !answered.has(asked)) ?? "";
+      answered.add(name);
+      await answer(name);
+    };
+    for (let answers = 0; answers < 3; answers++) await answerNext();
+    stream.detach(other);
+    while (stream.active > 0) await answerNext();
+    expect(stream.progress(viewer)).toEqual({ wanted: 9, ready: 9, failed: 0, pending: 0 });
+  });
+
   it("stops everything and holds nothing when destroyed", async () => {
     const { stream, calls, answer } = setUp();
     stream.update(viewer, viewAt(), traversal);

@@ -1,7 +1,6 @@
 import { isAbort, SourceError } from "../errors/index.js";
 import {
   type BoundsOf,
-  type HierarchyPage,
   LruCache,
   type NodeStore,
   type OctreeNode,
@@ -14,6 +13,7 @@ import {
 import type { ServerWait } from "../sources/contract/point-source.js";
 import type { NodeVertices } from "../workers/index.js";
 import { Comeback } from "./comeback.js";
+import { WantedNodes } from "./wanted-nodes.js";
 
 /** What the stream needs of a data set. */
 export interface StreamSource {
@@ -77,23 +77,19 @@ export class NodeStream {
   readonly #requests: number;
   readonly #budget: SharedBudget | undefined;
   readonly #cache: LruCache<OctreeNode, NodeVertices>;
-  readonly #selections = new Map<object, Selection>();
+  readonly #wanted = new WantedNodes({
+    node: (node) => this.#cache.use(node),
+    page: (page) => this.#source.store.use(page),
+  });
   readonly #budgets = new Map<object, SharedBudget | undefined>();
   readonly #queued = new Set<OctreeNode>();
   readonly #active = new Map<OctreeNode, AbortController>();
   readonly #failed = new Set<OctreeNode>();
   readonly #comeback = new Comeback((node) => this.#askAgain(node));
   readonly #listeners = new Set<StreamListener>();
-  /** Nodes and pages that views want, first in rank first; each carries the number of this round, and its rank. */
-  #wanted: OctreeNode[] = [];
-  /** Index of the first of them that may still wait for its turn. */
+  /** Index of the first of the wanted nodes that may still wait for its turn. */
   #next = 0;
-  /** Pages of the hierarchy that views go through; each carries the number of this round. */
-  #open: HierarchyPage[] = [];
-  #round = 1;
   #changes = 0;
-  /** Nodes and pages that may go on if they are on their way, though no view wants them. */
-  #fringe = new Set<OctreeNode>();
 
   constructor(source: StreamSource, limits: StreamLimits = {}) {
     this.#source = source;
@@ -146,10 +142,8 @@ export class NodeStream {
     const before = this.#budgets.get(viewer);
     if (before !== options.budget) before?.release(viewer);
     this.#budgets.set(viewer, options.budget);
-    this.#selections.set(viewer, selection);
-    this.#rank();
-    this.#cancelUnwanted();
-    this.#queueWanted();
+    this.#want(viewer, selection);
+    for (const node of this.#wanted.list) this.#queue(node);
     this.#pump();
     this.trim();
     return selection;
@@ -167,14 +161,12 @@ export class NodeStream {
   detach(viewer: object): void {
     this.#budgets.get(viewer)?.release(viewer);
     this.#budgets.delete(viewer);
-    this.#selections.delete(viewer);
-    this.#rank();
-    this.#cancelUnwanted();
+    this.#want(viewer, undefined);
     this.trim();
   }
 
   progress(viewer: object): StreamProgress {
-    const selection = this.#selections.get(viewer);
+    const selection = this.#wanted.selectionOf(viewer);
     let wanted = 0;
     let ready = 0;
     let failed = 0;
@@ -212,7 +204,7 @@ export class NodeStream {
 
   /** Stops all loading and gives up everything. */
   destroy(): void {
-    for (const viewer of [...this.#selections.keys()]) this.detach(viewer);
+    for (const viewer of this.#wanted.viewers) this.detach(viewer);
     this.#cancelUnwanted();
     this.#cache.limits = { points: 0, bytes: 0 };
     this.trim();
@@ -221,59 +213,22 @@ export class NodeStream {
     this.#listeners.clear();
   }
 
-  /** Marks what views want; what none wants any more counts as used until now. */
-  #rank(): void {
-    const before = this.#wanted;
-    const openBefore = this.#open;
-    this.#wanted = [];
-    this.#open = [];
-    this.#fringe = new Set();
-    this.#round++;
-    for (const { nodes, worth, pages, open, fringe } of this.#selections.values()) {
-      // Pages come with the rank of the most important node: what lies behind them is not known yet.
-      for (const page of pages) this.#want(page, 0, true);
-      for (let index = 0; index < nodes.length; index++) this.#want(nodes[index], index, worth[index]);
-      for (const node of fringe) this.#fringe.add(node);
-      for (const page of open) {
-        if (page.round !== this.#round) this.#open.push(page);
-        page.round = this.#round;
-      }
-    }
-    for (const node of before) if (!this.#wants(node)) this.#cache.use(node);
-    for (const page of openBefore) if (page.round !== this.#round) this.#source.store.use(page);
-  }
-
-  #want(node: OctreeNode, rank: number, asked: boolean): void {
-    if (this.#wants(node)) {
-      node.rank = Math.min(node.rank, rank);
-      node.asked ||= asked;
-      return;
-    }
-    node.round = this.#round;
-    node.rank = rank;
-    node.asked = asked;
-    this.#wanted.push(node);
-  }
-
-  #wants(node: OctreeNode): boolean {
-    return node.round === this.#round;
+  /** A view wants something else, or nothing any more: what only it wanted before is no longer loaded. */
+  #want(viewer: object, selection: Selection | undefined): void {
+    this.#wanted.set(viewer, selection);
+    this.#next = 0;
+    this.#cancelUnwanted();
   }
 
   #cancelUnwanted(): void {
     for (const [node, controller] of this.#active) {
-      if (!this.#wants(node) && !this.#fringe.has(node)) controller.abort();
+      if (!this.#wanted.tolerates(node)) controller.abort();
     }
     for (const node of this.#queued) {
-      if (this.#wants(node) && node.asked) continue;
+      if (this.#wanted.has(node) && node.asked) continue;
       this.#queued.delete(node);
       node.become("listed");
     }
-  }
-
-  #queueWanted(): void {
-    for (const node of this.#wanted) this.#queue(node);
-    if (this.#selections.size > 1) this.#wanted.sort((a, b) => a.rank - b.rank);
-    this.#next = 0;
   }
 
   #queue(node: OctreeNode): void {
@@ -287,8 +242,9 @@ export class NodeStream {
     let load = 0;
     for (const node of this.#active.keys()) load += loadOf(node);
     if (load > this.#requests / 2) return;
-    for (; this.#next < this.#wanted.length && load < this.#requests; this.#next++) {
-      const node = this.#wanted[this.#next];
+    const { list } = this.#wanted;
+    for (; this.#next < list.length && load < this.#requests; this.#next++) {
+      const node = list[this.#next];
       if (node.state !== "page" && node.state !== "queued") continue;
       load += loadOf(node);
       if (node.state === "page") void this.#openPage(node);
@@ -341,7 +297,7 @@ export class NodeStream {
   #settle(node: OctreeNode): void {
     this.#changes++;
     this.#active.delete(node);
-    if (this.#wants(node) && (node.state === "listed" || node.state === "page")) {
+    if (this.#wanted.has(node) && (node.state === "listed" || node.state === "page")) {
       // Stopped, and wanted again since: its turn was passed over.
       this.#queue(node);
       this.#next = 0;
@@ -371,7 +327,7 @@ export class NodeStream {
   /** Asks again for a node that could not be had for now. @returns whether a view wants it */
   #askAgain(node: OctreeNode): boolean {
     this.#changes++;
-    if (!restore(node) || !this.#wants(node)) return false;
+    if (!restore(node) || !this.#wanted.has(node)) return false;
     this.#queue(node);
     this.#next = 0;
     this.#pump();
@@ -379,7 +335,7 @@ export class NodeStream {
   }
 
   #trimVertices(): void {
-    const inUse = (node: OctreeNode) => this.#wants(node);
+    const inUse = (node: OctreeNode) => this.#wanted.has(node);
     const evicted = this.#cache.trim(inUse, this.#budget?.cpu.excess ?? 0);
     if (evicted.length > 0) this.#changes++;
     for (const [node] of evicted) {
@@ -391,9 +347,7 @@ export class NodeStream {
 
   #trimPages(): void {
     const { store } = this.#source;
-    const inUse = ({ round, root }: HierarchyPage) =>
-      round === this.#round || this.#wants(root) || this.#fringe.has(root);
-    if (!store.trim(inUse)) return;
+    if (!store.trim((page) => this.#wanted.restsOn(page))) return;
     for (const node of this.#failed) if (node.page?.dropped) this.#failed.delete(node);
   }
 }
