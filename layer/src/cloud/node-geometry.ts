@@ -1,4 +1,11 @@
-import { type Crs, ecefToGeodetic, type PointTransform, pointTransform, type Truth } from "@groma/georef";
+import {
+  type Crs,
+  ecefToGeodetic,
+  PlacementError,
+  type PointTransform,
+  pointTransform,
+  type Truth,
+} from "@groma/georef";
 import { ancestorAt, isWithin, keyName, type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
 import { nodeCube } from "../query/index.js";
 import type { PointSource } from "../sources/contract/point-source.js";
@@ -164,6 +171,26 @@ export class NodeGeometry {
     }
     return samples;
   }
+}
+
+/**
+ * Sphere around all points of a data set.
+ * @param system the coordinate system that the page derived the places from; undefined: the file's own transformation
+ * @throws PlacementError PLACE_DOMAIN where they have no place
+ */
+export function rootBounds(geometry: NodeGeometry, file: string, system: string | undefined): NodeBounds {
+  const bounds = geometry.bounds(ROOT_KEY);
+  if (bounds) return bounds;
+  const derived = system !== undefined;
+  const what = system ?? "the transformation in its georeference record";
+  throw new PlacementError({
+    code: "PLACE_DOMAIN",
+    file,
+    cause: `its coordinates lie outside what ${what} covers`,
+    fix: derived
+      ? "Check the coordinate system, or give the right one with the option crs"
+      : "Convert the scan again, or give its coordinate system with the option crs",
+  });
 }
 
 function distance(a: readonly number[], b: readonly number[]): number {

@@ -4,14 +4,12 @@ import {
   geodeticToEcef,
   type HeightReference,
   type OperationReport,
-  PlacementError,
   placePoint,
   type StatedAccuracy,
   sourceTransform,
   type Truth,
 } from "@groma/georef";
-import { FormatError } from "../errors/index.js";
-import { type NodeBounds, ROOT_KEY, type VoxelKey } from "../octree/index.js";
+import type { NodeBounds, VoxelKey } from "../octree/index.js";
 import { checkSignal, type Kind, SHARED, shared } from "../options/index.js";
 import {
   type PointOrigin,
@@ -21,13 +19,7 @@ import {
   type QueryParts,
 } from "../query/index.js";
 import { nextTurn } from "../query/pace.js";
-import {
-  type LasEnvelope,
-  type PointSource,
-  type SourceBox,
-  type SourceWarning,
-  wrongBounds,
-} from "../sources/contract/point-source.js";
+import type { LasEnvelope, PointSource, SourceBox, SourceWarning } from "../sources/contract/point-source.js";
 import type { CloudStatistics } from "../sources/contract/statistics.js";
 import { type OpenedSource, openSource, type SourceLike } from "../sources/open-source.js";
 import {
@@ -45,10 +37,11 @@ import { georeferenceOf } from "./georeference.js";
 import type { Georeference } from "./georeference-options.js";
 import { MapOctrees } from "./map-octrees.js";
 import type { PlaneOfMap } from "./map-truth.js";
-import { NodeGeometry } from "./node-geometry.js";
+import { NodeGeometry, rootBounds } from "./node-geometry.js";
 import type { NodeStream } from "./node-stream.js";
 import { type OctreeParts, PlacedOctree, readRootAhead, sharedReads } from "./placed-octree.js";
-import { pointRecord } from "./point-record.js";
+import { pointRecord, recordIndex } from "./point-record.js";
+import { SourceExtent } from "./source-extent.js";
 
 /** Name of the class, and version of what is internal here (see {@link SHARED}). */
 const MARK = "PointCloud 1";
@@ -100,9 +93,8 @@ export class PointCloud implements PointOrigin {
   readonly maps: MapOctrees;
 
   readonly #source: PointSource;
-  #boundingBox: SourceBox;
+  readonly #extent: SourceExtent;
   #bounds: NodeBounds;
-  #warnings: readonly SourceWarning[];
   readonly #truth: Truth;
   #accuracy!: StatedAccuracy;
   readonly #executor: NodeExecutor;
@@ -118,7 +110,7 @@ export class PointCloud implements PointOrigin {
 
   private constructor(opened: Opened, options: PointCloudOptions) {
     const { source, georeference, executor, shared, ahead } = opened;
-    const { boundingBox, statistics, scale, attributes } = source;
+    const { statistics, scale, attributes } = source;
     const { crs, sources, truth, tolerance } = georeference;
     this.#source = source;
     this.#shared = shared;
@@ -134,8 +126,7 @@ export class PointCloud implements PointOrigin {
     this.operation = georeference.operation;
     this.geoids = georeference.geoids;
     this.statistics = statistics;
-    this.#boundingBox = boundingBox;
-    this.#warnings = source.warnings;
+    this.#extent = new SourceExtent(source);
     this.scale = scale;
     this.offset = source.offset;
     this.hasColour = attributes.some(({ name }) => name === "red") && statistics?.rgbBits !== null;
@@ -153,7 +144,7 @@ export class PointCloud implements PointOrigin {
       bytesPerPoint: source.bytesPerPoint,
       scale,
       offset: source.offset,
-      heights: [boundingBox.min[2], boundingBox.max[2]],
+      heights: [source.boundingBox.min[2], source.boundingBox.max[2]],
       ellipsoidalOrigin: this.#heights[0],
       tolerance,
     };
@@ -161,7 +152,7 @@ export class PointCloud implements PointOrigin {
     this.globe = new PlacedOctree(parts, { geometry, spec, made, appearance: recordedAppearance(source) });
     this.maps = new MapOctrees(parts, {
       ...{ truth, spec, crs, made },
-      now: () => ({ boundingBox: this.#boundingBox, appearance: this.globe.loader.appearance }),
+      now: () => ({ boundingBox: this.boundingBox, appearance: this.globe.loader.appearance }),
       onGlobe: (key) => geometry.bounds(key) ?? this.#bounds,
     });
   }
@@ -222,7 +213,7 @@ export class PointCloud implements PointOrigin {
 
   /** Box of all points, source units: as declared, or the octree's cube where that is found wrong. */
   get boundingBox(): SourceBox {
-    return this.#boundingBox;
+    return this.#extent.box;
   }
 
   /** Sphere around all points, ECEF, metres; `spacing` is that of the root. */
@@ -232,7 +223,7 @@ export class PointCloud implements PointOrigin {
 
   /** What the data set says of itself and does not hold, as far as that is known by now. */
   get warnings(): readonly SourceWarning[] {
-    return this.#warnings;
+    return this.#extent.warnings;
   }
 
   /** What all nodes have in common, as far as it is known by now. @internal */
@@ -284,7 +275,7 @@ export class PointCloud implements PointOrigin {
     from: "ecef" | "geodetic" | PlaneOfMap = "ecef",
     out: Float64Array = new Float64Array(3),
   ): Float64Array {
-    const { min, max } = this.#boundingBox;
+    const { min, max } = this.boundingBox;
     const box = { minX: min[0], minY: min[1], maxX: max[0], maxY: max[1] };
     const truth = typeof from === "object" ? this.maps.truthIn(from) : this.#truth;
     const toSource = sourceTransform(truth, box, this.#source.name);
@@ -332,16 +323,7 @@ export class PointCloud implements PointOrigin {
     const { name, records } = await this.globe.access.withPoints(key, signal, async (node) => {
       return { name: node.name, records: await this.globe.loader.records(node, signal) };
     });
-    const index = typeof point === "number" ? records.order[point] : point.record;
-    if (index === undefined || !(index in records.order)) {
-      const asked = typeof point === "number" ? point : point.record;
-      throw new FormatError({
-        code: "FORMAT_NODE",
-        file: this.#source.name,
-        cause: `node ${name} has no point ${asked}`,
-        fix: `Ask for a point from 0 to ${records.order.length - 1}`,
-      });
-    }
+    const index = recordIndex(point, records.order, { node: name, file: this.#source.name });
     return pointRecord(name, index, records, this.#source);
   }
 
@@ -382,42 +364,15 @@ export class PointCloud implements PointOrigin {
     if (this.#ownsExecutor) this.#executor.destroy();
   }
 
-  /** Holds the points of a node against the box that is declared: where they lie beyond it, the cube takes its place. */
+  /** Holds the points of a node against the box of all: where that is found wrong, all that follows from it is formed anew. */
   #holdAgainst(extent: ArrayLike<number>): void {
-    const { min, max } = this.#boundingBox;
-    // Half of the last digit may be lost in the points and in the box.
-    const beyond = this.scale.some(
-      (step, axis) => extent[axis] < min[axis] - 2 * step || extent[axis + 3] > max[axis] + 2 * step,
-    );
-    if (!beyond || this.#warnings.some(({ code }) => code === "BOUNDS_WRONG")) return;
-    const [x, y, z, edge] = this.#source.cube;
-    this.#warnings = [...this.#warnings, wrongBounds(this.#boundingBox)];
-    this.#boundingBox = { min: [x, y, z], max: [x + edge, y + edge, z + edge] };
-    this.globe.widen(this.#boundingBox);
-    this.maps.widen(this.#boundingBox);
+    if (!this.#extent.holdAgainst(extent)) return;
+    this.globe.widen(this.boundingBox);
+    this.maps.widen(this.boundingBox);
     this.#bounds = this.globe.bounds ?? this.#bounds;
     this.#heights = this.globe.geometry.heights;
     this.#attributes = undefined;
   }
-}
-
-/**
- * Sphere around all points.
- * @param system the coordinate system that the page derived the places from; undefined: the file's own transformation
- */
-function rootBounds(geometry: NodeGeometry, file: string, system: string | undefined): NodeBounds {
-  const bounds = geometry.bounds(ROOT_KEY);
-  if (bounds) return bounds;
-  const derived = system !== undefined;
-  const what = system ?? "the transformation in its georeference record";
-  throw new PlacementError({
-    code: "PLACE_DOMAIN",
-    file,
-    cause: `its coordinates lie outside what ${what} covers`,
-    fix: derived
-      ? "Check the coordinate system, or give the right one with the option crs"
-      : "Convert the scan again, or give its coordinate system with the option crs",
-  });
 }
 
 /** Last part of an address or path, decoded, without query. */

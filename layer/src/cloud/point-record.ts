@@ -1,3 +1,4 @@
+import { FormatError } from "../errors/index.js";
 import type { PointSource } from "../sources/contract/point-source.js";
 import { exactValue, type NodeRecords } from "../workers/index.js";
 import type { PointRecord, RecordValue } from "./attribute-info.js";
@@ -24,4 +25,25 @@ export function pointRecord(
     attributes[attribute.name] = attribute.components === 1 ? values[0] : values;
   }
   return { node, index, integers, source, attributes };
+}
+
+/**
+ * Index of a point's record in its node's chunk.
+ * @param point how many-th point in drawing order, or that index itself
+ * @param order indices of the records in drawing order
+ * @throws FormatError FORMAT_NODE where the node has no such point
+ */
+export function recordIndex(
+  point: number | { readonly record: number },
+  order: NodeRecords["order"],
+  { node, file }: { readonly node: string; readonly file: string },
+): number {
+  const index = typeof point === "number" ? order[point] : point.record;
+  if (index !== undefined && index in order) return index;
+  throw new FormatError({
+    code: "FORMAT_NODE",
+    file,
+    cause: `node ${node} has no point ${typeof point === "number" ? point : point.record}`,
+    fix: `Ask for a point from 0 to ${order.length - 1}`,
+  });
 }
