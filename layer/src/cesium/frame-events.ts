@@ -6,7 +6,7 @@ import type { SharedBudget } from "../octree/index.js";
 import type { FrameState } from "./engine/cesium-private.js";
 
 /** The events of a layer that tell of its frames. */
-interface EventSource {
+export interface EventSource {
   readonly cloud: { readonly name: string };
   readonly error: Event<(error: Error) => void>;
   readonly loadProgress: Event<(progress: StreamProgress) => void>;

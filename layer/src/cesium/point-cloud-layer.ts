@@ -1,9 +1,8 @@
 import type { Vector } from "@groma/georef";
-import { BoundingSphere, Cartesian3, DeveloperError, Event, SceneMode } from "cesium";
+import { BoundingSphere, Cartesian3, DeveloperError, Event } from "cesium";
 import { ClipSet } from "../clips/index.js";
 import { POINT_CLOUD, PointCloud, type PointCloudOptions, type StreamProgress } from "../cloud/index.js";
 import type { PickOptions } from "../drawing/drawing-options.js";
-import { LayerFrames } from "../drawing/frame.js";
 import { checkHeightOffset, liftOf } from "../drawing/height-offset.js";
 import {
   checkFilter,
@@ -19,9 +18,6 @@ import {
 import type { SharedBudget } from "../octree/index.js";
 import { optionPlace } from "../options/index.js";
 import type { FrameState } from "./engine/cesium-private.js";
-import { ContextWatch } from "./engine/context-watch.js";
-import { cameraOfFrame } from "./frame-camera.js";
-import { FrameEvents } from "./frame-events.js";
 import {
   checkLayerOption,
   checkLayerOptions,
@@ -33,9 +29,8 @@ import {
   resolveSource,
   type WindowPosition,
 } from "./layer-options.js";
-import { LayerRenderer } from "./layer-renderer.js";
-import { type LayerStatistics, statisticsOf } from "./layer-statistics.js";
-import type { CesiumView } from "./node-drawable.js";
+import type { LayerStatistics } from "./layer-statistics.js";
+import { SceneDrawing } from "./scene-drawing.js";
 
 /**
  * A georeferenced point cloud for `viewer.scene.primitives`.
@@ -64,11 +59,8 @@ export class PointCloudLayer {
   readonly error = new Event<(error: Error) => void>();
 
   readonly #ownsCloud: boolean;
-  readonly #picked: object;
-  readonly #frames: LayerFrames<CesiumView>;
+  readonly #drawing: SceneDrawing;
   readonly #unsubscribe: () => void;
-  readonly #watch = new ContextWatch(() => this.#release());
-  readonly #events = new FrameEvents(this);
   #show = true;
   #maximumScreenSpaceError = 2;
   #pointBudget = 1_000_000;
@@ -78,13 +70,12 @@ export class PointCloudLayer {
   #filter: PointFilter | undefined;
   #forced: Forced = {};
   #heightOffset = 0;
-  #renderer: LayerRenderer | undefined;
   #destroyed = false;
 
   /** @param ownsCloud whether `destroy()` destroys the cloud too; a cloud that several views share stays */
   private constructor(cloud: PointCloud, options: PointCloudLayerOptions, ownsCloud: boolean) {
     this.cloud = cloud;
-    this.#frames = new LayerFrames(cloud, this);
+    this.#drawing = new SceneDrawing(this, { primitive: this, id: options.id ?? cloud.name });
     this.#ownsCloud = ownsCloud;
     this.show = options.show ?? true;
     this.maximumScreenSpaceError = options.maximumScreenSpaceError ?? 2;
@@ -95,18 +86,17 @@ export class PointCloudLayer {
     this.forced = options.forced ?? {};
     this.#style = defaultStyle(cloud);
     this.style = options.style ?? {};
-    this.#picked = { primitive: this, id: options.id ?? cloud.name };
     this.boundingSphere = new BoundingSphere(new Cartesian3(), cloud.bounds.radius);
     this.heightOffset = options.heightOffset ?? 0;
     this.#unsubscribe = cloud.stream.subscribe({
       nodeLoaded: (node) => this.nodeLoaded.raiseEvent(node.name),
       nodeFailed: (node, error) => this.nodeFailed.raiseEvent(node.name, error),
-      nodeEvicted: (node) => this.#renderer?.content.free(node),
+      nodeEvicted: (node) => this.#drawing.free(node),
     });
     // On their way while the layer waits for its first frame.
     if (this.#show) {
       cloud.stream.loadRoot();
-      this.#frames.rehearse(this);
+      this.#drawing.rehearse();
     }
   }
 
@@ -181,7 +171,7 @@ export class PointCloudLayer {
     const next = budget === undefined ? undefined : this.#checked("budget", budget);
     if (next !== this.#budget) this.#budget?.gpu.report(this, 0);
     this.#budget = next;
-    this.#events.watch(this.#budget);
+    this.#drawing.watch(this.#budget);
   }
 
   /** How points are drawn. Assigning some of the properties leaves the others as they are. @throws StyleError */
@@ -249,12 +239,11 @@ export class PointCloudLayer {
    * ran and why, and what it costs as far as frames with and without it were seen.
    */
   get ledger(): readonly LedgerRow[] {
-    return this.#frames.ledger(this.#renderer?.content.material?.plan.active);
+    return this.#drawing.ledger;
   }
 
   get statistics(): LayerStatistics {
-    const pending = this.#destroyed ? 0 : this.cloud.stream.active;
-    return statisticsOf(this.#frames, this.#renderer, pending);
+    return this.#drawing.statistics(this.#destroyed ? 0 : this.cloud.stream.active);
   }
 
   /**
@@ -262,11 +251,7 @@ export class PointCloudLayer {
    * the camera has not moved since. Nodes that failed do not keep it from settling, unlike `allNodesLoaded`.
    */
   get settled(): boolean {
-    const content = this.#renderer?.content;
-    const lifted = content !== undefined && content.heightOffset !== this.#heightOffset;
-    const style = content?.material?.style;
-    const restyled = style !== undefined && style !== this.#style;
-    return this.#frames.settled(this.show) && !lifted && !restyled;
+    return this.#drawing.settled;
   }
 
   /**
@@ -281,7 +266,7 @@ export class PointCloudLayer {
   async pick(windowPosition: WindowPosition, given: PickOptions = {}): Promise<PickResult<this> | undefined> {
     this.#mustExist();
     const options = checkPick(windowPosition, given, this.cloud.name);
-    const found = await this.#renderer?.pick(windowPosition, options);
+    const found = await this.#drawing.pick(windowPosition, options);
     this.#mustLast();
     if (!found) return undefined;
     const { cloud } = this;
@@ -301,15 +286,15 @@ export class PointCloudLayer {
     given: PickOptions = {},
   ): Promise<Cartesian3 | undefined> {
     this.#mustExist();
-    const renderer = this.#renderer;
-    const found = await renderer?.pick(windowPosition, checkPick(windowPosition, given, this.cloud.name));
+    const options = checkPick(windowPosition, given, this.cloud.name);
+    const position = await this.#drawing.pickPosition(windowPosition, options);
     this.#mustLast();
-    return found && renderer?.placeOf(found);
+    return position;
   }
 
   /** Where points drawn lately lie within some metres of a place: x, y, z of each, ECEF. @internal */
   drawnNear(place: Vector, radius: number): readonly number[] {
-    return this.#renderer?.near(new Cartesian3(...place), radius) ?? [];
+    return this.#drawing.near(place, radius);
   }
 
   /** Lets nodes that failed be asked for again. */
@@ -317,31 +302,12 @@ export class PointCloudLayer {
     this.#mustExist();
     this.cloud.stream.retryFailed();
     // Only a frame asks for what its view wants.
-    this.#events.redraw();
+    this.#drawing.redraw();
   }
 
   /** Called by Cesium for each frame and pass. Never throws, which would end Cesium's render loop. @internal */
   update(frameState: FrameState): void {
-    if (this.#destroyed) return;
-    try {
-      this.#draw(frameState);
-    } catch (thrown) {
-      this.#events.failed(thrown, frameState);
-      this.#rest();
-    }
-  }
-
-  #draw(frameState: FrameState): void {
-    const { passes, context, mode } = frameState;
-    this.#renderer?.content.lift(this.#heightOffset);
-    if (this.show) this.#events.shownIn(mode);
-    // A lost context takes no commands.
-    if (!this.show || mode !== SceneMode.SCENE3D || context._gl.isContextLost()) {
-      this.#rest();
-      return;
-    }
-    if (passes.render) this.#render(frameState);
-    else if (passes.pick || passes.depth) this.#renderer?.repeat(frameState);
+    if (!this.#destroyed) this.#drawing.draw(frameState);
   }
 
   isDestroyed(): boolean {
@@ -355,11 +321,8 @@ export class PointCloudLayer {
   destroy(): undefined {
     if (this.#destroyed) return undefined;
     this.#destroyed = true;
-    this.#rest();
+    this.#drawing.destroy();
     this.#unsubscribe();
-    this.#events.watch(undefined);
-    this.#release();
-    this.#watch.destroy();
     if (this.#ownsCloud) this.cloud.destroy();
     return undefined;
   }
@@ -379,49 +342,5 @@ export class PointCloudLayer {
   /** @throws an AbortError where the layer was destroyed while something was on its way */
   #mustLast(): void {
     if (this.#destroyed) throw new DOMException("The layer was destroyed.", "AbortError");
-  }
-
-  /** Frees all that is on the GPU. */
-  #release(): void {
-    this.#renderer?.destroy();
-    this.#renderer = undefined;
-    this.budget?.gpu.report(this, 0);
-  }
-
-  #rest(): void {
-    this.#frames.rest(this.show);
-    this.#renderer?.rest();
-  }
-
-  #render(frameState: FrameState): void {
-    const camera = cameraOfFrame(frameState, liftOf(this.cloud.bounds, this.#heightOffset));
-    // Before the frame's time begins: what a context has, a browser may tell only once all is drawn that it was given.
-    const renderer = this.#rendererFor(frameState);
-    const report = this.#frames.draw(this, camera, () => renderer);
-    this.#events.failed(this.#frames.takeFailure(), frameState);
-    if (report === "blocked") {
-      this.#rest();
-      return;
-    }
-    if (report === "unfinished") {
-      frameState.afterRender.push(() => true);
-      return;
-    }
-    this.#events.drawn(report, frameState);
-  }
-
-  #rendererFor(frameState: FrameState): LayerRenderer {
-    const { context } = frameState;
-    if (this.#renderer && this.#renderer.objects.context !== context) {
-      // The primitive was moved to another scene: nothing of the first context can be used in it.
-      this.#release();
-    }
-    this.#watch.follow(context);
-    if (!this.#renderer) {
-      this.#renderer = new LayerRenderer(context, this, this.#picked, this.#watch.losses);
-      this.#renderer.content.lift(this.#heightOffset);
-    }
-    this.#renderer.begin(frameState);
-    return this.#renderer;
   }
 }
