@@ -4,8 +4,8 @@ import { bytesOf, type VertexNumbers } from "./vertex-numbers.js";
 
 /** Vertices of the first page; each further one is twice as large as all before it together, up to {@link LARGEST}. */
 const SMALLEST = 32_768;
-/** Vertices of a page at most, but for a node that has more: some twenty nodes. */
-const LARGEST = 262_144;
+/** Vertices of a page at most, but for a node that has more: some forty nodes. */
+const LARGEST = 524_288;
 /** Pages are made fewer once less than this share of their vertices is in use. */
 const LEAST_USE = 0.5;
 

@@ -61,8 +61,8 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
   // of nodes that have none above them.
   let floor = 0;
   let bases = 0;
-  const reached = new ReachedNodes();
-  const queue = new PriorityQueue<number>();
+  reached.clear();
+  queue.clear();
   const consider = (node: OctreeNode, above: number, base: boolean) => {
     node.bounds ??= boundsOf(node);
     const { bounds } = node;
@@ -86,7 +86,7 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     const node = reached.nodes[index];
     const pixels = reached.pixels[index];
     const weighted = reached.weighted[index];
-    const base = reached.base[index];
+    const base = reached.base[index] === 1;
     const sparse = reached.sparse[index];
     if (base) bases--;
     else if (2 * weighted < floor) {
@@ -123,26 +123,51 @@ export function gather(root: OctreeNode, view: View, options: DemandOptions, bou
     if (!children || !(bare || pixels > FRINGE * error)) continue;
     for (const child of children) if (child) consider(child, weighted, bare);
   }
+  reached.clear();
   return { demand, nodes, spacings, pages, open, fringe };
 }
 
 /** What a traversal came to, column by column, since an object for each of thousands of nodes in every frame is dear. */
 class ReachedNodes {
-  readonly nodes: OctreeNode[] = [];
-  readonly pixels: number[] = [];
-  readonly weighted: number[] = [];
-  readonly base: boolean[] = [];
-  readonly sparse: number[] = [];
+  nodes: OctreeNode[] = [];
+  pixels = new Float64Array(1024);
+  weighted = new Float64Array(1024);
+  sparse = new Float64Array(1024);
+  base = new Uint8Array(1024);
 
   /** @returns the index of the node */
   add(node: OctreeNode, pixels: number, weighted: number, base: boolean, sparse: number): number {
-    this.pixels.push(pixels);
-    this.weighted.push(weighted);
-    this.base.push(base);
-    this.sparse.push(sparse);
-    return this.nodes.push(node) - 1;
+    const index = this.nodes.length;
+    if (index === this.base.length) this.#grow();
+    this.pixels[index] = pixels;
+    this.weighted[index] = weighted;
+    this.base[index] = base ? 1 : 0;
+    this.sparse[index] = sparse;
+    this.nodes.push(node);
+    return index;
+  }
+
+  /** Forgets all of them, so that none is kept alive. */
+  clear(): void {
+    this.nodes = [];
+  }
+
+  #grow(): void {
+    const longer = <Numbers extends Float64Array | Uint8Array>(numbers: Numbers, into: Numbers) => {
+      into.set(numbers);
+      return into;
+    };
+    const length = 2 * this.base.length;
+    this.pixels = longer(this.pixels, new Float64Array(length));
+    this.weighted = longer(this.weighted, new Float64Array(length));
+    this.sparse = longer(this.sparse, new Float64Array(length));
+    this.base = longer(this.base, new Uint8Array(length));
   }
 }
+
+/** Of the traversal that is under way: one serves all, since none begins before another has ended. */
+const reached = new ReachedNodes();
+const queue = new PriorityQueue();
 
 /** Pixels per metre of spacing at which nodes around the camera rank. */
 const AROUND = 1e12;

@@ -5,8 +5,8 @@ import { PriorityQueue } from "./priority-queue.js";
 describe("PriorityQueue", () => {
   it("gives every item back once, in falling order of priority", () => {
     fc.assert(
-      fc.property(fc.array(fc.double({ noNaN: true })), (priorities) => {
-        const queue = new PriorityQueue<number>();
+      fc.property(fc.array(fc.double({ noNaN: true }), { maxLength: 3000, size: "max" }), (priorities) => {
+        const queue = new PriorityQueue();
         for (const [index, priority] of priorities.entries()) queue.push(index, priority);
         const out: number[] = [];
         for (let item = queue.pop(); item !== undefined; item = queue.pop()) out.push(item);
@@ -18,9 +18,12 @@ describe("PriorityQueue", () => {
     );
   });
 
-  it("is empty again after the last item", () => {
-    const queue = new PriorityQueue<string>();
-    queue.push("a", 1);
-    expect([queue.pop(), queue.pop()]).toEqual(["a", undefined]);
+  it("is empty again after the last item, and once it is cleared", () => {
+    const queue = new PriorityQueue();
+    queue.push(7, 1);
+    expect([queue.pop(), queue.pop()]).toEqual([7, undefined]);
+    queue.push(8, 1);
+    queue.clear();
+    expect(queue.pop()).toBeUndefined();
   });
 });

@@ -1,14 +1,15 @@
-/** A binary heap: the item with the greatest priority comes out first. */
-export class PriorityQueue<T> {
-  readonly #items: T[] = [];
-  readonly #priorities: number[] = [];
+/** A binary heap of numbers: the one with the greatest priority comes out first. It makes nothing but when it grows. */
+export class PriorityQueue {
+  #items = new Int32Array(1024);
+  #priorities = new Float64Array(1024);
+  #length = 0;
 
-  push(item: T, priority: number): void {
+  /** @param item a whole number of 32 bits */
+  push(item: number, priority: number): void {
+    if (this.#length === this.#items.length) this.#grow();
     const items = this.#items;
     const priorities = this.#priorities;
-    let at = items.length;
-    items.push(item);
-    priorities.push(priority);
+    let at = this.#length++;
     // Those of lesser priority move down into the gap until the item's place is found.
     while (at > 0) {
       const parent = (at - 1) >> 1;
@@ -22,20 +23,24 @@ export class PriorityQueue<T> {
   }
 
   /** Takes out the item with the greatest priority; undefined where there is none. */
-  pop(): T | undefined {
+  pop(): number | undefined {
+    if (this.#length === 0) return undefined;
     const top = this.#items[0];
-    const last = this.#items.pop();
-    const priority = this.#priorities.pop();
-    if (this.#items.length === 0 || last === undefined || priority === undefined) return top;
-    this.#sink(last, priority);
+    const last = --this.#length;
+    if (last > 0) this.#sink(this.#items[last], this.#priorities[last]);
     return top;
   }
 
+  /** Takes out all. */
+  clear(): void {
+    this.#length = 0;
+  }
+
   /** Puts an item in the gap at the top, and moves that down to where the item belongs. */
-  #sink(item: T, priority: number): void {
+  #sink(item: number, priority: number): void {
     const items = this.#items;
     const priorities = this.#priorities;
-    const count = items.length;
+    const count = this.#length;
     let at = 0;
     for (;;) {
       let child = 2 * at + 1;
@@ -48,5 +53,14 @@ export class PriorityQueue<T> {
     }
     items[at] = item;
     priorities[at] = priority;
+  }
+
+  #grow(): void {
+    const items = new Int32Array(2 * this.#length);
+    items.set(this.#items);
+    this.#items = items;
+    const priorities = new Float64Array(2 * this.#length);
+    priorities.set(this.#priorities);
+    this.#priorities = priorities;
   }
 }

@@ -3,8 +3,11 @@ import { onPoints } from "../../browser/stage/point-calls.js";
 import { Stage } from "../../browser/stage/stage.js";
 import { frame, phase, within } from "./marks.js";
 
-/** CSS pixels. */
-const SIZE = { width: 960, height: 600 };
+/** CSS pixels: few, since the frame's script is the same for many. */
+const SIZE = { width: 320, height: 200 };
+
+/** Pixels between points, so close that one cloud comes to half of the nodes. */
+const ERROR = 0.105;
 
 /** Nodes that are to be drawn at least. */
 const NODES = 1000;
@@ -45,7 +48,7 @@ export class ManyNodes {
     do {
       const cloud = await PointCloud.fromUrl(address, { limits: { cacheBytes: 2 ** 30 } });
       stage.layer = PointCloudLayer.fromCloud(cloud, {
-        ...{ pointBudget: Number.POSITIVE_INFINITY, maximumScreenSpaceError: 0.15 },
+        ...{ pointBudget: Number.POSITIVE_INFINITY, maximumScreenSpaceError: ERROR },
         style: { color: "rgb", size: "fixed", shape: "square", pointSize: 2, eyeDomeLighting: false },
       });
       this.#layers.push(stage.layer);
