@@ -1,9 +1,9 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { gzipSync } from "node:zlib";
 import { rolldown } from "rolldown";
 import { describe, expect, it } from "vitest";
 import { projectRoot } from "../project.js";
+import { firstChunks, zippedBytes } from "./first-chunks.js";
 
 const dist = join(projectRoot, "layer/dist");
 const releases = readFileSync(join(projectRoot, "docs/releases.md"), "utf8");
@@ -20,18 +20,7 @@ async function size(entry: string, external: RegExp): Promise<number> {
   const bundle = await rolldown({ input: entry, platform: "browser", external: (id) => external.test(id) });
   const { output } = await bundle.generate({ format: "es", minify: true });
   await bundle.close();
-  const chunks = new Map(
-    output.flatMap((one) => (one.type === "chunk" ? [[one.fileName, one] as const] : [])),
-  );
-  const loaded = new Set<string>();
-  const load = (name: string): void => {
-    const chunk = chunks.get(name);
-    if (!chunk || loaded.has(name)) return;
-    loaded.add(name);
-    chunk.imports.forEach(load);
-  };
-  for (const { fileName, isEntry } of chunks.values()) if (isEntry) load(fileName);
-  return [...loaded].reduce((sum, name) => sum + gzipSync(chunks.get(name)!.code).length, 0) / 1000;
+  return zippedBytes(firstChunks(output).map(({ code }) => code)) / 1000;
 }
 
 describe("what an entry weighs", () => {
@@ -63,6 +52,6 @@ describe("what an entry weighs", () => {
 
   it.each(["node.worker.js", "node.projections.js", "groma-laz.wasm"])("%s, a file of its own", (name) => {
     const stated = Number(new RegExp(`\\(\`${name}\`, (\\d+) kB\\)`).exec(releases)![1]);
-    expect(gzipSync(readFileSync(join(dist, "workers", name))).length / 1000).toBeCloseTo(stated, -1);
+    expect(zippedBytes([readFileSync(join(dist, "workers", name))]) / 1000).toBeCloseTo(stated, -1);
   });
 });
