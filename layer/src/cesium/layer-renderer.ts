@@ -128,13 +128,13 @@ export class LayerRenderer implements Renderer<CesiumView> {
     if (!frameState || nodes.length === 0) return undefined;
     const { context, camera, pixelRatio } = frameState;
     const picture = sizeOf(context);
-    const candidates = candidatesAt(camera, position, window / 2 + widestPoint + 1, nodes);
+    const edge = windowPixels(window, pixelRatio);
+    const candidates = candidatesAt(camera, position, edge / pixelRatio / 2 + widestPoint + 1, nodes);
     if (candidates.length === 0) return undefined;
     signal?.throwIfAborted();
     context.uniformState.update(frameState);
     this.#drawing.place(this.content, camera);
     const setting = this.#drawing.setting("id", fitFrustum(camera, spheresOf(candidates)), this.content);
-    const edge = windowPixels(window, pixelRatio);
     const reach = (edge - 1) / 2;
     const { x, y } = bufferPixel(position, context._gl.canvas as HTMLCanvasElement, picture);
     const square = { x: x - reach, y: y - reach, size: { width: edge, height: edge }, picture };

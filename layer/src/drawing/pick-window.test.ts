@@ -38,6 +38,9 @@ describe("windowPixels", () => {
     [9, 1, 9],
     [9, 2, 19],
     [10, 1, 11],
+    [7, 0.5, 5],
+    [9, 1.5, 15],
+    [1, 0.5, 1],
     [0, 1, 1],
   ])("%s CSS pixels at a ratio of %s are %s, an odd number", (css, ratio, expected) =>
     expect(windowPixels(css, ratio)).toBe(expected),

@@ -26,9 +26,12 @@ export function nearestId(pixels: Uint8Array, window: number): number {
   return best;
 }
 
-/** Edge of a window in pixels of the drawing buffer: odd, so that it has a middle, and at least 1. */
+/**
+ * Edge of a window in pixels of the drawing buffer: odd, so that it has a middle, and never smaller than was asked for, also
+ * where the buffer has fewer pixels than the screen.
+ */
 export function windowPixels(cssPixels: number, pixelRatio: number): number {
-  return 2 * Math.max(0, Math.floor((cssPixels * pixelRatio) / 2)) + 1;
+  return 2 * Math.ceil(Math.max(0, cssPixels * pixelRatio - 1) / 2) + 1;
 }
 
 /** Pixel of the drawing buffer, from the lower left, of a place on the canvas in CSS pixels from the upper left. */
