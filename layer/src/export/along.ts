@@ -1,7 +1,6 @@
 import { OFFSET, type PaintStyle, type PointPaint, pointPaint } from "../effects/index.js";
-import { Pace, type PointBatch, recordNumbers } from "../query/index.js";
+import { type PointBatch, recordNumbers } from "../query/index.js";
 import { colourBits, valueReader } from "../workers/index.js";
-import { SLICE } from "./columns.js";
 import { type ExportOptions, eachBatch, type PointSelection } from "./selection.js";
 import { requireOneHeightUnit } from "./systems.js";
 
@@ -74,15 +73,16 @@ async function goAlong<P extends PointAlong>(
 ): Promise<number> {
   requireOneHeightUnit(selections);
   const place = new Float64Array(2);
-  const pace = new Pace(options.signal);
+  let last: PointBatch | undefined;
+  let finish: Finish<P> | undefined;
   return eachBatch(selections, options, async (batch, wanted, selection) => {
     const { origin, along } = selection;
     const { scale, offset } = origin;
     const { xyz } = batch.records;
-    const finish = finishOf(batch, selection);
+    if (batch !== last) finish = finishOf(batch, selection);
+    last = batch;
     const [classification] = numbersOf(batch, ["classification"]);
-    for (let index = 0; index < wanted.length; index++) {
-      const record = wanted[index];
+    for (const record of wanted) {
       const at = 3 * record;
       point.height = xyz[at + 2] * scale[2] + offset[2];
       const x = xyz[at] * scale[0] + offset[0];
@@ -93,7 +93,6 @@ async function goAlong<P extends PointAlong>(
       point.classification = classification?.(record);
       finish?.(record, point);
       take(point);
-      if (index % SLICE === 0) await pace.rest();
     }
   });
 }

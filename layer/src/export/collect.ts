@@ -1,9 +1,8 @@
 import { FormatError } from "../errors/index.js";
 import { ROOT_KEY } from "../octree/index.js";
-import { everyRecord, Pace, type PointBatch, type PointOrigin } from "../query/index.js";
+import { everyRecord, type PointBatch, type PointOrigin } from "../query/index.js";
 import { type RecordedNode, readCoordinates, type StoredAttribute } from "../workers/index.js";
 import type { BlockStore } from "./block-store.js";
-import { SLICE } from "./columns.js";
 import {
   type AlongLine,
   type ExportOptions,
@@ -138,10 +137,7 @@ class Collected {
     const [scaleX, scaleY, scaleZ] = this.#origin.scale;
     const [offsetX, offsetY, offsetZ] = this.#origin.offset;
     const [length, found, parts] = [this.#length, this.#found, this.#parts];
-    const pace = new Pace(undefined);
-    for (let index = 0; index < wanted.length; index++) {
-      if (index % SLICE === 0) await pace.rest();
-      const point = wanted[index];
+    for (const point of wanted) {
       const at = 3 * point;
       const x = xyz[at] * scaleX + offsetX;
       const y = xyz[at + 1] * scaleY + offsetY;

@@ -3,9 +3,6 @@ import { takeName } from "../sources/contract/point-attribute.js";
 import { exactValue } from "../workers/index.js";
 import type { PointSelection } from "./selection.js";
 
-/** Points between two looks at how much text there is. */
-export const SLICE = 1024;
-
 /** Coordinates as text: every digit that the scale has, and no more where the scale is a decimal fraction. */
 export class CoordinateText {
   readonly #scale: readonly number[];

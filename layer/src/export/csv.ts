@@ -1,5 +1,5 @@
 import type { ByteSink } from "./byte-sink.js";
-import { attributeColumns, CoordinateText, SLICE, type TextColumn } from "./columns.js";
+import { attributeColumns, CoordinateText, type TextColumn } from "./columns.js";
 import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from "./selection.js";
 import { areInOneSystem, crsOf } from "./systems.js";
 import { TextSink } from "./text-sink.js";
@@ -47,7 +47,7 @@ export async function exportCsv(
     const columns = names.map((name) => found.find((column) => column.name === name));
     const coordinates = new CoordinateText(origin);
     const { xyz } = batch.records;
-    for (const [index, point] of wanted.entries()) {
+    for (const point of wanted) {
       const at = 3 * point;
       let row = `${coordinates.of(xyz[at], 0)},${coordinates.of(xyz[at + 1], 1)},${coordinates.of(xyz[at + 2], 2)}`;
       if (withLine) {
@@ -57,8 +57,8 @@ export async function exportCsv(
         row += `,${alongText(place[0])},${alongText(place[1])}`;
       }
       text.add(`${row}${system}${valuesText(columns, batch, point)}${spacing > 0 ? `,${spacing}` : ""}\r\n`);
-      if (index % SLICE === 0) await text.rest();
     }
+    await text.rest();
   });
   await text.end();
   return count;

@@ -1,5 +1,5 @@
 import type { ByteSink } from "./byte-sink.js";
-import { CoordinateText, SLICE } from "./columns.js";
+import { CoordinateText } from "./columns.js";
 import { gridOf, groups, stationsOf } from "./dxf-annotations.js";
 import {
   type AlongLine,
@@ -62,7 +62,7 @@ export async function exportDxf(
     const coordinates = new CoordinateText(origin);
     const { xyz } = batch.records;
     const valuesOf = (at: number) => [0, 1, 2].map((axis) => coordinates.value(xyz[at + axis], axis));
-    for (const [index, point] of wanted.entries()) {
+    for (const point of wanted) {
       const at = 3 * point;
       const [x, y, z] = [0, 1, 2].map((axis) => coordinates.of(xyz[at + axis], axis));
       if (layout === "straightened" && along) {
@@ -78,8 +78,8 @@ export async function exportDxf(
       } else {
         text.add(pointText(x, y, z));
       }
-      if (index % SLICE === 0) await text.rest();
     }
+    await text.rest();
   });
   if (line) {
     const [from, to] = [line.chainages[0], line.chainages[line.chainages.length - 1]];

@@ -1,5 +1,5 @@
 import type { ByteSink } from "./byte-sink.js";
-import { attributeColumns, CoordinateText, SLICE } from "./columns.js";
+import { attributeColumns, CoordinateText } from "./columns.js";
 import { type ExportOptions, eachBatch, type PointSelection, spacingOf } from "./selection.js";
 import { TextSink } from "./text-sink.js";
 
@@ -39,7 +39,7 @@ export async function exportGeoJson(
     }));
     const coordinates = new CoordinateText(origin);
     const { xyz } = batch.records;
-    for (const [index, point] of wanted.entries()) {
+    for (const point of wanted) {
       const at = 3 * point;
       const [x, y, z] = [0, 1, 2].map((axis) => coordinates.value(xyz[at + axis], axis));
       let position: string;
@@ -64,8 +64,8 @@ export async function exportGeoJson(
         `${separator}{"type":"Feature","geometry":${geometry},"properties":{${properties.join(",")}}}`,
       );
       separator = ",\n";
-      if (index % SLICE === 0) await text.rest();
     }
+    await text.rest();
   });
   text.add("\n]}\n");
   await text.end();

@@ -1,3 +1,4 @@
+import { Pace } from "../query/index.js";
 import { stationText } from "../tools/sections/station.js";
 import { type ArchiveEntry, writeArchive } from "./archive.js";
 import { BlobStore, type BlockStore } from "./block-store.js";
@@ -90,8 +91,7 @@ export async function exportSections(
   const grounds: LandXmlSection[] = [];
   const made = new SectionFiles(options);
   async function* entries(): AsyncGenerator<ArchiveEntry> {
-    for (const section of sections) {
-      options.signal?.throwIfAborted();
+    for await (const section of inTurn(sections, options)) {
       const { name, selections: own, place } = section;
       counts.push(await countOf(own));
       grounds.push(await groundOfSection(section, options));
@@ -123,7 +123,7 @@ export async function exportSectionSheets(
   const sections = await readSections(selections, options);
   let count = 0;
   async function* sheets(): AsyncGenerator<Sheet> {
-    for (const section of sections) {
+    for await (const section of inTurn(sections, options)) {
       if (section.selections.length === 0) continue;
       count += await countOf(section.selections);
       yield await sheetOf(section, options);
@@ -147,7 +147,7 @@ export async function exportSectionLandXml(
   const sections = await readSections(selections, options);
   const grounds: LandXmlSection[] = [];
   let count = 0;
-  for (const section of sections) {
+  for await (const section of inTurn(sections, options)) {
     count += await countOf(section.selections);
     grounds.push(await groundOfSection(section, options));
   }
@@ -177,6 +177,19 @@ async function readSections(
     const number = String(index + 1).padStart(String(sections.length).length, "0");
     return { name: number, place, selections: parts[index], mixed };
   });
+}
+
+/** Sections one after the other, between which others have the thread. @throws the signal's reason when aborted */
+async function* inTurn(
+  sections: readonly ReadSection[],
+  { signal }: SectionOptions,
+): AsyncGenerator<ReadSection> {
+  const pace = new Pace(signal);
+  for (const section of sections) {
+    signal?.throwIfAborted();
+    yield section;
+    await pace.rest();
+  }
 }
 
 async function countOf(selections: readonly PointSelection[]): Promise<number> {

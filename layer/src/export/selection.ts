@@ -1,5 +1,5 @@
 import type { Crs } from "@groma/georef";
-import type { PointBatch, QueryVolume, RecordQuery } from "../query/index.js";
+import { Pace, type PointBatch, type QueryVolume, type RecordQuery } from "../query/index.js";
 import { passing, type WantedPoints } from "./passing.js";
 
 /** How points lie along a line: what a profile adds to their records. */
@@ -65,13 +65,16 @@ export interface ExportOptions {
   readonly onLeftOut?: ((batch: PointBatch) => void) | undefined;
 }
 
-/** Indices of a batch's records that are wanted, rising. */
+/** Points that are handed over at a time: what writers make of so many takes some milliseconds. */
+const SLICE = 1024;
+
+/** Indices of a batch's records that are wanted, rising; at most {@link SLICE}. */
 type Wanted = Uint32Array;
 
 /**
  * Goes through the points of selections, one after the other, node by node in a fixed order, and hands over those that
- * are wanted.
- * @param take writes them
+ * are wanted: some at a time, between which others have the thread and the signal is heard.
+ * @param take writes them; called several times for a node with many points
  * @returns number of points handed over
  * @throws SourceError, FormatError, DecodeError; the signal's reason when aborted; what `take` throws
  */
@@ -88,13 +91,18 @@ export async function eachBatch(
     queries.push({ query, selection });
   }
   onProgress?.({ read, total, written });
+  const pace = new Pace(signal);
   for (const { query, selection } of queries) {
     for await (const batch of query.batches({ signal })) {
-      const wanted = passing(batch, selection);
-      if (wanted.length > 0) await take(batch, wanted, selection);
-      else onLeftOut?.(batch);
+      const before = written;
+      for (let from = 0; from < batch.inside.length; from += SLICE) {
+        const wanted = passing({ ...batch, inside: batch.inside.subarray(from, from + SLICE) }, selection);
+        if (wanted.length > 0) await take(batch, wanted, selection);
+        written += wanted.length;
+        await pace.rest();
+      }
+      if (written === before) onLeftOut?.(batch);
       read += batch.records.count;
-      written += wanted.length;
       onProgress?.({ read, total, written });
     }
   }
