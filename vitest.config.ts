@@ -57,7 +57,7 @@ export default defineConfig({
         // Projects of one file at a time go by themselves, after the others.
         sequence: { groupOrder: ["browser", "install"].includes(name) ? 1 : 0 },
         // Loading the modules anew for each of many short files takes as long as the tests themselves.
-        isolate: !["unit", "browser", "numerics", "architecture"].includes(name),
+        isolate: name === "install",
       },
     })),
   },

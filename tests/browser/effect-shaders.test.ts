@@ -86,13 +86,14 @@ function compileAll(programs: readonly Case[]): string[] {
 
 describe("programs of all combinations of effects", () => {
   let browser: Browser;
+  let programs: readonly Case[];
   beforeAll(async () => {
     browser = await sharedBrowser();
+    programs = cases();
   });
   afterAll(() => browser?.close());
 
   it("compile and link in WebGL 2, and read all that they declare", { timeout: 300_000 }, async () => {
-    const programs = cases();
     expect(programs.length).toBeGreaterThan(500);
     const page = await browser.newPage();
     const faults: string[] = [];
@@ -104,7 +105,7 @@ describe("programs of all combinations of effects", () => {
   });
 
   it("are refused where they are wrong (negative control)", async () => {
-    const [one] = cases();
+    const [one] = programs;
     const page = await browser.newPage();
     const broken = { ...one, vertex: one.vertex.replace("gl_Position", "gl_Positron") };
     const unread = { ...one, uniforms: [...one.uniforms, "u_nothing"] };

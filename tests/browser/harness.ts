@@ -53,7 +53,11 @@ function stop(child: ChildProcess): Promise<void> {
 export type Graphics = "software" | "card";
 
 const GRAPHICS: Readonly<Record<Graphics, readonly string[]>> = {
-  software: ["--use-angle=swiftshader", "--use-gl=angle", "--enable-unsafe-swiftshader"],
+  software: [
+    ...["--use-angle=swiftshader", "--use-gl=angle", "--enable-unsafe-swiftshader"],
+    // A program that is linked becomes code of the processor where something is drawn with it, not before.
+    "--disable-angle-features=warmUpPipelineCacheAtLink",
+  ],
   card: ["--use-angle=vulkan", "--use-gl=angle", "--enable-features=Vulkan", "--enable-gpu"],
 };
 
