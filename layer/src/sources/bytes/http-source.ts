@@ -1,11 +1,12 @@
 import { type Outage, SourceError } from "../../errors/index.js";
 import { type ByteSource, checkRange, type ReadOptions } from "./byte-source.js";
 import { type AddressFunction, Credentials, type HeadersFunction, type HeaderValues } from "./credentials.js";
+import { type AskedRange, FileState } from "./file-state.js";
 import { HostSchedule, type ServerWait, type Turn } from "./host-schedule.js";
-import { discardBody, parseContentRange, readExactly, ShortBody } from "./http-answer.js";
-import { changedError, type Refusal, refusalOf } from "./http-refusal.js";
+import { discardBody, readExactly, ShortBody } from "./http-answer.js";
+import { type Refusal, refusalOf } from "./http-refusal.js";
 import { MergedReads } from "./merged-reads.js";
-import { encodingFault, nameNetworkFault, networkError, redirectError } from "./network-fault.js";
+import { nameNetworkFault, networkError, redirectError } from "./network-fault.js";
 import { OpeningBytes } from "./opening-bytes.js";
 import { SilenceWatch } from "./silence-watch.js";
 
@@ -47,19 +48,8 @@ const HEAD_LENGTH = 131_072;
 /** Milliseconds for which redirects that led nowhere are not followed again. */
 const REDIRECTS_KEPT = 10_000;
 
-/** What identifies one state of a file on a server: a change between two requests means another file. */
-interface Version {
-  readonly etag: string | null;
-  readonly modified: string | null;
-  readonly size: number | undefined;
-}
-
 /** One read. */
-interface Asked {
-  readonly begin: number;
-  readonly end: number;
-  /** Whether it is the opening one, which may get less than it asks for. */
-  readonly opening: boolean;
+interface Asked extends AskedRange {
   readonly signal: AbortSignal | undefined;
   /** Called as bytes come: all that there is room for, of which so many are there. */
   readonly arrived?: (bytes: Uint8Array, length: number) => void;
@@ -81,7 +71,7 @@ export class HttpSource implements ByteSource {
   readonly #options: HttpOptions;
   readonly #credentials: Credentials;
   #schedule: HostSchedule | undefined;
-  #version: Version | undefined;
+  readonly #state: FileState;
   /** What the opening request brings. */
   readonly #opening: OpeningBytes;
   readonly #merged = new MergedReads((request) => this.#request({ ...request, opening: false }));
@@ -94,6 +84,7 @@ export class HttpSource implements ByteSource {
 
   private constructor(name: string, credentials: Credentials, options: HttpOptions, signal?: AbortSignal) {
     this.name = name;
+    this.#state = new FileState(name);
     this.#credentials = credentials;
     this.#options = options;
     const end = options.headLength ?? HEAD_LENGTH;
@@ -104,7 +95,7 @@ export class HttpSource implements ByteSource {
 
   /** Length of the file in bytes, as the opening answer's `Content-Range` said. */
   get size(): number | undefined {
-    return this.#version?.size;
+    return this.#state.size;
   }
 
   /** Why the server is waited for; undefined while it answers. */
@@ -230,11 +221,11 @@ export class HttpSource implements ByteSource {
       if (response.status !== 206) {
         return await refusalOf(response, {
           name: this.name,
-          known: this.#version !== undefined,
+          known: this.#state.known,
           first: asked.begin,
         });
       }
-      const length = await this.#checkedLength(response, asked);
+      const length = await this.#state.lengthOf(response, asked);
       return await readExactly(response, length, { name: this.name, heard, arrived: asked.arrived });
     } catch (thrown) {
       signal?.throwIfAborted();
@@ -302,58 +293,6 @@ export class HttpSource implements ByteSource {
       this.#redirects = { until: Date.now() + REDIRECTS_KEPT, followed: follow() };
     }
     return this.#redirects.followed;
-  }
-
-  /** Length of a 206 answer's body, after its range and the file's version were held against what is known. */
-  async #checkedLength(response: Response, { begin, end, opening }: Asked): Promise<number> {
-    const encoding = encodingFault(response);
-    if (encoding) {
-      await discardBody(response);
-      throw networkError(encoding, this.name);
-    }
-    const header = response.headers.get("Content-Range");
-    if (header === null && response.type === "cors")
-      return this.#hiddenLength(response, { begin, end, opening });
-    const range = header === null ? undefined : parseContentRange(header);
-    const wrongEnd = range && (opening ? range.last >= end : range.last !== end - 1);
-    if (!range || range.first !== begin || wrongEnd) {
-      await discardBody(response);
-      throw this.#error(
-        "SOURCE_RANGE",
-        `bytes ${begin}-${end - 1} were asked for, the answer says "${header ?? "nothing"}"`,
-        "Check the server or proxy for rewriting of Range answers",
-      );
-    }
-    await this.#checkVersion(response, range.size);
-    return range.last - range.first + 1;
-  }
-
-  /** Another origin that does not expose `Content-Range`: the length alone can be checked. */
-  async #hiddenLength(
-    response: Response,
-    { begin, end, opening }: Pick<Asked, "begin" | "end" | "opening">,
-  ): Promise<number> {
-    await this.#checkVersion(response, undefined);
-    const declared = response.headers.get("Content-Length");
-    const length = declared === null ? end - begin : Number(declared);
-    return opening ? Math.min(length, end - begin) : end - begin;
-  }
-
-  async #checkVersion(response: Response, size: number | undefined): Promise<void> {
-    const now: Version = {
-      etag: response.headers.get("ETag"),
-      modified: response.headers.get("Last-Modified"),
-      size,
-    };
-    const then = this.#version;
-    this.#version ??= now;
-    if (!then) return;
-    const differ = (a: string | number | null | undefined, b: string | number | null | undefined) =>
-      a !== null && a !== undefined && b !== null && b !== undefined && a !== b;
-    if (differ(then.etag, now.etag) || differ(then.modified, now.modified) || differ(then.size, now.size)) {
-      await discardBody(response);
-      throw changedError(this.name);
-    }
   }
 
   /** Tells the application of waiting, whenever there is something new. */
