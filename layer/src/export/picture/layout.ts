@@ -119,80 +119,19 @@ export function layOut(
   const low = Math.floor(dots.bottom / step.up) * step.up;
   const high = Math.max(Math.ceil(top / step.up), Math.floor(low / step.up + 1.5)) * step.up;
   const size = { x: (frame.to - frame.from) * frame.along, y: (high - low) * frame.up };
-  const scales =
-    scale.along === scale.up
-      ? `1:${scaleText(scale.along)}`
-      : `lengths 1:${scaleText(scale.along)}, heights 1:${scaleText(scale.up)}`;
-  const facts = [...words.facts, scales];
+  const facts = [...words.facts, scaleWords(scale)];
   const head = TITLE + FACT * facts.length;
   const [width, height] = paperFor(MARGIN.left + size.x + MARGIN.right, MARGIN.bottom + size.y + head);
-  const left = MARGIN.left;
+  const { left } = MARGIN;
   const base = height - head - size.y;
+  const area = { left, base, width: size.x, height: size.y };
   const x = (chainage: number) => left + (chainage - frame.from) * frame.along;
   const y = (z: number) => base + (z - low) * frame.up;
-  const lines: SheetLine[] = [];
-  const texts: SheetText[] = [];
-  const line = (places: SheetLine["places"], thickness: number, colour: Colour) =>
-    lines.push({ places, width: thickness, colour });
-  const [right, ceiling] = [left + size.x, base + size.y];
   const marks = multiples(frame.from, frame.to, step.along);
   const markTexts = marksInWords(marks, step.along, words.stationOf);
-  for (const [index, chainage] of marks.entries()) {
-    line(
-      [
-        [x(chainage), base],
-        [x(chainage), ceiling],
-      ],
-      0.1,
-      GRID,
-    );
-    texts.push({
-      text: markTexts[index],
-      x: x(chainage),
-      y: base - 4,
-      size: 2.5,
-      anchor: "middle",
-    });
-  }
-  for (const z of multiples(low, high, step.up)) {
-    line(
-      [
-        [left, y(z)],
-        [right, y(z)],
-      ],
-      0.1,
-      GRID,
-    );
-    texts.push({ text: axisText(z, step.up), x: left - 1.5, y: y(z) - 0.9, size: 2.5, anchor: "end" });
-  }
-  line(
-    [
-      [left, base],
-      [right, base],
-      [right, ceiling],
-      [left, ceiling],
-      [left, base],
-    ],
-    0.2,
-    BLACK,
-  );
-  for (const run of runs) {
-    const places = run.map(([chainage, z]) => [x(chainage), y(z)] as const);
-    if (places.length > 1) line(places, 0.25, GROUND);
-  }
-  texts.push({ text: words.along, x: left + size.x / 2, y: base - 8, size: 2.8, anchor: "middle" });
-  texts.push({
-    text: words.up,
-    x: left - 14,
-    y: base + size.y / 2,
-    size: 2.8,
-    anchor: "middle",
-    upwards: true,
-  });
-  texts.push({ text: words.title, x: left, y: height - 9, size: 4.2, anchor: "start" });
-  for (const [index, text] of facts.entries())
-    texts.push({ text, x: left, y: height - TITLE - FACT * index, size: 2.3, anchor: "start" });
-  scaleBar(frame.along, words.unit, left, base - 14, lines, texts);
+  const levels = multiples(low, high, step.up);
+  const bar = scaleBar(frame.along, words.unit, left, base - 14);
+  const ground = runs.filter((run) => run.length > 1);
   const { pixels, pitch, bottom } = dots;
   const image = {
     ...pixels,
@@ -201,18 +140,95 @@ export function layOut(
     width: pixels.columns * pitch,
     height: pixels.rows * pitch,
   };
-  return { width, height, title: words.title, images: [image], lines, texts };
+  return {
+    ...{ width, height, title: words.title, images: [image] },
+    lines: [
+      ...grid(marks.map(x), levels.map(y), area),
+      ...ground.map((run) =>
+        stroke(
+          run.map(([chainage, z]) => [x(chainage), y(z)] as const),
+          0.25,
+          GROUND,
+        ),
+      ),
+      bar.line,
+    ],
+    texts: [
+      ...marks.map((mark, index) => markText(markTexts[index], x(mark), base)),
+      ...levels.map((z) => levelText(axisText(z, step.up), y(z))),
+      ...captions(words, facts, area, height),
+      bar.text,
+    ],
+  };
 }
 
-/** A bar of a round length of some four centimetres, for whoever has a ruler. */
+/** Where the plot lies on its sheet, millimetres: its lower left corner, and its size. */
+interface PlotArea {
+  readonly left: number;
+  readonly base: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+function stroke(places: SheetLine["places"], width: number, colour: Colour): SheetLine {
+  return { places, width, colour };
+}
+
+/** Lines upright at some x and level at some y, millimetres, and the border around them. */
+function grid(
+  xs: readonly number[],
+  ys: readonly number[],
+  { left, base, width, height }: PlotArea,
+): SheetLine[] {
+  const [right, ceiling] = [left + width, base + height];
+  const border = [
+    [left, base],
+    [right, base],
+    [right, ceiling],
+    [left, ceiling],
+    [left, base],
+  ] as const;
+  return [
+    ...xs.map((x) => stroke([[x, base] as const, [x, ceiling] as const], 0.1, GRID)),
+    ...ys.map((y) => stroke([[left, y] as const, [right, y] as const], 0.1, GRID)),
+    stroke(border, 0.2, BLACK),
+  ];
+}
+
+/** What stands below a line of the grid. */
+function markText(text: string, x: number, base: number): SheetText {
+  return { text, x, y: base - 4, size: 2.5, anchor: "middle" };
+}
+
+/** What stands to the left of one. */
+function levelText(text: string, y: number): SheetText {
+  return { text, x: MARGIN.left - 1.5, y: y - 0.9, size: 2.5, anchor: "end" };
+}
+
+/** The words of both axes, the title, and the facts below it. @param top of the sheet, millimetres */
+function captions(
+  words: PictureWords,
+  facts: readonly string[],
+  { left, base, width, height }: PlotArea,
+  top: number,
+): SheetText[] {
+  return [
+    { text: words.along, x: left + width / 2, y: base - 8, size: 2.8, anchor: "middle" },
+    { text: words.up, x: left - 14, y: base + height / 2, size: 2.8, anchor: "middle", upwards: true },
+    { text: words.title, x: left, y: top - 9, size: 4.2, anchor: "start" },
+    ...facts.map((text, index): SheetText => {
+      return { text, x: left, y: top - TITLE - FACT * index, size: 2.3, anchor: "start" };
+    }),
+  ];
+}
+
+/** A bar of a round length of some four centimetres, for whoever has a ruler; x and y of its left end, millimetres. */
 function scaleBar(
   along: number,
   unit: string,
   x: number,
   y: number,
-  lines: SheetLine[],
-  texts: SheetText[],
-): void {
+): { readonly line: SheetLine; readonly text: SheetText } {
   const length = roundStep(30 / along);
   const end = x + length * along;
   const places = [
@@ -221,14 +237,13 @@ function scaleBar(
     [end, y],
     [end, y + 1],
   ] as const;
-  lines.push({ places, width: 0.3, colour: BLACK });
-  texts.push({
-    text: `${axisText(length, length)} ${unit}`,
-    x: end + 1.5,
-    y: y - 0.5,
-    size: 2.3,
-    anchor: "start",
-  });
+  return {
+    line: stroke(places, 0.3, BLACK),
+    text: {
+      text: `${axisText(length, length)} ${unit}`,
+      ...{ x: end + 1.5, y: y - 0.5, size: 2.3, anchor: "start" },
+    },
+  };
 }
 
 function paperFor(width: number, height: number): readonly [number, number] {
@@ -238,6 +253,11 @@ function paperFor(width: number, height: number): readonly [number, number] {
 function multiples(from: number, to: number, step: number): number[] {
   const [first, last] = [Math.ceil(from / step - 1e-9), Math.floor(to / step + 1e-9)];
   return Array.from({ length: Math.max(0, last - first + 1) }, (_, index) => (first + index) * step);
+}
+
+/** Both scales, as one where they are one. */
+function scaleWords({ along, up }: { readonly along: number; readonly up: number }): string {
+  return along === up ? `1:${scaleText(along)}` : `lengths 1:${scaleText(along)}, heights 1:${scaleText(up)}`;
 }
 
 function scaleText(scale: number): string {
