@@ -30,6 +30,9 @@ const ROUNDS = 3;
 /** Longitude, latitude (radians) and height. */
 type Place = readonly [longitude: number, latitude: number, height: number];
 
+/** Shifts at the nodes of a raster, {@link raster}: of longitude and latitude (radians) and of height (metres). */
+type Channels = [east: Float32Array, north: Float32Array, up: Float32Array];
+
 export interface Sampled {
   readonly steps: readonly ShiftStep[];
   /** Metres: how far points between the nodes were found from PROJ. */
@@ -90,12 +93,8 @@ export async function sampleSteps(
     const nodes = raster(bounds, side, middle);
     const wanted = await run(nodes);
     const left = nodes.map((node, i) => remainder(node, wanted[i]!, apply));
-    const channels = [0, 1, 2].map((axis) => Float32Array.from(left, (shift) => shift[axis]!));
-    const between = [low, middle, high].flatMap((height) =>
-      raster(bounds, 2 * side - 1, height).filter((_, i) => {
-        return (i % (2 * side - 1)) & 1 || Math.floor(i / (2 * side - 1)) & 1;
-      }),
-    );
+    const channels = [0, 1, 2].map((axis) => Float32Array.from(left, (shift) => shift[axis]!)) as Channels;
+    const between = betweenNodes(bounds, side, [low, middle, high]);
     const truth = await run(between);
     const before = worst;
     worst = 0;
@@ -105,40 +104,36 @@ export async function sampleSteps(
       const off = apart(apply([place[0] + x, place[1] + y, place[2] + z]), truth[i]!);
       if (!(off <= worst)) worst = off;
     }
-    if (!(worst <= TOLERANCE)) {
-      const rounds = Math.log2((MOST - 1) / (side - 1));
-      // Not a number: the steps do not reach all of the bounds.
-      if (!(worst * (worst / before) ** rounds <= TOLERANCE)) break;
-      continue;
+    if (worst <= TOLERANCE) {
+      const steps = rasterSteps(nameOf(segment), bounds, side, channels);
+      return { steps: [...steps, ...(shift ? [shift.step] : [])], bound: worst };
     }
-    const lattice = {
-      ...{
-        grid: nameOf(segment),
-        west: bounds.west,
-        south: bounds.south,
-        columns: side,
-        rows: side,
-        unit: 1,
-      },
-      stepLongitude: (bounds.east - bounds.west) / (side - 1),
-      stepLatitude: (bounds.north - bounds.south) / (side - 1),
-    };
-    const [east, north, up] = channels as [Float32Array, Float32Array, Float32Array];
-    const plane = Float32Array.of(...east, ...north);
-    const moves = (values: Float32Array) => values.some((value) => value !== 0);
-    const steps: ShiftStep[] = [];
-    // Heights first: they are looked up at the node's own place.
-    if (moves(up)) {
-      const window = { ...lattice, channels: 1, values: up };
-      steps.push({ kind: "verticalShift", multiplier: 1, window });
-    }
-    if (moves(plane)) {
-      const window = { ...lattice, channels: 2, values: plane };
-      steps.push({ kind: "horizontalShift", direction: "forward", window });
-    }
-    return { steps: [...steps, ...(shift ? [shift.step] : [])], bound: worst };
+    const rounds = Math.log2((MOST - 1) / (side - 1));
+    // Not a number: the steps do not reach all of the bounds.
+    if (!(worst * (worst / before) ** rounds <= TOLERANCE)) break;
   }
   throw tooRough(segment, worst);
+}
+
+/** Shifts at the nodes of a raster as steps; those that are 0 everywhere are none. */
+function rasterSteps(name: string, bounds: Bounds, side: number, [east, north, up]: Channels): ShiftStep[] {
+  const lattice = {
+    ...{ grid: name, west: bounds.west, south: bounds.south, columns: side, rows: side, unit: 1 },
+    stepLongitude: (bounds.east - bounds.west) / (side - 1),
+    stepLatitude: (bounds.north - bounds.south) / (side - 1),
+  };
+  const plane = Float32Array.of(...east, ...north);
+  const moves = (values: Float32Array) => values.some((value) => value !== 0);
+  const steps: ShiftStep[] = [];
+  // Heights first: they are looked up at the node's own place.
+  if (moves(up)) {
+    steps.push({ kind: "verticalShift", multiplier: 1, window: { ...lattice, channels: 1, values: up } });
+  }
+  if (moves(plane)) {
+    const window = { ...lattice, channels: 2, values: plane };
+    steps.push({ kind: "horizontalShift", direction: "forward", window });
+  }
+  return steps;
 }
 
 /** The translation that takes a place where the steps take it. */
@@ -188,6 +183,13 @@ function raster({ west, south, east, north }: Bounds, side: number, height: numb
   return Array.from({ length: side * side }, (_, i) => {
     return [at(west, east, i % side), at(south, north, Math.floor(i / side)), height];
   });
+}
+
+/** The places halfway between the nodes of a raster, along its lines and in its cells, at each of some heights. */
+function betweenNodes(bounds: Bounds, side: number, heights: readonly number[]): Place[] {
+  const fine = 2 * side - 1;
+  const isBetween = (i: number) => (i % fine) & 1 || Math.floor(i / fine) & 1;
+  return heights.flatMap((height) => raster(bounds, fine, height).filter((_, i) => isBetween(i)));
 }
 
 function share(value: number, from: number, to: number): number {
