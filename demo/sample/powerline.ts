@@ -54,7 +54,7 @@ export function createPowerLine(terrain: Terrain): { towers: Tower[]; wires: Wir
 }
 
 /** Height of a wire at a share of its span. */
-export function wireHeight(wire: Wire, share: number): number {
+function wireHeight(wire: Wire, share: number): number {
   const straight = wire.from.ground + (wire.to.ground - wire.from.ground) * share + wire.height;
   return straight - SAG * 4 * share * (1 - share);
 }

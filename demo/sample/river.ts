@@ -6,7 +6,7 @@ const BANK = 7;
 const WATER_BELOW_FLOOR = 2.2;
 
 /** Easting of the river's centre line at northing y, local metres. */
-export function riverX(y: number): number {
+function riverX(y: number): number {
   return 240 + 24 * Math.sin(y / 92) + 8 * Math.sin(y / 41 + 1);
 }
 

@@ -2,11 +2,11 @@ import { floorHeight, smoothstep } from "./area.js";
 import { RIVER_HALF_WIDTH, riverDistance } from "./river.js";
 
 /** Half widths of the paved strips, metres. */
-export const ROAD_HALF_WIDTH = 3.4;
+const ROAD_HALF_WIDTH = 3.4;
 const LANE_HALF_WIDTH = 2.2;
 /** Northing of the lane that leaves the valley road to the west, and its western end. */
-export const LANE_Y = 255;
-export const LANE_WEST = 138;
+const LANE_Y = 255;
+const LANE_WEST = 138;
 const EMBANKMENT = 7;
 const ABOVE_FLOOR = 0.5;
 
@@ -16,7 +16,7 @@ export function roadX(y: number): number {
 }
 
 /** Signed distance from the valley road's centre line, metres; east is positive. */
-export function roadOffset(x: number, y: number): number {
+function roadOffset(x: number, y: number): number {
   const slope = (15 / 130) * Math.cos(y / 130 + 2);
   return (x - roadX(y)) / Math.sqrt(1 + slope * slope);
 }

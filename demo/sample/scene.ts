@@ -9,7 +9,7 @@ import { createTerrain, type Terrain } from "./terrain.js";
 import { createTrees, hitTree, type Tree } from "./trees.js";
 
 /** Most slanted pulse that the scene is prepared for: tangent of its angle from the vertical. */
-export const STEEPEST = 0.62;
+const STEEPEST = 0.62;
 /** Bounds on the ground's rise per metre, for stepping along a ray without passing the ground. */
 const CLIFF_SLOPE = 4.5;
 const VALLEY_SLOPE = 1.6;

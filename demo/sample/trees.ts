@@ -154,7 +154,7 @@ export function hitTree(
 }
 
 /** Class of foliage by its height above the ground: low to 0.5 m, medium to 3 m, high above. */
-export function vegetationClass(height: number): number {
+function vegetationClass(height: number): number {
   if (height < 0.5) return CLASS.lowVegetation;
   return height < 3 ? CLASS.mediumVegetation : CLASS.highVegetation;
 }

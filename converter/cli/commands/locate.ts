@@ -76,7 +76,7 @@ export function locate({ truth, accuracy, engine }: Placed, rows: readonly Row[]
  * @throws PlacementError PLACE_DOMAIN with the line of the first place that no coordinates within the bounds lead to
  * @throws OptionError OPTION_INVERSE
  */
-export function locateInverse(place: Placed, rows: readonly Row[], scan: Scan, from: string): Located[] {
+function locateInverse(place: Placed, rows: readonly Row[], scan: Scan, from: string): Located[] {
   const { truth, targets } = givenPlaces(place, rows, scan, from);
   const { min, max, file } = scan;
   const box = { minX: min[0], minY: min[1], maxX: max[0], maxY: max[1] };

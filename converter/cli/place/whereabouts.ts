@@ -184,7 +184,7 @@ function middleOf({ min, max }: PointBounds): [number, number, number] {
 }
 
 /** `longitude 9.0014°, latitude 48.7539°`: ten metres, as far as a place without its height system is known. */
-export function pointInWords({ longitude, latitude }: Place): string {
+function pointInWords({ longitude, latitude }: Place): string {
   return `longitude ${longitude.toFixed(4)}°, latitude ${latitude.toFixed(4)}°`;
 }
 

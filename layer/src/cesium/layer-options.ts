@@ -23,7 +23,7 @@ export interface PointCloudLayerOptions extends DrawingOptions {
 const checkedLater: Kind<never> = kindOf("anything", (_given): _given is never => true);
 
 /** What each option of a layer may be. */
-export const LAYER_OPTIONS: Kinds<PointCloudLayerOptions> = {
+const LAYER_OPTIONS: Kinds<PointCloudLayerOptions> = {
   ...DRAWING_KINDS,
   show: flag,
   style: checkedLater,

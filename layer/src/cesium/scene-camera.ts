@@ -31,7 +31,7 @@ export function lensOf({ camera, canvas }: Scene): Lens {
 }
 
 /** The edges of the picture that a frustum makes; of one that is off its axis, as if it were not. */
-export function halvesOf(frustum: Camera["frustum"]): PictureHalves {
+function halvesOf(frustum: Camera["frustum"]): PictureHalves {
   if (frustum instanceof OrthographicFrustum) {
     const right = (frustum.width ?? 1) / 2;
     return { right, up: right / (frustum.aspectRatio ?? 1), parallel: true };
