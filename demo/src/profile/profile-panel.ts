@@ -5,8 +5,6 @@ import {
   type PlottedPoint,
   Profile,
   type ProfilePoints,
-  type TerrainStation,
-  type TerrainStatistic,
   type ViewAdapter,
 } from "@groma/layer/tools";
 import type { Viewer } from "cesium";
@@ -14,17 +12,15 @@ import { i18n } from "../language/i18n.js";
 import { fixed } from "../language/numbers.js";
 import { byId, setText } from "../panel/elements.js";
 import { isNarrow } from "../panel/fold.js";
-import { ClearanceWords } from "./clearance.js";
 import { Comparison } from "./comparison.js";
 import { CutClips } from "./cut-clips.js";
-import { groundTable } from "./ground-table.js";
+import { GroundPanel } from "./ground-panel.js";
 import { LineTools } from "./line-tools.js";
 import { measuredWords, TOLERANCE } from "./measured-words.js";
 import { ProfilePlot, placeOf } from "./plot.js";
 import { PlotStyle } from "./plot-style.js";
 import { axisWords, pointPlace, pointWords, profileWords } from "./point-words.js";
 import { type ExportedProfile, ProfileExport } from "./profile-export.js";
-import { type GroundChoice, groundOf, intervalFor, statisticWords } from "./profile-ground.js";
 import { type DrawnLine, ProfileLines } from "./profile-lines.js";
 import { PlaceMark, StripOutline } from "./strip-outline.js";
 
@@ -53,7 +49,6 @@ export class ProfilePanel {
   readonly #lineTools: LineTools;
   readonly comparison: Comparison;
   readonly #cut: CutClips;
-  readonly #clearance: ClearanceWords;
   readonly #layer: () => PointCloudLayer | undefined;
   readonly #events: ProfileEvents;
   readonly #outline: StripOutline;
@@ -64,17 +59,12 @@ export class ProfilePanel {
   readonly #start = byId("profile-draw", HTMLButtonElement);
   readonly #stretch = byId("profile-stretch", HTMLInputElement);
   readonly #style: PlotStyle;
-  readonly #groundBy = byId("profile-ground", HTMLSelectElement);
-  readonly #groundClass = byId("profile-ground-class", HTMLInputElement);
   readonly #measure = byId("profile-measure", HTMLButtonElement);
-  readonly #tableShown = byId("profile-table-shown", HTMLInputElement);
-  readonly #table = byId("profile-table", HTMLElement);
+  readonly #ground: GroundPanel;
   readonly #export: ProfileExport;
   #plot: ProfilePlot | undefined;
   #profile: Profile | undefined;
   #work: AbortController | undefined;
-  #grounding: AbortController | undefined;
-  #ground: TerrainStation[] = [];
   #measured: PlotPlace[] = [];
   /** How much heights are stretched, where the reader asked for a number. */
   #stretched: number | undefined;
@@ -86,7 +76,7 @@ export class ProfilePanel {
     this.#lineTools = new LineTools(this.lines, () => void this.#read(), events.failed);
     this.comparison = new Comparison(() => void this.#read(), events.failed);
     this.#cut = new CutClips(layer);
-    this.#clearance = new ClearanceWords(() => void this.#groundAnew());
+    this.#ground = new GroundPanel(() => void this.#groundAnew(), events.failed);
     this.#mark = new PlaceMark(viewer);
     this.#style = new PlotStyle(viewer, layer, (drawing) => {
       if (this.#plot && !this.#panel.hidden) this.#plot.drawing = drawing;
@@ -165,8 +155,6 @@ export class ProfilePanel {
     on(byId("profile-fit", HTMLButtonElement), "click", () => this.#plot?.fit());
     on(byId("profile-true", HTMLButtonElement), "click", () => this.#stretchBy(1));
     on(this.#stretch, "change", () => this.#stretchBy(this.#stretch.valueAsNumber));
-    for (const field of [this.#groundBy, this.#groundClass, this.#tableShown])
-      on(field, "change", () => void this.#groundAnew());
     on(this.#measure, "click", () => this.#toggleMeasuring());
   }
 
@@ -242,8 +230,7 @@ export class ProfilePanel {
     const plot = this.#picture();
     plot.clear(from, length, axisWords(layer?.cloud), layer?.cloud, layer && this.#style.of(layer));
     this.#measured = [];
-    this.#ground = [];
-    this.#table.replaceChildren();
+    this.#ground.clear();
     return plot;
   }
 
@@ -285,56 +272,8 @@ export class ProfilePanel {
     }
   }
 
-  #groundChoice(): GroundChoice {
-    const by = this.#groundBy.value;
-    const code = this.#groundClass.valueAsNumber;
-    const statistic = by.startsWith("p") ? Number(by.slice(1)) : (by as TerrainStatistic);
-    return { statistic, classification: Number.isInteger(code) ? code : undefined };
-  }
-
-  async #groundAnew(): Promise<void> {
-    const [profile, plot] = [this.#profile, this.#plot];
-    this.#grounding?.abort();
-    if (!profile || !plot) return;
-    this.#grounding = new AbortController();
-    const { signal } = this.#grounding;
-    const wanted = this.#groundBy.value !== "" || this.#tableShown.checked || this.comparison.active;
-    const choice = this.#groundChoice();
-    const statistic = this.#groundBy.value === "" ? 50 : choice.statistic;
-    try {
-      const found = await groundOf(profile, wanted ? plot.parts : [], { ...choice, statistic }, signal);
-      this.#ground = found;
-      this.#tellGround(choice.classification, plot);
-      plot.ground = this.#groundBy.value === "" && !this.comparison.active ? [] : found;
-      const second = await groundOf(profile, this.comparison.parts, { ...choice, statistic }, signal);
-      plot.secondGround = this.comparison.active ? second : [];
-      this.comparison.tell(found, second, profile.origin as PointCloud);
-      this.#showTable(statistic);
-      await this.#clearance.tell(profile, plot.parts, choice.classification, signal);
-    } catch (thrown) {
-      if (!signal.aborted) this.#events.failed(thrown);
-    }
-  }
-
-  /** Tells where there is no ground for want of points of the class that was asked for. */
-  #tellGround(classification: number | undefined, { count }: ProfilePlot): void {
-    const points = this.#ground.reduce((sum, station) => sum + station.count, 0);
-    const missing = classification !== undefined && this.#ground.length > 0 && count > 0 && points === 0;
-    const words = missing
-      ? i18n.t("No point along the line is of class {number}: there is no ground.", {
-          number: classification,
-        })
-      : "";
-    setText(byId("profile-ground-words", HTMLElement), words);
-  }
-
-  #showTable(statistic: TerrainStatistic): void {
-    this.#table.hidden = !this.#tableShown.checked;
-    if (this.#table.hidden) return;
-    const which = statisticWords(statistic);
-    this.#table.replaceChildren(
-      groundTable(this.#ground, i18n.t("Ground, {which} of each station, metres", { which })),
-    );
+  #groundAnew(): Promise<void> {
+    return this.#ground.tell(this.#profile, this.#plot, this.comparison);
   }
 
   /** Shows the point that is pointed at, here and on globe and map. */
@@ -363,7 +302,7 @@ export class ProfilePanel {
     if (!profile) return;
     if (this.#measure.getAttribute("aria-pressed") === "true") {
       this.#measured = this.#measured.length === 1 ? [...this.#measured, place] : [place];
-      const words = measuredWords(this.#measured, this.#ground);
+      const words = measuredWords(this.#measured, this.#ground.stations);
       this.#plot?.measured(this.#measured, words[0] ?? "");
       if (words.length > 0) setText(this.#readout, words.join("; "));
     } else if (point) {
@@ -387,16 +326,13 @@ export class ProfilePanel {
   #exported(): ExportedProfile | undefined {
     const [profile, layer] = [this.#profile, this.#layer()];
     if (!profile || !layer) return undefined;
-    const { statistic, classification } = this.#groundChoice();
-    const classes = classification === undefined ? undefined : new Set([classification]);
-    const interval = intervalFor(profile.length) / profile.unit;
     return {
       profile,
       name: this.lines.chosen?.name,
       exaggeration: this.#drawnStretch(),
       drawing: this.#style.of(layer),
       stations: this.lines.stations,
-      ground: this.#groundBy.value === "" ? undefined : { interval, statistic, classes },
+      ground: this.#ground.exported(profile),
       thickness: this.#lineTools.width,
     };
   }
