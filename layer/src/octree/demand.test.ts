@@ -1,141 +1,23 @@
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { FRINGE, gather } from "./demand.js";
-import { HierarchyPage, type NodeBounds, OctreeNode } from "./octree-node.js";
+import {
+  everything,
+  families,
+  family,
+  importances,
+  kinds,
+  known,
+  mixed,
+  PIXELS_PER_METRE,
+  sparsenessOf,
+  view,
+  views,
+} from "./family.fixture.js";
+import { type NodeBounds, OctreeNode } from "./octree-node.js";
 import { countsAt, pointsAt, shareOf, thresholdFor } from "./share.js";
-import { SharedBudget } from "./shared-budget.js";
 import { selectNodes } from "./traversal.js";
 import type { View } from "./view.js";
-
-/** A camera at the origin that looks along x; the picture is 1000 pixels high and 2 m high at a metre's distance. */
-const view: View = {
-  position: [0, 0, 0],
-  direction: [1, 0, 0],
-  planes: [],
-  height: 1000,
-  projection: { kind: "perspective", fieldOfView: Math.PI / 2 },
-  horizon: false,
-};
-const PIXELS_PER_METRE = 500;
-const everything = {
-  maximumScreenSpaceError: 1e-9,
-  limit: Number.POSITIVE_INFINITY,
-  prefix: true,
-  rejects: undefined,
-};
-
-/** A sphere that may lie anywhere, however little that fits the sphere of its parent. */
-const bounds: fc.Arbitrary<NodeBounds> = fc.record({
-  x: fc.double({ min: -500, max: 500, noNaN: true }),
-  y: fc.double({ min: -500, max: 500, noNaN: true }),
-  z: fc.double({ min: -500, max: 500, noNaN: true }),
-  radius: fc.double({ min: 1, max: 100, noNaN: true }),
-  spacing: fc.double({ min: 0.01, max: 10, noNaN: true }),
-});
-
-/** A root, its eight children and their first children, with the given spheres and points: 1 to 17 × 100. */
-function family(spheres: readonly NodeBounds[], pointsOf = (index: number) => 100 * (index + 1)): OctreeNode {
-  const node = (index: number, depth: number, x: number, y: number, z: number) => {
-    const made = new OctreeNode({ depth, x, y, z }, "listed");
-    made.pointCount = pointsOf(index);
-    made.bounds = spheres[index];
-    return made;
-  };
-  const root = node(0, 0, 0, 0, 0);
-  for (let n = 0; n < 8; n++) {
-    const [x, y, z] = [n & 1, (n >> 1) & 1, n >> 2];
-    const child = node(1 + n, 1, x, y, z);
-    child.adopt(node(9 + n, 2, 2 * x, 2 * y, 2 * z));
-    root.adopt(child);
-  }
-  return root;
-}
-
-const families = fc.array(bounds, { minLength: 17, maxLength: 17 });
-const known = (node: OctreeNode) => node.bounds!;
-
-/**
- * The importance as the docstring of `gather` has it, computed anew: the spacing in pixels, by the place in the picture
- * (1 in the middle, 0.75 beside the camera, 0.5 behind it), at most that of the node above.
- */
-function importance(bounds: NodeBounds, above: number, { position, direction, projection } = view): number {
-  const { x, y, z, radius, spacing } = bounds;
-  const away = [x - position[0], y - position[1], z - position[2]];
-  const length = Math.hypot(...away);
-  const orthographic = projection.kind === "orthographic";
-  if (length <= radius) {
-    return Math.min(above, (orthographic ? PIXELS_PER_METRE : 1e12) * spacing);
-  }
-  const pixels = (PIXELS_PER_METRE * spacing) / (orthographic ? 1 : length - radius);
-  const ahead = away.reduce((sum, part, axis) => sum + part * direction[axis], 0) / length;
-  return Math.min(above, pixels * (0.5 + (0.5 * (1 + ahead)) / 2));
-}
-
-/** How far apart the points of a node with nothing above it lie, in terms of its level's distance. */
-function sparsenessOf({ bounds, pointCount }: OctreeNode): number {
-  const area = 2 * bounds!.radius ** 2;
-  return Math.max(1, Math.sqrt(area / pointCount) / bounds!.spacing);
-}
-
-function importances(root: OctreeNode, from: View = view): Map<string, number> {
-  const all = new Map<string, number>();
-  const visit = (node: OctreeNode, above: number) => {
-    const own = importance(node.bounds!, above, from);
-    all.set(node.name, node === root ? own * sparsenessOf(node) : own);
-    for (const child of node.children ?? []) if (child) visit(child, own);
-  };
-  visit(root, Number.POSITIVE_INFINITY);
-  return all;
-}
-
-/** Cameras anywhere, that look anywhere; a metre takes as many pixels as in {@link view}. */
-const views: fc.Arbitrary<View> = fc
-  .record({
-    position: fc.tuple(...[0, 1, 2].map(() => fc.integer({ min: -300, max: 300 }))),
-    turn: fc.double({ min: -Math.PI, max: Math.PI, noNaN: true }),
-    rise: fc.double({ min: -1.5, max: 1.5, noNaN: true }),
-    orthographic: fc.boolean(),
-  })
-  .map(({ position, turn, rise, orthographic }) => ({
-    ...view,
-    position,
-    direction: [Math.cos(turn) * Math.cos(rise), Math.sin(turn) * Math.cos(rise), Math.sin(rise)],
-    ...(orthographic && {
-      projection: { kind: "orthographic" as const, extent: view.height / PIXELS_PER_METRE },
-    }),
-  }));
-
-/** What a node of a family may be, and whether it begins a page. */
-const kinds = fc.array(
-  fc.record({
-    kind: fc.constantFrom(...new Array(6).fill("points"), "empty", "empty", "page", "opening", "failed"),
-    begins: fc.boolean(),
-  }),
-  { minLength: 17, maxLength: 17 },
-);
-
-/** A family of which some nodes are empty, known by their page alone, or failed with it. */
-function mixed(
-  spheres: readonly NodeBounds[],
-  of: readonly { readonly kind: string; readonly begins: boolean }[],
-): OctreeNode {
-  const copy = (node: OctreeNode): OctreeNode => {
-    // As in `family`: the root, its children, and theirs.
-    const { key } = node;
-    const at = (depth: number) => (key.x >> depth) + 2 * (key.y >> depth) + 4 * (key.z >> depth);
-    const { kind, begins } = of[[0, 1 + at(0), 9 + at(1)][key.depth]];
-    const waits = kind === "page" || kind === "opening";
-    const made = new OctreeNode(key, waits ? "page" : kind === "empty" ? "empty" : "listed");
-    if (kind === "opening") made.become("opening");
-    made.pageFailed = kind === "failed";
-    made.pointCount = kind === "points" ? node.pointCount : 0;
-    made.bounds = node.bounds;
-    if (begins) made.page = new HierarchyPage(made, 1);
-    for (const child of node.children ?? []) if (child) made.adopt(copy(child));
-    return made;
-  };
-  return copy(family(spheres));
-}
 
 describe("gather", () => {
   it("takes from the top down what is in sight and not too small, and tells apart what is to be read", () => {
@@ -379,50 +261,5 @@ describe("gather", () => {
     const { nodes } = gather(deep(0), view, { ...everything, limit: 2500 }, known);
     expect(nodes.length).toBeGreaterThanOrEqual(3);
     expect(nodes.length).toBeLessThanOrEqual(6);
-  });
-});
-
-describe("the fringe of a selection that the budget ends", () => {
-  /** A whole octree of three levels over a cube of 200 m, 100 points a node. */
-  function regular(depth: number, x: number, y: number, z: number): OctreeNode {
-    const node = new OctreeNode({ depth, x, y, z }, "listed");
-    const edge = 200 / 2 ** depth;
-    node.pointCount = 100;
-    node.bounds = {
-      ...{ x: 150 + (x + 0.5) * edge, y: (y + 0.3) * edge, z: (z + 0.2) * edge },
-      ...{ radius: edge, spacing: edge / 100 },
-    };
-    if (depth === 3) return node;
-    for (let n = 0; n < 8; n++) {
-      node.adopt(regular(depth + 1, 2 * x + (n & 1), 2 * y + ((n >> 1) & 1), 2 * z + (n >> 2)));
-    }
-    return node;
-  }
-
-  it("holds nodes left out that are less than a tenth too small, and none that are smaller", () => {
-    const root = regular(0, 0, 0, 0);
-    const doubled = new Map([...importances(root)].map(([name, size]) => [name, 2 * size]));
-    let [near, far] = [0, 0];
-    for (let pointBudget = 150; pointBudget < 50_000; pointBudget = Math.ceil(1.05 * pointBudget)) {
-      // Two views of the same octree share the points, so that each gathers more than it may draw.
-      const budget = new SharedBudget({ points: pointBudget });
-      const options = { maximumScreenSpaceError: 1e-9, pointBudget, budget };
-      const viewers = [{}, {}];
-      const ask = (viewer: object) => selectNodes(root, view, options, known, viewer);
-      ask(viewers[0]);
-      ask(viewers[1]);
-      ask(viewers[0]);
-      const { nodes, fringe } = ask(viewers[1]);
-      const drawn = new Set(nodes.map(({ name }) => name));
-      const hidden = [...doubled].filter(([name]) => !drawn.has(name));
-      // The largest node left out is at most 1.5 % above the threshold: of its 100 points none was due.
-      const least = Math.max(...hidden.map(([, size]) => size));
-      const smallest = Math.min(...fringe.map(({ name }) => doubled.get(name)!));
-      expect(smallest).toBeGreaterThan((FRINGE * least) / 1.015);
-      near += fringe.length;
-      far += hidden.filter(([, size]) => size < FRINGE * least).length;
-    }
-    expect(near).toBeGreaterThan(100);
-    expect(far).toBeGreaterThan(100);
   });
 });

@@ -1,4 +1,3 @@
-import { geodesicBetween } from "@groma/georef";
 import fc from "fast-check";
 import { describe, expect, it } from "vitest";
 import { MeasureError } from "../../errors/index.js";
@@ -13,7 +12,6 @@ import {
   type WorthOptions,
 } from "../measure/index.js";
 import { Awaited } from "./awaited.js";
-import { courseOf, wayOf } from "./course.js";
 import { figuresOf } from "./figures.js";
 import { checkChange, checkKind, checkMeasurement } from "./given.js";
 import { freshName, grown, History, isSame, withAdded, withChange } from "./history.js";
@@ -369,34 +367,5 @@ describe("edges", () => {
     const placing = new Placing(seen, { last: Promise.resolve() }, new AbortController().signal);
     const middle = from(inCloud([0, 1, 2].map((axis) => (a.source![axis]! + c.source![axis]!) / 2)))!;
     expect(await placing.look(middle, snapsOf([edge], undefined))).toBe(d);
-  });
-});
-
-describe("long lines", () => {
-  const place = (longitude: number, latitude: number, height = 0) =>
-    placeVertex((longitude * Math.PI) / 180, (latitude * Math.PI) / 180, height);
-
-  it("run along the geodesic, heights evenly between", () => {
-    const [from, to] = [place(-70, 40, 100), place(140, 35, 300)];
-    const course = courseOf(from, to);
-    expect(course.length).toBe(127);
-    const whole = geodesicBetween(from.longitude, from.latitude, to.longitude, to.latitude).distance;
-    for (const [i, { longitude, latitude, height }] of course.entries()) {
-      const share = (i + 1) / 128;
-      const { distance } = geodesicBetween(from.longitude, from.latitude, longitude, latitude);
-      expect(distance / whole).toBeCloseTo(share, 9);
-      expect(height).toBeCloseTo(100 + 200 * share, 6);
-    }
-    // The shortest way between these leads by the north.
-    expect(Math.max(...course.map(({ latitude }) => latitude))).toBeGreaterThan(1.1);
-    expect(wayOf([from, to, from]).length).toBe(3 + 2 * 127);
-    expect(courseOf(from, to)).toBe(course);
-  });
-
-  it("that are short are straight", () => {
-    expect(wayOf([a, b, c])).toEqual([a, b, c]);
-    expect(courseOf(place(0, 0), place(0.04, 0))).toEqual([]);
-    expect(courseOf(place(0, 0), place(0.05, 0)).length).toBe(1);
-    expect(courseOf(place(0, 0), place(0, 0))).toEqual([]);
   });
 });
