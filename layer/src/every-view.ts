@@ -2,6 +2,7 @@
 export type { Vector } from "@groma/georef";
 export type { CameraView } from "./camera/index.js";
 export type { DrawingOptions, PickOptions } from "./drawing/drawing-options.js";
+export type { DrawnStatistics } from "./drawing/drawn-statistics.js";
 export type { GpuCounts, GpuKind } from "./drawing/gpu.js";
 export {
   ASPRS_CLASSES,

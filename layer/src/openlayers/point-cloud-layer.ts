@@ -3,8 +3,7 @@ import type OlLayerRenderer from "ol/renderer/Layer.js";
 import type { ClipSet } from "../clips/index.js";
 import type { PointCloud, PointRecord } from "../cloud/index.js";
 import type { PickOptions } from "../drawing/drawing-options.js";
-import { bytesPerPoint } from "../drawing/drawn-node.js";
-import { type GpuCounts, NO_OBJECTS } from "../drawing/gpu.js";
+import { type DrawnStatistics, drawnStatistics } from "../drawing/drawn-statistics.js";
 import type { Forced, LedgerRow, PointCloudStyle, PointFilter, StyleParts } from "../effects/index.js";
 import type { SharedBudget } from "../octree/index.js";
 import { LayerDrawing } from "./layer-drawing.js";
@@ -13,24 +12,9 @@ import { MapRenderer } from "./map-renderer.js";
 import { PointCloudErrorEvent, type PointCloudSource } from "./point-cloud-source.js";
 
 /** Numbers about the frame drawn last. */
-export interface LayerStatistics {
-  /** Nodes with points that the view wants. */
-  readonly nodesVisible: number;
-  /** Of these, drawn. */
-  readonly nodesLoaded: number;
-  /** Of these, failed. */
-  readonly nodesFailed: number;
-  readonly pointsDrawn: number;
-  /** True where the point budget, not the screen-space error, ended the refinement. */
-  readonly budgetReached: boolean;
+export interface LayerStatistics extends DrawnStatistics {
   /** Frames in which the canvas was drawn; one of a view that stands still is not. */
   readonly framesDrawn: number;
-  /** Bytes of buffers and textures on the GPU. */
-  readonly gpuBytes: number;
-  /** Bytes of vertices that a point takes there: positions 8, or 12 where the tolerance asks for it, and colours 4. */
-  readonly bytesPerPoint: number;
-  /** GPU objects alive, by kind. */
-  readonly gpuObjects: GpuCounts;
 }
 
 /** A point that was picked on a map, as it is recorded. */
@@ -138,16 +122,9 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
 
   get statistics(): LayerStatistics {
     const placed = this.#renderer?.placed;
-    const nodes = placed?.renderer.content.nodes ?? [];
-    const { wanted = 0, failed = 0 } = placed?.frames.progress ?? {};
     return {
-      ...{ nodesVisible: wanted, nodesLoaded: nodes.length, nodesFailed: failed },
-      pointsDrawn: nodes.reduce((sum, { count }) => sum + count, 0),
-      budgetReached: placed?.frames.limited ?? false,
+      ...drawnStatistics(placed?.frames, placed?.renderer),
       framesDrawn: placed?.renderer.framesDrawn ?? 0,
-      gpuBytes: placed?.renderer.objects.bytes ?? 0,
-      bytesPerPoint: bytesPerPoint(nodes),
-      gpuObjects: placed?.renderer.objects.counts ?? NO_OBJECTS,
     };
   }
 
