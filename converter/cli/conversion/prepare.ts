@@ -5,8 +5,9 @@ import { OutputError, requireOther, requirePlace } from "../given/output-place.j
 import type { Planned } from "../pdal/bring.js";
 import type { Pdal } from "../pdal/find.js";
 import type { Job } from "../pdal/pipeline.js";
+import { commonGeoreference } from "../place/common-georeference.js";
 import { chosenProj, type Proj } from "../place/engine.js";
-import { commonGeoreference, type Georeferenced, type Named } from "../place/georeference.js";
+import type { Georeferenced, Named } from "../place/georeference.js";
 import { expectedWhereabouts, type Whereabouts } from "../place/whereabouts.js";
 import { expandInputs, InputError } from "./inputs.js";
 import type { ConvertOptions } from "./options.js";

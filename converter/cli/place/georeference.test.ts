@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { findProj } from "../proj/program/find.js";
+import { commonGeoreference } from "./common-georeference.js";
 import { epsg } from "./epsg.js";
-import { commonGeoreference, type Given, georeference, type Named } from "./georeference.js";
+import { type Given, georeference, type Named } from "./georeference.js";
 import { outputWkt } from "./output-wkt.js";
 
 const tile = (file: string, more: Partial<Named> = {}): Named => ({
