@@ -109,11 +109,13 @@ pub struct Meter<'a> {
 }
 
 impl<'a> Meter<'a> {
+    /// Begins a stage of `total` points.
     pub fn start(sink: &'a dyn Progress, stage: Stage, total: u64) -> Self {
         sink.advance(stage, 0, total);
         Self { sink, stage, total, done: AtomicU64::new(0), last: Mutex::new(Instant::now()) }
     }
 
+    /// Counts points that are done.
     pub fn add(&self, points: u64) {
         let done = self.done.fetch_add(points, Ordering::Relaxed) + points;
         if done == self.total {
@@ -127,6 +129,7 @@ impl<'a> Meter<'a> {
         }
     }
 
+    /// Ends the stage: all its points are done.
     pub fn finish(self) {
         self.sink.advance(self.stage, self.total, self.total);
     }

@@ -41,6 +41,7 @@ export interface CutOptions extends PictureScale {
 /** What is written: points as they are selected, or as they lie in cross-sections of a line. */
 export type CutSelection = PointSelection | (SectionSelection & { readonly line: AlongLine });
 
+/** What a cut is written with, whatever the format. */
 export interface WriteOptions
   extends ExportOptions,
     CutOptions,

@@ -8,34 +8,40 @@ export function positive(text: string): number {
   throw new InvalidArgumentError("Expected a number greater than 0");
 }
 
+/** A number. @throws InvalidArgumentError, as all of these do, for what is none */
 export function finite(text: string): number {
   const number = text.trim() === "" ? Number.NaN : Number(text);
   if (Number.isFinite(number)) return number;
   throw new InvalidArgumentError("Expected a number");
 }
 
+/** A box: least x, y (and z), then greatest, separated by commas. */
 export function boxNumbers(text: string): number[] {
   const numbers = text.split(",").map((word) => (word.trim() === "" ? Number.NaN : Number(word)));
   if ((numbers.length === 4 || numbers.length === 6) && numbers.every(Number.isFinite)) return numbers;
   throw new InvalidArgumentError("Expected four or six numbers separated by commas");
 }
 
+/** Class numbers from 0 to 255, separated by commas. */
 export function classNumbers(text: string): number[] {
   const numbers = text.split(",").map((word) => (/^\s*\d+\s*$/.test(word) ? Number(word) : Number.NaN));
   if (numbers.every((number) => number <= 255)) return numbers;
   throw new InvalidArgumentError("Expected whole numbers from 0 to 255 separated by commas");
 }
 
+/** A number from 0 on. */
 export function notNegative(text: string): number {
   const number = finite(text);
   if (number >= 0) return number;
   throw new InvalidArgumentError("Expected a number from 0 on");
 }
 
+/** Numbers separated by commas. */
 export function numbers(text: string): number[] {
   return text.split(",").map(finite);
 }
 
+/** Two numbers separated by a comma, in whatever order. */
 export function valueRange(text: string): [number, number] {
   const [first, second, ...more] = numbers(text);
   if (first !== undefined && second !== undefined && more.length === 0) return [first, second];
@@ -45,6 +51,7 @@ export function valueRange(text: string): [number, number] {
 /** Kinds of returns of a pulse. */
 const RETURNS = ["first", "last", "intermediate", "single"] as const;
 
+/** Kinds of returns, separated by commas. */
 export function returnKinds(text: string): (typeof RETURNS)[number][] {
   return text.split(",").map((word) => {
     const found = RETURNS.find((kind) => kind === word.trim().toLowerCase());
@@ -69,6 +76,7 @@ export function attributeRanges(text: string, before: readonly AttributeRange[] 
 /** Files that are made of each cross-section. */
 const SECTION_FORMATS = ["las", "laz", "csv", "geojson", "dxf", "svg", "pdf"] as const;
 
+/** Formats of the files of a section, separated by commas. */
 export function sectionFormats(text: string): (typeof SECTION_FORMATS)[number][] {
   return text.split(",").map((word) => {
     const found = SECTION_FORMATS.find((format) => format === word.trim().toLowerCase());
@@ -85,12 +93,14 @@ export function statistic(text: string): "min" | "max" | "mean" | number {
   throw new InvalidArgumentError("Expected min, max, mean, or a percentile from p0 to p100");
 }
 
+/** A number of threads from 1 to 1024. */
 export function threadCount(text: string): number {
   const number = Number(text);
   if (Number.isInteger(number) && number >= 1 && number <= 1024) return number;
   throw new InvalidArgumentError("Expected a whole number from 1 to 1024");
 }
 
+/** A port from 0 to 65535. */
 export function portNumber(text: string): number {
   const number = Number(text);
   if (Number.isInteger(number) && number >= 0 && number <= 65535) return number;

@@ -38,6 +38,7 @@ export function gpsSpan(
   };
 }
 
+/** As `groma info` prints it: dates where they can be known, else seconds and what is wrong with them. */
 export function gpsSpanInWords({ kind, min, max, from, to }: GpsSpan): string {
   if (from !== null && to !== null) return `${from.replace("T", " ")} … ${to.replace("T", " ")} GPS time`;
   const range = `${Number(min.toFixed(6))} … ${Number(max.toFixed(6))} s`;

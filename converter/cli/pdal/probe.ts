@@ -31,6 +31,7 @@ export interface Probe {
   readonly stored?: Stored | undefined;
 }
 
+/** How coordinates are stored, source units per axis: coordinate = integer · scale + offset. */
 export interface Stored {
   readonly scale: readonly [number, number, number];
   readonly offset: readonly [number, number, number];

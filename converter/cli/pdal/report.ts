@@ -21,6 +21,7 @@ export interface PdalReport {
   readonly tempBytes: number;
 }
 
+/** What has to be known of inputs that PDAL read. */
 export function pdalReport({ version }: Pdal, { probe, form, bytes }: Planned): PdalReport {
   const { points, readers, streamed, job } = probe;
   const { scale, offset, asStored, rounded } = form;

@@ -21,6 +21,7 @@ export interface EngineChoice {
   readonly grids?: string | undefined;
 }
 
+/** What an engine has to know besides the data set. */
 export interface EngineSurroundings {
   /** The CRS in the user's own words. */
   readonly text?: string | undefined;

@@ -19,6 +19,7 @@ import { pipelineWords } from "./step-text.js";
 
 const ARC_SECOND = Math.PI / 648_000;
 
+/** What a transformation is assembled for. */
 export interface AssembleOptions {
   readonly domain: Domain;
   /** Metres. */

@@ -138,6 +138,7 @@ export interface PassedOver {
   readonly why: string;
 }
 
+/** The operation that is taken, with what of its grids the data set needs. */
 export interface Choice {
   readonly candidate: Candidate;
   readonly windows: readonly GridWindow[];

@@ -22,6 +22,7 @@ const CHECKED_POINTS = 500;
 /** Metres. */
 const DIFFERENCE_MAX = 1e-4;
 
+/** How far a transformation is from PROJ. */
 export interface CheckResult {
   /** Points that have a place, all of them compared. */
   readonly checkedPoints: number;

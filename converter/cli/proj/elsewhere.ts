@@ -24,6 +24,7 @@ export interface PointByPoint {
   readonly farthest?: Farthest | undefined;
 }
 
+/** The other way that leads farthest from the one that was chosen. */
 export interface Farthest {
   readonly operation: string;
   /** Greatest distance between the two ways, metres. */

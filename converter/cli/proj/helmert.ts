@@ -7,6 +7,7 @@ export interface LinearMap {
   readonly matrix: readonly number[];
 }
 
+/** The map that moves nothing. */
 export const IDENTITY: LinearMap = { translation: [0, 0, 0], matrix: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
 
 const ARC_SECOND = Math.PI / 648_000;
@@ -78,6 +79,7 @@ export function compose(first: LinearMap, second: LinearMap): LinearMap {
   return { translation: [x + moved[0], y + moved[1], z + moved[2]], matrix };
 }
 
+/** Whether a map moves nothing. */
 export function isIdentity({ translation, matrix }: LinearMap): boolean {
   return translation.every((t) => t === 0) && matrix.every((value, i) => value === IDENTITY.matrix[i]);
 }

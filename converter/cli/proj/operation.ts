@@ -28,6 +28,7 @@ export interface DegreeBox {
   readonly north: number;
 }
 
+/** Which operations are listed. */
 export interface ListOptions {
   /** Where the data are; operations for elsewhere are left out. */
   readonly box?: DegreeBox | undefined;

@@ -43,6 +43,7 @@ export interface EngineResult {
   readonly report: EngineReport;
 }
 
+/** What every engine is asked with. */
 export interface EngineOptions {
   /** Metres that the fit of the projection may be off. */
   readonly tolerance?: number | undefined;
@@ -51,4 +52,5 @@ export interface EngineOptions {
   readonly signal?: AbortSignal | undefined;
 }
 
+/** Told wherever nobody has named a height reference. */
 export const UNKNOWN_HEIGHT_NOTE = "height reference unknown: z is taken for the ellipsoidal height";

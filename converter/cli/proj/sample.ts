@@ -33,6 +33,7 @@ type Place = readonly [longitude: number, latitude: number, height: number];
 /** Shifts at the nodes of a raster, {@link raster}: of longitude and latitude (radians) and of height (metres). */
 type Channels = [east: Float32Array, north: Float32Array, up: Float32Array];
 
+/** Steps of PROJ's as shifts on a raster. */
 export interface Sampled {
   readonly steps: readonly ShiftStep[];
   /** Metres: how far points between the nodes were found from PROJ. */

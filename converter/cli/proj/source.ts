@@ -178,6 +178,7 @@ export interface ProjJson {
   readonly id?: { readonly authority?: string; readonly code?: number };
 }
 
+/** An axis of PROJJSON. */
 export interface ProjAxis {
   /** `up`, `down`, `north` … */
   readonly direction?: string;

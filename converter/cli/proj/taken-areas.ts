@@ -17,6 +17,7 @@ export interface TakenAreas {
   readonly areas: readonly Rectangle[];
 }
 
+/** Whether a place lies in a rectangle, its edges included; source units. */
 export function holds({ minX, minY, maxX, maxY }: Rectangle, x: number, y: number): boolean {
   return x >= minX && x <= maxX && y >= minY && y <= maxY;
 }

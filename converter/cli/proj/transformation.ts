@@ -40,6 +40,7 @@ import type { Proj } from "./program/find.js";
 import { type EngineOptions, type EngineResult, type Lacking, UNKNOWN_HEIGHT_NOTE } from "./report.js";
 import { type SourceTexts, sourceTexts } from "./source.js";
 
+/** What PROJ is asked for a transformation with. */
 export interface ProjTransformationOptions extends EngineOptions {
   /** The CRS in the user's own words, where they say more than what was read from them: a PROJ string above all. */
   readonly text?: string | undefined;

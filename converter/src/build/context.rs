@@ -65,6 +65,7 @@ pub enum Pending {
 }
 
 impl Pending {
+    /// A leaf's points.
     pub fn of_cells(cells: Vec<Cell>) -> Self {
         Self::Cells(cells)
     }
@@ -222,6 +223,7 @@ impl<'a> Context<'a> {
         records.chunks_exact(self.inputs.length).map(|record| locator.code(record)).collect()
     }
 
+    /// Makes the root of what its children left to it, once all of them have chosen.
     pub fn finish_root(&self, arranger: &mut Arranger) -> Result<()> {
         let Batch { records, .. } = self.take(Key::ROOT)?;
         let codes = self.codes(&records);
@@ -252,6 +254,7 @@ impl<'a> Context<'a> {
         Error::output_write(Path::new("LAZ"), error)
     }
 
+    /// All nodes that were added, in no order.
     pub fn into_nodes(self) -> Vec<Node> {
         self.nodes.into_inner().unwrap_or_else(PoisonError::into_inner)
     }

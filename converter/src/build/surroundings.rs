@@ -37,6 +37,7 @@ impl Surroundings {
         Ok(())
     }
 
+    /// What was seen last, as a sample takes it.
     pub fn around(&self) -> Around<'_> {
         Around { chosen: &self.chosen, rivals: &self.rivals, unknown: self.unknown }
     }

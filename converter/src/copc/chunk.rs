@@ -13,6 +13,7 @@ pub fn parameters(point_format: u8, extra: u16) -> laz::Result<LazVlr> {
 pub struct Compressor(LayeredPointRecordCompressor<'static, Cursor<Vec<u8>>>);
 
 impl Compressor {
+    /// An empty chunk, compressed as the record says.
     pub fn new(vlr: &LazVlr) -> laz::Result<Self> {
         let mut compressor = LayeredPointRecordCompressor::new(Cursor::new(Vec::new()));
         compressor.set_fields_from(vlr.items())?;
@@ -24,6 +25,7 @@ impl Compressor {
         Ok(self.0.compress_many(records)?)
     }
 
+    /// The bytes of the chunk.
     pub fn finish(mut self) -> laz::Result<Vec<u8>> {
         self.0.done()?;
         Ok(self.0.into_inner().into_inner())

@@ -96,6 +96,7 @@ impl Cell {
 pub struct Cells(HashMap<Key, Cell>);
 
 impl Cells {
+    /// Appends records of `length` bytes to a cell; `codes` are their least and greatest Morton code.
     pub fn append(&mut self, key: Key, records: &[u8], length: usize, codes: (u64, u64), store: &Store) {
         self.0.entry(key).or_default().append(records, length, codes, store);
     }
@@ -130,6 +131,7 @@ impl Cells {
         self.0.extract_if(|_, cell| cell.points > most && cell.codes.0 != cell.codes.1).collect()
     }
 
+    /// The cells, in no order.
     pub fn into_cells(self) -> impl Iterator<Item = (Key, Cell)> {
         self.0.into_iter()
     }

@@ -30,6 +30,7 @@ struct Waiting<T> {
 }
 
 impl<T, F: FnMut(T) -> Result<()>> OrderedParts<T, F> {
+    /// A queue of parts whose results `sink` gets, in the order of the parts.
     pub fn new(parts: usize, most_waiting: usize, sink: F) -> Self {
         let state = State { claimed: 0, turn: 0, waiting: BTreeMap::new(), count: 0, failure: None, sink };
         Self { parts, most_waiting, state: Mutex::new(state), moved: Condvar::new() }

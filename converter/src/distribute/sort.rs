@@ -39,6 +39,7 @@ pub struct Sorter {
 }
 
 impl Sorter {
+    /// Sorts records of `length` bytes, all of which lie in the node of the target.
     pub fn sort(&mut self, records: &[u8], length: usize, target: &Target) -> Sorted {
         let shift = 3 * (BITS - target.to);
         let mask = (1u64 << (3 * (target.to - target.from))) - 1;

@@ -41,6 +41,7 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// For records of so many bytes.
     pub fn of(record_length: usize) -> Self {
         let length = record_length.max(1) as u64;
         let node = (NODE_BYTES / length).clamp(64, NODE_POINTS);

@@ -30,10 +30,12 @@ impl Mapping {
         Some(Self { source, target, source_length: record_length.into(), extra: extra.into() })
     }
 
+    /// The format that records become.
     pub fn target(&self) -> Target {
         self.target
     }
 
+    /// Bytes of a record of the input.
     pub fn source_length(&self) -> usize {
         self.source_length
     }

@@ -3,6 +3,7 @@
 use super::lattice::EMPTY;
 use super::{Cell, Scratch};
 
+/// Numbers of the candidates that are chosen, rising. Positions are in source units.
 pub fn choose(cell: &Cell, candidates: &[[f64; 3]], scratch: &mut Scratch) -> Vec<u32> {
     let lattice = &mut scratch.lattice;
     lattice.lay(cell.side / cell.spacing);

@@ -11,6 +11,7 @@ use super::{Around, Cell, Scratch};
 /// much, and with more too little.
 const WIDEST: f64 = 1.15;
 
+/// Numbers of the candidates that are chosen, rising. Positions are in source units; `seed` orders the candidates.
 pub fn choose(
     cell: &Cell,
     candidates: &[[f64; 3]],

@@ -24,6 +24,7 @@ pub struct Rim {
 }
 
 impl Rim {
+    /// Finds them for a node's candidates, whose seeds stand at the same indices.
     pub fn find(&mut self, cell: &Cell, candidates: &[[f64; 3]], seed: &[u64], around: Around) {
         self.rivals.clear();
         self.candidates.clear();

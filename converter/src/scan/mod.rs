@@ -83,6 +83,7 @@ impl Scan {
         self.vlrs.iter().chain(&self.evlrs)
     }
 
+    /// The first record of these ids.
     pub fn record(&self, user_id: &str, record_id: u16) -> Option<&VariableRecord> {
         self.records().find(|record| record.is(user_id, record_id))
     }

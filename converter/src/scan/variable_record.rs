@@ -48,10 +48,12 @@ impl VariableRecord {
         self.user_id[..end].is_ascii()
     }
 
+    /// Whether it is the record of these ids.
     pub fn is(&self, user_id: &str, record_id: u16) -> bool {
         self.record_id == record_id && text(&self.user_id) == user_id
     }
 
+    /// Its user id as text.
     pub fn user(&self) -> String {
         text(&self.user_id)
     }

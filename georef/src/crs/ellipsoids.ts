@@ -42,6 +42,7 @@ const TABLE: readonly (readonly [code: number, proj: string, figure: Figure])[] 
   [1025, "GSK2011", { a: 6378136.5, rf: 298.2564151 }],
 ];
 
+/** Figure of an ellipsoid by its EPSG code (70xx). */
 export function ellipsoidByCode(code: number): Figure | undefined {
   return TABLE.find((row) => row[0] === code)?.[2];
 }

@@ -3,6 +3,7 @@ import { unknown } from "./refusal.js";
 
 /** A node of WKT: keyword, then strings (quoted or not), numbers and nodes. */
 export type WktNode = readonly [keyword: string, ...content: WktItem[]];
+/** What stands between the brackets of a node. */
 export type WktItem = string | number | WktNode;
 
 /**
@@ -31,6 +32,7 @@ export function excerpt(text: string): string {
   return line.length > 40 ? `${line.slice(0, 40)}…` : line;
 }
 
+/** Whether an item is a node, and not a text or a number. */
 export function isNode(item: WktItem | undefined): item is WktNode {
   return typeof item === "object";
 }

@@ -1,13 +1,17 @@
 import type { Unit } from "./crs.js";
 import { unknown } from "./refusal.js";
 
+/** The metre (EPSG:9001). */
 export const METRE: Unit = { name: "metre", kind: "linear", size: 1 };
 /** International foot, exactly 0.3048 m (EPSG:9002). */
 export const FOOT: Unit = { name: "foot", kind: "linear", size: 0.3048 };
 /** US survey foot, exactly 1200/3937 m (EPSG:9003); 1.2 m apart from the international one at two million feet. */
 const US_SURVEY_FOOT: Unit = { name: "US survey foot", kind: "linear", size: 1200 / 3937 };
+/** The degree (EPSG:9102). */
 export const DEGREE: Unit = { name: "degree", kind: "angular", size: Math.PI / 180 };
+/** The radian (EPSG:9101). */
 export const RADIAN: Unit = { name: "radian", kind: "angular", size: 1 };
+/** The grad or gon, 400 to a turn (EPSG:9105). */
 export const GRAD: Unit = { name: "grad", kind: "angular", size: Math.PI / 200 };
 
 /** EPSG unit codes as they stand in GeoTIFF keys and in WKT. */
@@ -41,10 +45,12 @@ const BY_PROJ_NAME: ReadonlyMap<string, Unit> = new Map([
   ["yd", { name: "yard", kind: "linear", size: 0.9144 }],
 ]);
 
+/** A unit by its EPSG code. */
 export function unitByCode(code: number): Unit | undefined {
   return BY_CODE.get(code);
 }
 
+/** A unit by its name in PROJ strings (`us-ft`). */
 export function unitByProjName(name: string): Unit | undefined {
   return BY_PROJ_NAME.get(name);
 }

@@ -4,6 +4,7 @@ import { Refusal } from "./refusal.js";
 import { child, children, epsgCode, number, parseWkt, text, type WktNode } from "./tree.js";
 import { directed, METRE, unitOf } from "./units.js";
 
+/** Keywords of a vertical CRS: WKT1, ESRI, WKT2 in short and in full. */
 export const VERTICAL = ["VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"];
 
 /** Datum type of WKT1 for heights above the ellipsoid (OGC 01-009). */

@@ -95,6 +95,7 @@ export function gridPlane(crs: Pick<Crs, "proj4" | "horizontalUnit">): GridPlane
   return { ellipsoid: figure, toGeodetic: inverseOf(projection, crs.horizontalUnit.size) };
 }
 
+/** A projection of proj4js. @throws CrsError CRS_UNSUPPORTED where it does not know the text */
 export function open(proj4String: string): Projection {
   let projection: Projection;
   try {

@@ -26,6 +26,7 @@ export function degrees(radians: number): number {
   return radians / DEGREE;
 }
 
+/** Radians of degrees. */
 export function radians(degrees: number): number {
   return degrees * DEGREE;
 }

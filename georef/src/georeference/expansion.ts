@@ -32,6 +32,7 @@ export interface Expansion {
  */
 const SMALLEST_EXTENT = 1e-12;
 
+/** The box of a domain by middle and half widths, source units; never without an extent. */
 export function boxOf(domain: Domain): Box {
   const middle = (from: number, to: number) => from + (to - from) / 2;
   const half = (from: number, to: number) =>

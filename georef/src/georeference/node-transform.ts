@@ -26,6 +26,7 @@ export interface NodeTransform {
   readonly truthBound: number;
 }
 
+/** What grids leave to be added to the smooth placement of a node. */
 export interface Correction {
   /** What is added to the smooth part, in axes of ECEF, as it is looked up in cells; small ones may be left out. */
   readonly remainders: readonly GridRemainder[];

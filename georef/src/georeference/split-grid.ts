@@ -20,6 +20,7 @@ export interface GridPart {
   finish(links: readonly Link[], shift: number): FinishedPart;
 }
 
+/** What one grid leaves of itself in a node. */
 export interface FinishedPart {
   /** Displacements along the axes of ECEF. */
   readonly remainder: GridRemainder;

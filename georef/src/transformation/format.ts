@@ -3,6 +3,7 @@ import type { HorizontalShiftStep, Step } from "./step.js";
 /** First four bytes of an encoded transformation: `GTRF`. */
 export const MAGIC = Uint8Array.of(0x47, 0x54, 0x52, 0x46);
 
+/** Of the bytes; a reader refuses any other. */
 export const VERSION = 1;
 
 /** Steps by their number in the file. Append only; {@link TURNED_PROJECTION} is and {@link CHOICE} are taken. */

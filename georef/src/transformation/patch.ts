@@ -29,6 +29,7 @@ function fraction(t: number): number {
   return 2 * (t - Math.floor(t)) - 1;
 }
 
+/** Places that a fit asks for in each rectangle: those it goes through, and those that check it. */
 export const SAMPLES_PER_PATCH = LINE.length ** 2 + CHECKS.length;
 
 /** x, y of the samples of all rectangles, in the order that {@link fitPatch} takes their places. */

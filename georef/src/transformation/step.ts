@@ -76,6 +76,7 @@ export interface GeocentricStep {
   readonly ellipsoid: EllipsoidAxes;
 }
 
+/** The figure of an ellipsoid. */
 export interface EllipsoidAxes {
   /** Semi-major axis, metres. */
   readonly a: number;

@@ -58,6 +58,7 @@ function isCollection(primitive: unknown): primitive is PrimitiveCollection {
   return typeof get === "function" && typeof length === "number";
 }
 
+/** A place or direction of Cesium's, same axes and units. */
 export function vectorOf({ x, y, z }: Cartesian3): Vector {
   return [x, y, z];
 }

@@ -22,6 +22,7 @@ export interface NodePlan {
   readonly radius: number;
 }
 
+/** The plan of a node, from its frame and the box of its points. */
 export function planOf({ frame, box }: ClipNode): NodePlan {
   const geodetic = new Float64Array(3);
   ecefToGeodetic(frame.origin[0], frame.origin[1], frame.origin[2], geodetic);

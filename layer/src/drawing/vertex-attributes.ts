@@ -23,6 +23,7 @@ export interface AttributeSet {
   readonly signature: string;
 }
 
+/** A set of attributes, with what tells it from others. */
 export function attributeSet(attributes: readonly AttributeDeclaration[]): AttributeSet {
   return { attributes, columns: attributes.map(({ column }) => column), signature: signatureOf(attributes) };
 }

@@ -15,6 +15,7 @@ export type VertexNumbers = keyof typeof ARRAYS;
 
 const NAMES = Object.keys(ARRAYS) as VertexNumbers[];
 
+/** Which numbers a column is made of. */
 export function numbersOf(data: ColumnData): VertexNumbers {
   return NAMES.find((name) => data instanceof ARRAYS[name]) ?? "float32";
 }

@@ -57,6 +57,7 @@ export interface Passes {
   readonly translucent: boolean;
 }
 
+/** The passes that the effects of a plan are drawn in. */
 export function passesOf(plan: Pick<EffectPlan, "active">): Passes {
   const effects = effectsOf(plan);
   const own = effects.map(({ pass }) => pass).find((pass) => typeof pass === "object");

@@ -50,6 +50,7 @@ function smallestHolder(images: readonly GridImage[], image: Lattice): GridImage
   return undefined;
 }
 
+/** Bounds of the nodes of a grid, radians. */
 export function boundsOf({ west, south, stepLongitude, stepLatitude, columns, rows }: Lattice): Bounds {
   return {
     west,

@@ -16,6 +16,7 @@ export interface Proj {
   readonly directories: readonly string[];
 }
 
+/** Where PROJ is looked for. */
 export interface FindOptions {
   /** Folder of the programs; otherwise GROMA_PROJ names it, or they are looked for. */
   readonly folder?: string | undefined;

@@ -8,6 +8,7 @@ export interface Outcome {
   readonly stderr: string;
 }
 
+/** What one of PROJ's programs is run with. */
 export interface RunOptions {
   readonly environment?: NodeJS.ProcessEnv | undefined;
   /** Written to the program's standard input. */

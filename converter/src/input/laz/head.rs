@@ -14,6 +14,7 @@ pub struct ChunkHead {
 }
 
 impl ChunkHead {
+    /// Reads it from where `source` stands, for the items of a LASzip record.
     pub fn read(source: &mut impl Read, vlr: &LazVlr) -> std::io::Result<Self> {
         let layers: usize = vlr.items().iter().map(|item| layers_of(item.item_type())).sum();
         let record: usize = vlr.items().iter().map(|item| usize::from(item.size())).sum();

@@ -10,6 +10,7 @@ export interface Blend {
   readonly share: number;
 }
 
+/** The option of the effect `blend`. */
 export interface BlendStyle {
   /** A second colouring mixed in with the share given. Default: none. */
   readonly blend: Blend | undefined;

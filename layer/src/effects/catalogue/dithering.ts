@@ -7,6 +7,7 @@ import type { Effect } from "../declaration/effect.js";
 import { option } from "../declaration/option.js";
 import type { EyeDomeStyle } from "./eye-dome-lighting.js";
 
+/** The option of the effect `dithering`. */
 export interface DitheringStyle {
   /** Breaks up bands of 8-bit colour by noise of half a step. Default: false. */
   readonly dithering: boolean;

@@ -3,6 +3,7 @@ import type { Effect } from "../declaration/effect.js";
 import { option } from "../declaration/option.js";
 import { overlapBeside, type SizeStyle } from "../declaration/points.js";
 
+/** The option of the effect `fixedSize`. */
 export interface FixedSizeStyle {
   /** Width of a point where the size is fixed, CSS pixels, 1 to 64. Default: 2. */
   readonly pointSize: number;

@@ -11,6 +11,7 @@ export interface Highlight {
   readonly share: number;
 }
 
+/** The option of the effect `highlight`. */
 export interface HighlightStyle {
   /** Colour, and its share, of points inside volumes that highlight. Default: red, 0.6. */
   readonly highlight: Highlight;

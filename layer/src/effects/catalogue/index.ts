@@ -85,4 +85,5 @@ export type AnyEffect = Effect<{
 /** All effects, in the order in which they stand in a program and in the ledger. */
 export const EFFECTS: readonly AnyEffect[] = CATALOGUE;
 
+/** Names of all effects, in the order of the ledger. */
 export const EFFECT_NAMES: readonly EffectName[] = EFFECTS.map(({ name }) => name);

@@ -3,6 +3,7 @@ import { LEAST_SHARE } from "../declaration/colouring.js";
 import type { Effect } from "../declaration/effect.js";
 import { option } from "../declaration/option.js";
 
+/** The option of the effect `opacity`. */
 export interface OpacityStyle {
   /** Of the cloud as a whole; 0 to 1. Default: 1. */
   readonly opacity: number;

@@ -3,6 +3,7 @@ import type { Effect } from "../declaration/effect.js";
 import { onOffOrAuto, option } from "../declaration/option.js";
 import { DISC, PIXELS_PER_METRE } from "../declaration/points.js";
 
+/** The options of the effect `splats`. */
 export interface SplatStyle {
   /** Blends overlapping points in three passes (thesis, 4.2.2); `auto`: where they overlap by 3 px. Default: false. */
   readonly splats: boolean | "auto";

@@ -9,6 +9,7 @@ export interface GradientStop {
   readonly color: readonly [number, number, number];
 }
 
+/** Gradients that there are; see `GRADIENTS` for where they are from. */
 export type GradientName = "viridis" | "cividis" | "turbo" | "spectral" | "greyscale" | "terrain";
 
 /** Equally spaced colours as hexadecimal numbers. */
@@ -46,6 +47,7 @@ export const GRADIENTS: Readonly<Record<GradientName, readonly GradientStop[]>> 
   terrain: even(0x2f6b4f, 0x6f9a4f, 0xc2b36b, 0xa97a4c, 0xd8cfc4, 0xffffff),
 });
 
+/** Their names. */
 export const GRADIENT_NAMES = Object.keys(GRADIENTS) as readonly GradientName[];
 
 /** A gradient's colour at a place, sRGB; beyond its ends the colour there. */

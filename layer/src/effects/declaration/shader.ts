@@ -1,6 +1,7 @@
 /** What is drawn: the picture, its depth alone, weighted colours to be blended, or the number of each point. */
 export type PointPass = "color" | "depth" | "splat" | "id";
 
+/** Types of GLSL that uniforms have. */
 export type UniformType = "float" | "int" | "vec2" | "vec3" | "vec4" | "mat4" | "sampler2D";
 
 /** A uniform and who fills it: the effects (for all nodes or for one), or whoever draws. */

@@ -8,6 +8,7 @@ export interface Sheet {
   readonly texts: readonly SheetText[];
 }
 
+/** A line through places of the sheet, millimetres. */
 export interface SheetLine {
   readonly places: readonly (readonly [x: number, y: number])[];
   /** Width of the line, millimetres. */
@@ -15,6 +16,7 @@ export interface SheetLine {
   readonly colour: Colour;
 }
 
+/** A line of text at a place of the sheet, millimetres. */
 export interface SheetText {
   readonly text: string;
   readonly x: number;
@@ -34,6 +36,7 @@ export interface Pixels {
   readonly data: Uint8Array;
 }
 
+/** A picture on the sheet. */
 export interface SheetImage extends Pixels {
   /** Lower left corner and size, millimetres. */
   readonly x: number;

@@ -13,6 +13,7 @@ import { volumeSettingsOf } from "../measure/measurement/volume-settings.js";
 import type { MeasurementChange } from "./history.js";
 import type { MeasureWords } from "./words.js";
 
+/** Options of a `MeasureTool`. */
 export interface MeasureToolOptions extends WorthOptions, Pick<ReadingOptions, "terrain" | "createWorker"> {
   /** How labels are written. Default: metres and degrees, in the reader's language. */
   readonly units?: MeasureUnits | undefined;

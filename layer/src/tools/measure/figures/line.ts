@@ -14,6 +14,7 @@ export interface Line {
   readonly geodesic: Geodesic;
 }
 
+/** The straight line and the geodesic between two vertices. */
 export function lineOf(a: Vertex, b: Vertex): Line {
   const [dx, dy, dz] = [b.ecef[0] - a.ecef[0], b.ecef[1] - a.ecef[1], b.ecef[2] - a.ecef[2]];
   const geodesic = geodesicBetween(a.longitude, a.latitude, b.longitude, b.latitude);
@@ -121,6 +122,7 @@ export function isOneFoot({ geodesic }: Line): boolean {
   return geodesic.distance < NO_LENGTH;
 }
 
+/** A vector times a factor. */
 export function scaled([x, y, z]: Vector, factor: number): Vector {
   return [x * factor, y * factor, z * factor];
 }

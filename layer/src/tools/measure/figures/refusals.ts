@@ -10,6 +10,7 @@ export function tooFew(figure: string, needed: number, given: number): MeasureEr
   });
 }
 
+/** The error for a figure of more vertices than it has. */
 export function tooMany(figure: string, most: number, given: number): MeasureError {
   return new MeasureError({
     code: "MEASURE_VERTICES",
@@ -19,6 +20,7 @@ export function tooMany(figure: string, most: number, given: number): MeasureErr
   });
 }
 
+/** The error for vertices that stand on each other. */
 export function coincident(figure: string, cause: string): MeasureError {
   return new MeasureError({
     code: "MEASURE_COINCIDENT",
@@ -28,6 +30,7 @@ export function coincident(figure: string, cause: string): MeasureError {
   });
 }
 
+/** The error for vertices on a line. */
 export function collinear(figure: string): MeasureError {
   return new MeasureError({
     code: "MEASURE_COLLINEAR",

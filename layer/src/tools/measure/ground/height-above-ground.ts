@@ -9,6 +9,7 @@ import type { MeasuredCloud, Vertex } from "../vertex/vertex.js";
 import type { WorthOptions } from "../worth/point-errors.js";
 import { type Quantity, quantity } from "../worth/quantity.js";
 
+/** Which points are the ground around a vertex. */
 export interface GroundOptions extends WorthOptions {
   /** Metres around the vertex in which points of the ground count. Default: 3, and where a roof hides these 9, then 27. */
   readonly radius?: number | undefined;

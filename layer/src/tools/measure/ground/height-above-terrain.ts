@@ -17,6 +17,7 @@ export interface Terrain {
   heightAt(longitude: number, latitude: number, signal?: AbortSignal): Promise<number | undefined>;
 }
 
+/** Options of {@link measureHeightAboveTerrain}. */
 export interface AboveTerrainOptions extends WorthOptions {
   /** Stops it; what is asked for ends with the signal's reason. */
   readonly signal?: AbortSignal | undefined;

@@ -40,6 +40,7 @@ export interface SavedVertex {
   readonly integers?: readonly [number, number, number];
 }
 
+/** A value as it is saved, with what it is worth; in its unit. */
 export interface SavedValue {
   readonly name: string;
   readonly value: number;

@@ -13,6 +13,7 @@ export type Geometry =
 
 const DEGREE = Math.PI / 180;
 
+/** A position of GeoJSON: longitude and latitude in degrees, height above WGS 84 in metres. */
 export function positionOf({ longitude, latitude, height }: Vertex): Position {
   return [longitude / DEGREE, latitude / DEGREE, height];
 }

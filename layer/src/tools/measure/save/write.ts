@@ -17,6 +17,7 @@ import {
 } from "./document.js";
 import { geometryOf, positionOf } from "./geometry.js";
 
+/** How measurements are saved. */
 export interface SaveOptions extends WorthOptions {
   /** Values of a measurement, those that were read among them: `tool.valuesOf`. Default: those that need no reading. */
   readonly valuesOf?: ((measurement: Measurement) => readonly NamedValue[]) | undefined;

@@ -10,6 +10,7 @@ const FOOT = 0.3048;
 const US_SURVEY_FOOT = 1200 / 3937;
 const MILE = 5280 * FOOT;
 
+/** Units of length, with their size in metres. */
 export const LENGTHS = {
   metres: { symbol: "m", size: 1 },
   kilometres: { symbol: "km", size: 1000 },
@@ -23,6 +24,7 @@ export const LENGTHS = {
   nauticalMiles: { symbol: "nmi", size: 1852 },
 } as const satisfies Record<string, UnitEntry>;
 
+/** Units of area, with their size in square metres. */
 export const AREAS = {
   squareMetres: { symbol: "m²", size: 1 },
   hectares: { symbol: "ha", size: 10_000 },
@@ -36,6 +38,7 @@ export const AREAS = {
   squareMiles: { symbol: "mi²", size: MILE ** 2 },
 } as const satisfies Record<string, UnitEntry>;
 
+/** Units of volume, with their size in cubic metres. */
 export const VOLUMES = {
   cubicMetres: { symbol: "m³", size: 1 },
   litres: { symbol: "l", size: 0.001 },
@@ -45,14 +48,18 @@ export const VOLUMES = {
   acreFeet: { symbol: "ac⋅ft", size: 43_560 * FOOT ** 3 },
 } as const satisfies Record<string, UnitEntry>;
 
+/** Units of angle, with their size in radians. */
 export const ANGLES = {
   degrees: { symbol: "°", size: Math.PI / 180 },
   gon: { symbol: "gon", size: Math.PI / 200 },
   radians: { symbol: "rad", size: 1 },
 } as const satisfies Record<string, UnitEntry>;
 
+/** Names of units of length. */
 export type LengthUnit = keyof typeof LENGTHS;
+/** Names of units of area. */
 export type AreaUnit = keyof typeof AREAS;
+/** Names of units of volume. */
 export type VolumeUnit = keyof typeof VOLUMES;
 /** `dms`: degrees, minutes and seconds. */
 export type AngleUnit = keyof typeof ANGLES | "dms";

@@ -41,6 +41,7 @@ export function heldAgainst(
   return { above };
 }
 
+/** The error for points that make no surface. */
 export function noSurface(): MeasureError {
   return new MeasureError({
     code: "MEASURE_SURFACE",

@@ -11,12 +11,14 @@ export function checkBase(base: VolumeBase): void {
   if (!isPlainBase(base)) throw noBase(base, [...BASES, "surface"]);
 }
 
+/** Whether it is a base that needs no other data set, with a height where it takes one. */
 export function isPlainBase(base: unknown): boolean {
   if (typeof base !== "object" || base === null || !("kind" in base)) return false;
   if (base.kind === "height") return "height" in base && Number.isFinite(base.height);
   return BASES.includes(base.kind as string);
 }
 
+/** The error for what is no base. */
 export function noBase(base: unknown, valid: readonly string[]): MeasureError {
   const kind = typeof base === "object" && base !== null && "kind" in base ? base.kind : base;
   const isHeight = kind === "height";

@@ -10,6 +10,7 @@ import type { VolumeWorker } from "./in-worker.js";
 /** A data set whose points can be asked for; a `PointCloud` is one. */
 export type VolumeCloud = MeasuredCloud & PointOrigin;
 
+/** What a volume is measured against, and how. */
 export interface VolumeOptions extends WorthOptions {
   /** Default: `lowest`. Heights are metres in the data set's own height system. */
   readonly base?:

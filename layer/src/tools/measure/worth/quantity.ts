@@ -45,6 +45,7 @@ export interface OwnError {
   readonly note?: string;
 }
 
+/** What is known of a value besides its derivatives. */
 export interface QuantityOptions extends WorthOptions {
   /** The value is formed of recorded coordinates: errors of the place derived from them have no part in it. */
   readonly ofRecords?: boolean;
