@@ -61,8 +61,13 @@ describe("docs/manual/error-codes.md", () => {
     .filter((row) => row.startsWith("| `"));
   const listed = rows.flatMap((row) => row.split(" | ")[0]!.match(/(?<=`)[A-Z0-9_]+(?=`)/g) ?? []);
 
+  const families = [...read("errors.md").matchAll(/`([A-Z]+)_`/g)].map(([, family]) => family!);
+
+  it("has codes of every family that errors.md names", () => {
+    expect(families.filter((family) => !listed.some((code) => code.startsWith(`${family}_`)))).toEqual([]);
+  });
+
   it("lists every code that the sources have, once, and no other", () => {
-    const families = [...read("errors.md").matchAll(/`([A-Z]+)_`/g)].map(([, family]) => family!);
     // Those that are put together of two parts.
     const composed = ["EMPTY", "NOT_FOUND", "SYNTAX"].map((end) => `CONTROL_${end}`);
     const codes = new Set([...codesOf(sources(), families), ...composed, "INTERNAL", "INTERRUPTED"]);
