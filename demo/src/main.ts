@@ -6,10 +6,11 @@ import "./panel/clouds.css";
 import "./panel/fields.css";
 import "./panel/measuring.css";
 import "./profile/profile.css";
-import { type PointCloud, type PointCloudLayer, SharedBudget } from "@groma/layer/cesium";
+import { type PointCloud, SharedBudget } from "@groma/layer/cesium";
 import { PointNavigation } from "@groma/layer/navigation";
 import { Cartesian3, type Viewer } from "cesium";
 import { cloudAddress, type PageOptions, readPageOptions } from "./address.js";
+import { ChosenCloud } from "./chosen-cloud.js";
 import { CloudOpener } from "./cloud-opener.js";
 import { Clouds, type OpenCloud } from "./clouds/clouds.js";
 import type { OpenOptions } from "./clouds/open-layer.js";
@@ -25,14 +26,12 @@ import { Drawing } from "./panel/drawing.js";
 import { DrawingHint } from "./panel/drawing-hint.js";
 import { byId } from "./panel/elements.js";
 import { ExportPoints } from "./panel/export-points.js";
-import { clearTitle, showFacts } from "./panel/facts.js";
 import { tellUncaught } from "./panel/failures.js";
-import { connectFold, foldIfNarrow, freeArea } from "./panel/fold.js";
+import { connectFold, foldIfNarrow } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
 import { connectLanguage } from "./panel/language-choice.js";
 import { Ledger } from "./panel/ledger.js";
 import { connectLook } from "./panel/look.js";
-import { madeOctree } from "./panel/made-octree.js";
 import { Measuring } from "./panel/measuring.js";
 import { Message } from "./panel/message.js";
 import { Moving } from "./panel/moving.js";
@@ -42,12 +41,13 @@ import { Share } from "./panel/share.js";
 import { COLOUR_BY, STYLE_GROUPS } from "./panel/style-fields.js";
 import { VIEW_GROUPS } from "./panel/view-fields.js";
 import { ProfilePanel } from "./profile/profile-panel.js";
-import { type Aspect, type Flight, goToCloud, goToPlaces, goToView } from "./scene/camera.js";
+import type { Flight } from "./scene/camera.js";
 import { ClipBox } from "./scene/clip-box.js";
 import { drawChanges } from "./scene/on-demand.js";
 import { Picking } from "./scene/picking.js";
 import { steadyCamera } from "./scene/steady-camera.js";
 import { Screenshot } from "./screenshot/screenshot.js";
+import { Travel } from "./travel.js";
 import { addBaseMap, addTerrain, createViewer, watchDrawing } from "./viewer.js";
 
 const message = new Message();
@@ -56,18 +56,18 @@ tellUncaught(message);
 /** The page once its globe stands. */
 function start(viewer: Viewer): void {
   let options: PageOptions = { clouds: [], fly: true };
-  /** The cloud that the panel was last told of. */
-  let told: PointCloudLayer | undefined;
+  const tell = (thrown: unknown) => message.show(thrown);
   // Bytes are shared by all clouds; each has points of its own, as the panel says.
   const budget = new SharedBudget({ points: Number.POSITIVE_INFINITY });
   const clouds = new Clouds(viewer.scene.primitives, () => follow());
+  const travel = new Travel(viewer, () => beside);
   const list = new CloudList({
     choose: (cloud) => {
       clouds.choose(cloud);
       followLayer();
       rememberClouds(clouds);
     },
-    goTo: ({ layer }) => void goToCloud(viewer, layer, flight("oblique", way("fly"))),
+    goTo: ({ layer }) => void travel.toCloud(layer, "oblique"),
     remove: (cloud) => {
       clouds.remove(cloud);
       followLayer();
@@ -77,42 +77,33 @@ function start(viewer: Viewer): void {
   const measuring = new Measuring(
     viewer,
     () => [...new Set([...(clouds.layer ? [clouds.layer] : []), ...clouds.layers])],
-    ({ vertices, note }) => {
-      if (note?.camera) goToView(viewer, note.camera, way("fly"));
-      else goToPlaces(viewer, vertices, way("fly"));
-      // A linked map comes along; moved for itself it would stop the globe's flight.
-      if (!beside.linked) void beside.view?.then((view) => view.goTo(vertices));
-    },
-    (thrown) => message.show(thrown),
+    (measurement) => travel.toMeasurement(measurement),
+    tell,
     (text) => cloudAddress(text, location.href),
   );
-  const beside = new Beside(
-    viewer,
-    (thrown) => message.show(thrown),
-    (view) => {
-      measuring.tool.addView(view.measured);
-      profile.addView(view.measured);
-    },
-  );
+  const beside = new Beside(viewer, tell, (view) => {
+    measuring.tool.addView(view.measured);
+    profile.addView(view.measured);
+  });
   const progress = new Progress(() => beside.statistics);
   const controls = new Controls((aspect) => {
-    if (clouds.layer) void goToCloud(viewer, clouds.layer, flight(aspect, way("fly")));
+    if (clouds.layer) void travel.toCloud(clouds.layer, aspect);
   });
   const box = new ClipBox();
   const groups = [...STYLE_GROUPS, ...VIEW_GROUPS, clipGroup(box)];
-  const drawing = new Drawing(COLOUR_BY, groups, (thrown) => message.show(thrown));
+  const drawing = new Drawing(COLOUR_BY, groups, tell);
   const classes = new Classes();
-  const exporting = new ExportPoints((thrown) => message.show(thrown));
+  const exporting = new ExportPoints(tell);
   const ledger = new Ledger(() => beside.ledger);
   const picked = new Picked();
   const profile = new ProfilePanel(viewer, () => clouds.layer, {
     // One tool at a time has the clicks.
     begins: () => measuring.tool.cancel(),
     picked: (cloud, node, record) => {
-      readHit(cloud, node, record).catch((thrown: unknown) => message.show(thrown));
+      readHit(cloud, node, record).catch(tell);
     },
     pointed: (place) => void beside.view?.then((view) => view.mark(place)),
-    failed: (thrown) => message.show(thrown),
+    failed: tell,
   });
   ledger.further = () => profile.ledger;
   measuring.tool.onChange(() => {
@@ -144,7 +135,7 @@ function start(viewer: Viewer): void {
       picked.show(hit);
       if (hit) box.moveTo(hit.position);
     },
-    (thrown) => message.show(thrown),
+    tell,
   );
   byId("unpick", HTMLButtonElement).addEventListener("click", () => picking.clear());
   const share = new Share(viewer, {
@@ -152,15 +143,19 @@ function start(viewer: Viewer): void {
     addressed: () => addressed(clouds).map(({ layer }) => layer),
     writeTo: (page) => nameIn(page, clouds),
   });
-  new Screenshot({ viewer, clouds, beside, tool: measuring.tool }, (thrown) => message.show(thrown));
+  new Screenshot({ viewer, clouds, beside, tool: measuring.tool }, tell);
   const heights = new Heights((vertical) => opener.reopen(vertical));
+  const chosen = new ChosenCloud({
+    ...{ heights, profile, progress, failed: tell },
+    others: [controls, box, drawing, classes, exporting, ledger],
+  });
   const chooser = new Chooser({
     files: (files, folders) => void opener.openChosen(files, folders),
     address: (text) => {
       try {
         void opener.openChosen([cloudAddress(text, location.href)]);
       } catch (thrown) {
-        message.show(thrown);
+        tell(thrown);
       }
     },
   });
@@ -183,19 +178,18 @@ function start(viewer: Viewer): void {
   connectLanguage(
     () => clouds.all.some(({ from }) => from instanceof File) || measuring.tool.measurements.length > 0,
   );
-  watchDrawing(viewer, (thrown) => message.show(thrown));
-  addBaseMap(viewer).catch((thrown: unknown) => message.show(thrown));
+  watchDrawing(viewer, tell);
+  addBaseMap(viewer).catch(tell);
   try {
     options = readPageOptions(location.href);
   } catch (thrown) {
-    message.show(thrown);
+    tell(thrown);
     chooser.alone = true;
     return;
   }
+  travel.flies = options.fly;
   if (!options.fly) navigation.flight = 0;
-  if (options.terrain) {
-    addTerrain(viewer, options.terrain).catch((thrown: unknown) => message.show(thrown));
-  }
+  if (options.terrain) addTerrain(viewer, options.terrain).catch(tell);
   if (options.shown) beside.show(options.shown, options.linked);
   chooser.alone = options.clouds.length === 0;
   void opener.openNamed(options.clouds, options.color);
@@ -219,22 +213,13 @@ function start(viewer: Viewer): void {
     };
   }
 
-  function way(wanted: Flight["way"]): Flight["way"] {
-    const still = !options.fly || beside.alone || matchMedia("(prefers-reduced-motion: reduce)").matches;
-    return still ? "jump" : wanted;
-  }
-
-  function flight(aspect: Aspect, by: Flight["way"]): Flight {
-    return { aspect, free: freeArea(), way: by };
-  }
-
   /** Chooses a cloud and takes the camera there. */
   async function goTo(cloud: OpenCloud, by: Flight["way"]): Promise<void> {
     clouds.choose(cloud);
     followProgress();
     chooser.fold();
     foldIfNarrow();
-    await goToCloud(viewer, cloud.layer, flight(beside.alone ? "above" : "oblique", way(by)));
+    await travel.toCloud(cloud.layer, beside.alone ? "above" : "oblique", by);
   }
 
   function followProgress(): void {
@@ -252,41 +237,17 @@ function start(viewer: Viewer): void {
   /** Has the page speak of the chosen cloud. */
   function follow(): void {
     list.show(clouds);
-    const { chosen } = clouds;
     chooser.alone = clouds.all.length + clouds.openings.length === 0;
     // What another cloud brings is told when it is there.
-    if (chosen?.layer !== told) {
-      told = chosen?.layer;
+    if (clouds.layer !== chosen.layer) {
       groma.layer = undefined;
       picking.clear();
-      if (chosen) attach(chosen);
-      else leave();
+      chosen.show(clouds.chosen);
     }
     measuring.attach();
-    beside.attach(clouds.layers, told);
-    profile.comparison.offer(clouds.layers.filter((layer) => layer !== told).map(({ cloud }) => cloud));
-  }
-
-  function attach({ layer, how, crs, indexed }: OpenCloud): void {
-    document.body.classList.add("has-cloud");
-    const octree = indexed && madeOctree(indexed, (thrown) => message.show(thrown));
-    showFacts(layer, { given: crs !== undefined, octree });
-    heights.attach(layer.cloud, how.vertical);
-    controls.attach(layer);
-    box.attach(layer);
-    drawing.attach(layer);
-    classes.attach(layer);
-    exporting.attach(layer);
-    ledger.attach(layer);
-    profile.open(layer);
-  }
-
-  /** No cloud is there any more. */
-  function leave(): void {
-    document.body.classList.remove("has-cloud");
-    clearTitle();
-    profile.leave();
-    progress.rest();
+    beside.attach(clouds.layers, chosen.layer);
+    const others = clouds.layers.filter((layer) => layer !== chosen.layer);
+    profile.comparison.offer(others.map(({ cloud }) => cloud));
   }
 }
 
