@@ -97,80 +97,133 @@ export async function pointByPoint(
   const listed = usable.some(isLast) ? await inOrder() : usable;
   const areasOfUse = await operationAreas(proj, source, { box, signal });
   const areaOf = new Map(operations.map((operation, i) => [operation, areasOfUse[i]]));
-  const { plan, places: own } = candidate;
-  const proposals = await proposalsOf(listed, areaOf);
+  const proposals = await proposalsOf(proj, candidate.plan, listed, areaOf, signal);
   if (!proposals) return undefined;
-  const points = spread(domain);
-  const total = points.length / 3;
-  // Points that no operation has placed as PROJ would, so far.
-  const open = new Set(Array.from({ length: total }, (_, i) => i));
-  const ways: TakenWay[] = [];
-  let farthest: Omit<Farthest, "share"> | undefined;
-  let beyond = false;
+  const taken = new TakenPoints(candidate, spread(domain));
+  const take = async (operation: Operation, areas: readonly Rectangle[]) => {
+    const inside = taken.openIn(areas);
+    if (inside.length === 0) return false;
+    const its =
+      taken.candidateOf(operation) ?? (await triedOrNone(proj, operation, domain, metresPerUnit, signal));
+    return its !== undefined && taken.take(its, inside, areas);
+  };
   for (const { operation, areas } of takenAreas(proposals, around(domain))) await take(operation, areas);
   // A point in no area goes by the first that needs no grid.
-  if (open.size > 0) {
+  if (taken.someOpen) {
     for (const operation of await inOrder()) {
       if (!/\+grids=/.test(operation.pipeline!) && (await take(operation, [around(domain)]))) break;
     }
   }
-  if (!farthest && !beyond) return undefined;
-  const elsewhere = ways.reduce((sum, way) => (way.candidate === candidate ? sum : sum + way.share), 0);
-  return { ways, ...(farthest && { farthest: { ...farthest, share: elsewhere } }) };
+  return taken.outcome;
+}
 
-  /** Takes an operation for the points in its areas that are open; says whether there were any. */
-  async function take(operation: Operation, areas: readonly Rectangle[]): Promise<boolean> {
-    const inside = [...open].filter((i) =>
+/** The points of a data set, and the operations that PROJ takes for them, one operation after the other. */
+class TakenPoints {
+  readonly #candidate: Candidate;
+  readonly #points: ArrayLike<number>;
+  readonly #total: number;
+  /** Points that no operation has placed as PROJ would, so far. */
+  readonly #open: Set<number>;
+  readonly #ways: TakenWay[] = [];
+  #farthest: Omit<Farthest, "share"> | undefined;
+  /** Whether a point has a place by one way and none by the other. */
+  #beyond = false;
+
+  /**
+   * @param candidate the way that was chosen for all of them
+   * @param points x, y, z of each, source units
+   */
+  constructor(candidate: Candidate, points: ArrayLike<number>) {
+    this.#candidate = candidate;
+    this.#points = points;
+    this.#total = points.length / 3;
+    this.#open = new Set(Array.from({ length: this.#total }, (_, i) => i));
+  }
+
+  /** Whether there are points that no operation has been taken for. */
+  get someOpen(): boolean {
+    return this.#open.size > 0;
+  }
+
+  /** Nothing where the chosen way is PROJ's everywhere, or all ways lead to the same places. */
+  get outcome(): PointByPoint | undefined {
+    const [ways, farthest] = [this.#ways, this.#farthest];
+    if (!farthest && !this.#beyond) return undefined;
+    const others = ways.filter((way) => way.candidate !== this.#candidate);
+    const share = others.reduce((sum, way) => sum + way.share, 0);
+    return { ways, ...(farthest && { farthest: { ...farthest, share } }) };
+  }
+
+  /** What is known of an operation already. */
+  candidateOf(operation: Operation): Candidate | undefined {
+    const known = [this.#candidate, ...this.#ways.map((way) => way.candidate)];
+    return known.find((one) => one.operation === operation);
+  }
+
+  /** Indices of the open points in some areas. */
+  openIn(areas: readonly Rectangle[]): number[] {
+    const points = this.#points;
+    return [...this.#open].filter((i) =>
       areas.some((area) => holds(area, points[3 * i]!, points[3 * i + 1]!)),
     );
-    if (inside.length === 0) return false;
-    const its = await candidateOf(operation);
-    if (!its) return false;
+  }
+
+  /** Takes a way for those of some open points that it has a place for; says whether there were any. */
+  take(its: Candidate, inside: readonly number[], areas: readonly Rectangle[]): boolean {
+    const own = this.#candidate.places;
     const placed = inside.filter((i) => Number.isFinite(its.places[3 * i]!));
     if (placed.length === 0) return false;
     for (const i of placed) {
-      open.delete(i);
+      this.#open.delete(i);
       const metres = Math.hypot(...[0, 1, 2].map((axis) => its.places[3 * i + axis]! - own[3 * i + axis]!));
-      const worth = metres + (operation.accuracy ?? 0);
-      beyond ||= Number.isNaN(metres);
-      if (!(metres > SAME) || worth <= (farthest?.worth ?? 0)) continue;
-      farthest = { operation: operation.name, metres, worth };
+      const worth = metres + (its.operation.accuracy ?? 0);
+      this.#beyond ||= Number.isNaN(metres);
+      if (!(metres > SAME) || worth <= (this.#farthest?.worth ?? 0)) continue;
+      this.#farthest = { operation: its.operation.name, metres, worth };
     }
-    ways.push({ candidate: its, areas, share: placed.length / total });
+    this.#ways.push({ candidate: its, areas, share: placed.length / this.#total });
     return true;
   }
+}
 
-  async function proposalsOf(
-    list: readonly Operation[],
-    areas: ReadonlyMap<Operation, AreaOfUse | undefined>,
-  ): Promise<Proposal[] | undefined> {
-    const known = list.flatMap((operation) => {
-      const area = areas.get(operation);
-      return area ? [{ operation, area }] : [];
-    });
-    try {
-      const projection = plan.pipeline.slice(0, plan.projection);
-      const rectangles = await rectanglesOf(
-        ...([proj, projection, known.map(({ area }) => area), signal] as const),
-      );
-      return known.map((one, i) => ({ ...one, areas: rectangles[i]! }));
-    } catch (error) {
-      // A projection that PROJ has no way back to: it cannot choose by area either.
-      if (error instanceof GromaError && error.code === "PROJ_FAILED") return undefined;
-      throw error;
-    }
+/** Operations with their areas in source units; nothing where PROJ cannot choose by area. */
+async function proposalsOf(
+  proj: Proj,
+  plan: Candidate["plan"],
+  list: readonly Operation[],
+  areaOf: ReadonlyMap<Operation, AreaOfUse | undefined>,
+  signal: AbortSignal | undefined,
+): Promise<Proposal[] | undefined> {
+  const known = list.flatMap((operation) => {
+    const area = areaOf.get(operation);
+    return area ? [{ operation, area }] : [];
+  });
+  try {
+    const projection = plan.pipeline.slice(0, plan.projection);
+    const areas = known.map(({ area }) => area);
+    const rectangles = await rectanglesOf(proj, projection, areas, signal);
+    return known.map((one, i) => ({ ...one, areas: rectangles[i]! }));
+  } catch (error) {
+    // A projection that PROJ has no way back to: it cannot choose by area either.
+    if (error instanceof GromaError && error.code === "PROJ_FAILED") return undefined;
+    throw error;
   }
+}
 
-  async function candidateOf(operation: Operation): Promise<Candidate | undefined> {
-    const known = [candidate, ...ways.map((way) => way.candidate)].find((one) => one.operation === operation);
-    if (known) return known;
-    try {
-      return await tryOperation(proj, operation, domain, metresPerUnit, signal);
-    } catch (error) {
-      // It is not for this place, or its steps are not understood: then it is named among those passed over.
-      if (error instanceof GromaError && error.code !== "PROJ_OUTPUT") return undefined;
-      throw error;
-    }
+/** An operation over the data set; nothing where it is not for this place, or its steps are not understood. */
+async function triedOrNone(
+  proj: Proj,
+  operation: Operation,
+  domain: Domain,
+  metresPerUnit: number,
+  signal: AbortSignal | undefined,
+): Promise<Candidate | undefined> {
+  try {
+    return await tryOperation(proj, operation, domain, metresPerUnit, signal);
+  } catch (error) {
+    // It is named among those passed over.
+    if (error instanceof GromaError && error.code !== "PROJ_OUTPUT") return undefined;
+    throw error;
   }
 }
 
