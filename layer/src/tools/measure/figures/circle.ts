@@ -1,8 +1,8 @@
-import { cross, dot, turnOut, type Vector } from "@groma/georef";
+import { cross, dot, type Frame, turnOut, type Vector } from "@groma/georef";
 import { ecefVertex, type Vertex } from "../vertex/vertex.js";
 import { acrossError, lengthTerm, spreadOf } from "../worth/near-noise.js";
 import type { WorthOptions } from "../worth/point-errors.js";
-import { type OwnError, type Quantity, quantity } from "../worth/quantity.js";
+import { type OwnError, type Quantity, quantity, type Sensitivity } from "../worth/quantity.js";
 import { lengthOf } from "./distance.js";
 import { lineOf, scaled, spaceTerm } from "./line.js";
 import { collinear } from "./refusals.js";
@@ -47,30 +47,11 @@ export function measureCircle(a: Vertex, b: Vertex, c: Vertex, options: WorthOpt
   const [x, y, z] = turnOut(frame, ...centre);
   const { origin } = frame;
 
-  /** Derivatives of what is told of the circle, from a step much greater than rounding and much less than its size. */
-  const sensitivities = (of: (circle: PlaneCircle) => number) => {
-    const step = 1e-6 * chord;
-    return vertices.map((vertex, i) => {
-      const along = [0, 1, 2].map((axis) => {
-        const [ahead, behind] = [1, -1].map((sign) => {
-          const moved = Float64Array.from(points);
-          moved[3 * i + axis] += sign * step;
-          return of(circleThrough(moved) ?? found);
-        });
-        return (ahead - behind) / (2 * step);
-      });
-      return { vertex, gradient: turnOut(frame, along[0], along[1], along[2]) };
-    });
-  };
+  const sensitivities = (of: (circle: PlaneCircle) => number) =>
+    sensitivitiesIn({ vertices, points, frame, found }, of);
   const sagittaOf = (circle: PlaneCircle) => 2 * circle.radius * Math.sin(circle.angle / 4) ** 2;
   const rise = sensitivities(sagittaOf);
-  // Out of the plane of three points the arc bends as easily, where it is nearly straight.
-  const out = turnOut(frame, ...normal);
-  const towards = scaled(rise[1].gradient, 1 / Math.hypot(...rise[1].gradient));
-  const sideways = rise.map(({ vertex, gradient }) => ({
-    vertex,
-    gradient: scaled(out, dot(gradient, towards)),
-  }));
+  const sideways = outOfPlane(rise, turnOut(frame, ...normal));
   const both = () => [rise, sideways];
   const bent = lengthTerm(sagittaOf(found), rise, both, options);
   const isFlat = bent.sensitivities.length > 1;
@@ -90,20 +71,16 @@ export function measureCircle(a: Vertex, b: Vertex, c: Vertex, options: WorthOpt
     const lists = [sensitivities(of)];
     return quantity(of(found), unit, lists, { ...options, own: own(Math.sqrt(spreadOf(lists, options))) });
   };
-  const angle = isFlat
-    ? quantity(
-        found.angle,
-        "rad",
-        both().map((list) =>
-          list.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, 8 / chord) })),
-        ),
-        options,
-      )
-    : told(
-        "rad",
-        (circle) => circle.angle,
-        () => acrossError((8 / chord) * bent.across),
-      );
+  const flatAngle = () => {
+    const lists = both().map((list) => scaledAll(list, 8 / chord));
+    return quantity(found.angle, "rad", lists, options);
+  };
+  const bentAngle = () =>
+    told(
+      "rad",
+      (circle) => circle.angle,
+      () => acrossError((8 / chord) * bent.across),
+    );
   return {
     centre: ecefVertex([origin[0] + x, origin[1] + y, origin[2] + z]),
     normal: turnOut(frame, ...normal),
@@ -128,13 +105,51 @@ export function measureCircle(a: Vertex, b: Vertex, c: Vertex, options: WorthOpt
         (circle) => circle.radius * circle.angle,
         () => acrossError(((8 / 3) * spread) / chord),
       ),
-      angle,
+      angle: isFlat ? flatAngle() : bentAngle(),
       chord: lengthOf(chord, spaceTerm(lineOf(a, c), options), options),
       sagitta: lengthOf(sagittaOf(found), bent, options),
     },
   };
 }
 
+/** Three vertices, their places in a frame (x, y, z of each, metres), and the circle through them. */
+interface FoundCircle {
+  readonly vertices: readonly Vertex[];
+  readonly points: Float64Array;
+  readonly frame: Frame;
+  readonly found: PlaneCircle;
+}
+
+/** Derivatives of what is told of a circle, from a step much greater than rounding and much less than its size. */
+function sensitivitiesIn(
+  { vertices, points, frame, found }: FoundCircle,
+  of: (circle: PlaneCircle) => number,
+): Sensitivity[] {
+  const step = 1e-6 * found.chord;
+  return vertices.map((vertex, i) => {
+    const along = [0, 1, 2].map((axis) => {
+      const [ahead, behind] = [1, -1].map((sign) => {
+        const moved = Float64Array.from(points);
+        moved[3 * i + axis] += sign * step;
+        return of(circleThrough(moved) ?? found);
+      });
+      return (ahead - behind) / (2 * step);
+    });
+    return { vertex, gradient: turnOut(frame, along[0], along[1], along[2]) };
+  });
+}
+
+/** Derivatives of an arc's rise out of the plane of its three points, in which it bends as easily where it is nearly straight. */
+function outOfPlane(rise: readonly Sensitivity[], out: Vector): Sensitivity[] {
+  const towards = scaled(rise[1].gradient, 1 / Math.hypot(...rise[1].gradient));
+  return rise.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(out, dot(gradient, towards)) }));
+}
+
+function scaledAll(list: readonly Sensitivity[], factor: number): Sensitivity[] {
+  return list.map(({ vertex, gradient }) => ({ vertex, gradient: scaled(gradient, factor) }));
+}
+
+/** A circle in the frame of its three points, metres. */
 interface PlaneCircle {
   readonly centre: Vector;
   readonly normal: Vector;
