@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let length = usize::from(scan.header.point_data_record_length);
     let mut file = BufReader::with_capacity(1 << 20, File::open(input)?);
     file.seek(SeekFrom::Start(scan.header.offset_to_point_data.into()))?;
-    let extra = length - usize::from(groma_core::record::LENGTHS[usize::from(scan.point_format)]);
+    let extra = length - usize::from(groma_core::scan::RECORD_LENGTHS[usize::from(scan.point_format)]);
     let target = LazVlrBuilder::default().with_point_format(scan.point_format, extra as u16)?.build();
     let mut out = BufWriter::with_capacity(1 << 20, File::create(output)?);
     let mut compressor = ParLasZipCompressor::new(&mut out, target)?;

@@ -5,7 +5,7 @@ use super::border_points::BorderPoints;
 use super::outline::Outline;
 use super::scheduler::Scheduler;
 use super::surroundings::Surroundings;
-use crate::copc::chunk;
+use crate::copc::chunk::{self, Node};
 use crate::distribute::Inputs;
 use crate::distribute::cells::Cell;
 use crate::error::{Error, Result};
@@ -34,14 +34,6 @@ impl Default for Rules {
     fn default() -> Self {
         Self { sampling: Strategy::Poisson, average_colors: false }
     }
-}
-
-/// A finished node: its LAZ chunk.
-#[derive(Debug)]
-pub struct Node {
-    pub key: Key,
-    pub points: u64,
-    pub chunk: Held,
 }
 
 /// Records of a node that has only to be compressed.

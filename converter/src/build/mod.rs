@@ -24,8 +24,9 @@ mod scheduler;
 mod split;
 mod surroundings;
 
-pub use context::{Node, Rules};
+pub use context::Rules;
 
+use crate::copc::chunk::Node;
 use crate::distribute::Inputs;
 use crate::distribute::cells::Cells;
 use crate::error::Result;

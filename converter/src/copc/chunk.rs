@@ -1,5 +1,7 @@
 //! One node as one LAZ chunk.
 
+use crate::octree::key::Key;
+use crate::temporary::store::Held;
 use laz::record::{LayeredPointRecordCompressor, RecordCompressor};
 use laz::{LazVlr, LazVlrBuilder};
 use std::io::Cursor;
@@ -7,6 +9,14 @@ use std::io::Cursor;
 /// The compression of an output: chunks of any number of points.
 pub fn parameters(point_format: u8, extra: u16) -> laz::Result<LazVlr> {
     Ok(LazVlrBuilder::default().with_point_format(point_format, extra)?.with_variable_chunk_size().build())
+}
+
+/// A finished node: its LAZ chunk, held until the file is written.
+#[derive(Debug)]
+pub struct Node {
+    pub key: Key,
+    pub points: u64,
+    pub chunk: Held,
 }
 
 /// A chunk that is being made of records of format 6, 7 or 8.

@@ -1,11 +1,11 @@
 //! Writing the file: header and records, nodes, chunk table, hierarchy and other extended records.
 
 use super::checksums;
+use super::chunk::Node;
 use super::header::{self, Layout, Points};
 use super::hierarchy::{self, Chunk, Pages};
 use super::info::{self, Info};
 use super::records::Records;
-use crate::build::Node;
 use crate::error::{Error, Result};
 use crate::octree::key::Key;
 use crate::progress::Meter;

@@ -7,9 +7,10 @@ pub mod answer;
 pub mod options;
 pub mod plan;
 
-use crate::build::{self, Node};
+use crate::build;
 use crate::copc;
 use crate::copc::checksums::{self, Stored};
+use crate::copc::chunk::Node;
 use crate::copc::header::Points;
 use crate::copc::info::Info;
 use crate::copc::records::{self, Additions};

@@ -1,7 +1,8 @@
 //! The mapping of one record (LAS 1.4 R15, "Point Data Record Format" 0 to 10). Formats 6, 7 and 8 pass
 //! byte for byte.
 
-use super::{LENGTHS, Target};
+use super::Target;
+use crate::scan::RECORD_LENGTHS;
 
 /// Class 12 of the formats 0 to 5, "overlap points", which the formats 6 to 10 say with a flag.
 const LEGACY_OVERLAP: u8 = 12;
@@ -26,7 +27,7 @@ impl Mapping {
     /// `None` if there is no such format or the record is too short for it.
     pub fn new(source: u8, record_length: u16) -> Option<Self> {
         let target = Target::of(source)?;
-        let extra = record_length.checked_sub(LENGTHS[usize::from(source)])?;
+        let extra = record_length.checked_sub(RECORD_LENGTHS[usize::from(source)])?;
         Some(Self { source, target, source_length: record_length.into(), extra: extra.into() })
     }
 
@@ -156,7 +157,7 @@ mod tests {
             format in 0u8..6,
             bytes in proptest::collection::vec(any::<u8>(), 63..80),
         ) {
-            let base = usize::from(LENGTHS[usize::from(format)]);
+            let base = usize::from(RECORD_LENGTHS[usize::from(format)]);
             let from = &bytes[..base + bytes.len() - 63];
             let to = map(format, from);
             prop_assert_eq!(&to[..14], &from[..14]);

@@ -4,8 +4,7 @@ pub mod exact;
 pub mod fields;
 pub mod mapping;
 
-/// Bytes of a record of each point data record format (LAS 1.4 R15, tables 7 to 22), without extra bytes.
-pub const LENGTHS: [u16; 11] = [20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67];
+use crate::scan::RECORD_LENGTHS;
 
 /// The formats that COPC 1.0 allows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +39,7 @@ impl Target {
 
     /// Bytes of a record without extra bytes.
     pub fn length(self) -> usize {
-        usize::from(LENGTHS[usize::from(self.id())])
+        usize::from(RECORD_LENGTHS[usize::from(self.id())])
     }
 }
 

@@ -13,6 +13,9 @@ use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use variable_record::{EXTRA_BYTES, PROJECTION, SPECIFICATION, VariableRecord, WKT, text};
 
+/// Bytes of a record of each point data record format (LAS 1.4 R15, tables 7 to 22), without extra bytes.
+pub const RECORD_LENGTHS: [u16; 11] = [20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67];
+
 /// Bytes of a LAS 1.0 to 1.2 header, the shortest there is.
 const SHORTEST_HEADER: u64 = 227;
 
@@ -197,7 +200,7 @@ fn described<'a>(
         .flat_map(|record| record.data.iter().copied())
         .collect();
     let format = usize::from(header.point_data_record_format & 0x3f);
-    let base = crate::record::LENGTHS.get(format).copied().unwrap_or(u16::MAX);
+    let base = RECORD_LENGTHS.get(format).copied().unwrap_or(u16::MAX);
     let room = usize::from(header.point_data_record_length.saturating_sub(base));
     Described::of(&descriptors, room, warnings)
 }

@@ -30,7 +30,7 @@ pub struct Las {
 impl Las {
     /// Records of a format at the given integer positions; the other bytes vary from record to record.
     pub fn at(format: u8, extra: u16, positions: &[[i32; 3]]) -> Self {
-        let length = usize::from(groma_core::record::LENGTHS[usize::from(format)] + extra);
+        let length = usize::from(groma_core::scan::RECORD_LENGTHS[usize::from(format)] + extra);
         let mut records = Vec::with_capacity(length * positions.len());
         for (index, position) in positions.iter().enumerate() {
             let start = records.len();
@@ -70,7 +70,7 @@ impl Las {
     }
 
     fn length(&self) -> usize {
-        usize::from(groma_core::record::LENGTHS[usize::from(self.format)] + self.extra)
+        usize::from(groma_core::scan::RECORD_LENGTHS[usize::from(self.format)] + self.extra)
     }
 
     fn file(&self, compressed: Option<LazVlr>) -> Vec<u8> {

@@ -23,7 +23,8 @@ pub fn parameters(scan: &Scan) -> Result<LazVlr> {
     let fail = |cause| Error::corrupt(path, format!("LASzip record: {cause}"));
     let vlr = contained(fail, || LazVlr::from_buffer(&record.data))?;
     let types = |items: &[laz::LazItem]| items.iter().map(|i| (i.item_type(), i.size())).collect::<Vec<_>>();
-    let extra = scan.header.point_data_record_length - crate::record::LENGTHS[usize::from(scan.point_format)];
+    let extra =
+        scan.header.point_data_record_length - crate::scan::RECORD_LENGTHS[usize::from(scan.point_format)];
     let expected = LazItemRecordBuilder::default_for_point_format_id(scan.point_format, extra);
     let expected = expected.map_err(|e| Error::corrupt(path, e))?;
     if types(vlr.items()) != types(&expected) {
