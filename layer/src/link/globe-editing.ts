@@ -1,28 +1,15 @@
 import type { Vector } from "@groma/georef";
-import { ScreenSpaceEventHandler, ScreenSpaceEventType } from "cesium";
-import Feature from "ol/Feature.js";
-import LineString from "ol/geom/LineString.js";
-import Point from "ol/geom/Point.js";
-import Polygon from "ol/geom/Polygon.js";
+import type Feature from "ol/Feature.js";
+import { type DrawnKind, GlobeDrawing } from "./globe-drawing.js";
 import type { GlobeSide } from "./globe-side.js";
 import type { SharedFeatures, SharedVertex } from "./shared-features.js";
-
-/** What can be drawn on the globe. */
-export type DrawnKind = "Point" | "LineString" | "Polygon";
-
-/** Vertices that a kind needs before it can be ended, and at most. */
-const COUNTS: Readonly<Record<DrawnKind, { readonly least: number; readonly most: number }>> = {
-  Point: { least: 1, most: 1 },
-  LineString: { least: 2, most: Number.POSITIVE_INFINITY },
-  Polygon: { least: 3, most: Number.POSITIVE_INFINITY },
-};
 
 /** CSS pixels that a pointer goes before a side that it holds has a new vertex. */
 const JITTER = 3;
 
 /**
- * Draws shared features on the globe and changes them there, as `Modify` does on the map: vertices are dragged, a side that
- * is dragged has a new one, and Alt with a click takes one away.
+ * Has shared features drawn on the globe, and changed there as by `Modify` on the map: vertices are dragged, a side that is
+ * dragged has a new one, and Alt with a click takes one away.
  */
 export class GlobeEditing {
   readonly #globe: GlobeSide;
@@ -96,72 +83,22 @@ export class GlobeEditing {
   }
 
   /**
-   * Has the reader draw a feature by clicks on the globe; it is in the source from its first vertex on. A double click or
-   * Enter ends it, Escape gives it up.
+   * Has the reader draw a feature, see {@link GlobeDrawing}.
    * @returns undefined where the reader gives it up
    * @throws the signal's reason when aborted
    */
   async draw(kind: DrawnKind, signal?: AbortSignal): Promise<Feature | undefined> {
     signal?.throwIfAborted();
-    const { scene } = this.#globe;
-    const { source } = this.#features;
-    const feature = new Feature();
-    const places: Vector[] = [];
-    const handler = new ScreenSpaceEventHandler(scene.canvas);
-    const keys = new AbortController();
-    // Clicks keep their order, however long their records take.
-    let last: Promise<void> = Promise.resolve();
+    const [globe, features] = [this.#globe, this.#features];
     this.#drawing++;
-    return new Promise((resolve, reject) => {
-      const end = (drawn: Feature | undefined) => {
-        if (keys.signal.aborted) return;
-        this.#drawing--;
-        handler.destroy();
-        keys.abort();
-        if (!drawn && source.hasFeature(feature)) source.removeFeature(feature);
-        resolve(drawn);
-      };
-      const finish = () => {
-        if (places.length >= COUNTS[kind].least) end(feature);
-      };
-      const place = async (at: { readonly x: number; readonly y: number }) => {
-        const found = await this.#globe.placeAt(at, AbortSignal.any([keys.signal, this.#end.signal]));
-        // The second click of a double click is on the record of the first.
-        if (!found || keys.signal.aborted || `${found}` === `${places.at(-1)}`) return;
-        places.push(found);
-        const coordinates = places.flatMap((one) => [this.#features.coordinateOf(feature, one) ?? []]);
-        feature.setGeometry(geometryOf(kind, coordinates));
-        if (!source.hasFeature(feature)) source.addFeature(feature);
-        if (places.length >= COUNTS[kind].most) finish();
-      };
-      handler.setInputAction(({ position: { x, y } }: ScreenSpaceEventHandler.PositionedEvent) => {
-        last = last
-          .then(() => place({ x, y }))
-          .catch((thrown) => {
-            if (!keys.signal.aborted) this.#failed(thrown);
-          });
-      }, ScreenSpaceEventType.LEFT_CLICK);
-      handler.setInputAction(() => {
-        void last.then(finish);
-      }, ScreenSpaceEventType.LEFT_DOUBLE_CLICK);
-      document.addEventListener(
-        "keydown",
-        ({ key }) => {
-          if (key === "Enter") void last.then(finish);
-          else if (key === "Escape") end(undefined);
-        },
-        { signal: keys.signal },
-      );
-      this.#end.signal.addEventListener("abort", () => end(undefined), { signal: keys.signal });
-      signal?.addEventListener(
-        "abort",
-        () => {
-          reject(signal.reason);
-          end(undefined);
-        },
-        { signal: keys.signal },
-      );
-    });
+    const ended = () => {
+      this.#drawing--;
+      this.#end.signal.removeEventListener("abort", giveUp);
+    };
+    const drawing = new GlobeDrawing({ globe, features, failed: this.#failed, ended }, kind, signal);
+    const giveUp = () => drawing.giveUp();
+    this.#end.signal.addEventListener("abort", giveUp);
+    return drawing.done;
   }
 
   dispose(): void {
@@ -198,10 +135,4 @@ export class GlobeEditing {
     this.#held = undefined;
     this.#side = undefined;
   }
-}
-
-function geometryOf(kind: DrawnKind, coordinates: number[][]): Point | LineString | Polygon {
-  if (kind === "Point") return new Point(coordinates[0], "XYZ");
-  if (kind === "LineString" || coordinates.length < 3) return new LineString(coordinates, "XYZ");
-  return new Polygon([[...coordinates, coordinates[0]]], "XYZ");
 }
