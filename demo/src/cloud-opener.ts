@@ -6,7 +6,7 @@ import type { OpenOptions } from "./clouds/open-layer.js";
 import { i18n } from "./language/i18n.js";
 import { rememberClouds } from "./named-clouds.js";
 import type { Chooser } from "./panel/chooser.js";
-import { tellFailures } from "./panel/failures.js";
+import type { Failures } from "./panel/failures.js";
 import type { Message, ToldFault } from "./panel/message.js";
 import type { Progress } from "./panel/progress.js";
 import { Share } from "./panel/share.js";
@@ -20,6 +20,7 @@ export interface OpenerParts {
   readonly clouds: Clouds;
   readonly chooser: Chooser;
   readonly message: Message;
+  readonly failures: Failures;
   readonly progress: Progress;
   readonly share: Share;
   /** How every cloud is opened. */
@@ -127,7 +128,7 @@ export class CloudOpener {
     wanted: Wanted = this.#parts.clouds.layer ? "fly" : "descend",
     faults: ToldFault[] = [],
   ): Promise<OpenCloud | undefined> {
-    const { clouds, message, progress, chooser } = this.#parts;
+    const { clouds, message, failures, progress, chooser } = this.#parts;
     const name = typeof from === "string" ? from : from.name;
     progress.opening(name);
     try {
@@ -136,7 +137,7 @@ export class CloudOpener {
         indexing: (done) => progress.indexing(name, done),
       });
       if (opened) {
-        tellFailures(opened.layer, message);
+        failures.watch(opened.layer);
         if (wanted !== "stay") await this.#parts.goTo(opened, wanted);
       }
       return opened;

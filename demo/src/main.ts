@@ -26,7 +26,7 @@ import { Drawing } from "./panel/drawing.js";
 import { DrawingHint } from "./panel/drawing-hint.js";
 import { byId } from "./panel/elements.js";
 import { ExportPoints } from "./panel/export-points.js";
-import { tellUncaught } from "./panel/failures.js";
+import { Failures, tellUncaught } from "./panel/failures.js";
 import { connectFold, foldIfNarrow } from "./panel/fold.js";
 import { Heights } from "./panel/heights.js";
 import { connectLanguage } from "./panel/language-choice.js";
@@ -81,7 +81,12 @@ function start(viewer: Viewer): void {
     tell,
     (text) => cloudAddress(text, location.href),
   );
-  const beside = new Beside(viewer, tell, (view) => {
+  const failures = new Failures(message, () => {
+    for (const layer of clouds.layers) layer.retryFailed();
+    beside.retryFailed();
+  });
+  const ofMap = (thrown: unknown) => failures.ofMap(thrown);
+  const beside = new Beside(viewer, ofMap, (view) => {
     measuring.tool.addView(view.measured);
     profile.addView(view.measured);
   });
@@ -160,7 +165,7 @@ function start(viewer: Viewer): void {
     },
   });
   const opener = new CloudOpener({
-    ...{ clouds, chooser, message, progress, share, how, goTo },
+    ...{ clouds, chooser, message, failures, progress, share, how, goTo },
     ended: () => {
       followLayer();
       list.show(clouds);

@@ -43,6 +43,15 @@ async function violations(): Promise<string[]> {
   return found.map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(" ")).join(", ")}`);
 }
 
+/** Names that several landmarks or groups of the page have: whoever goes by them cannot tell these apart. */
+async function ambiguous(): Promise<string[]> {
+  const tree = await page.locator("body").ariaSnapshot();
+  const places = /^\s*- '?(?:region|main|complementary|group|toolbar|dialog|application) ("[^"]+")/gm;
+  const names = Array.from(tree.matchAll(places), ([, name]) => name!);
+  expect(names.length).toBeGreaterThan(8);
+  return names.filter((name, at) => names.indexOf(name) !== at);
+}
+
 it("the page with globe and map has nothing that axe objects to", { timeout: 180_000 }, async () => {
   await page.goto(`${server.address}&map=1`);
   await page.waitForFunction(() => window.groma?.layer?.settled, undefined, { timeout: 120_000 });
@@ -61,6 +70,7 @@ it("the page with globe and map has nothing that axe objects to", { timeout: 180
   await page.evaluate(() => {
     for (const part of Array.from(document.querySelectorAll("details"))) part.open = true;
   });
+  expect(await ambiguous()).toEqual([]);
   const text = () => page.evaluate(() => getComputedStyle(document.querySelector("#panel")!).color);
   const looks: string[] = [];
   for (const look of ["dark", "light"]) {
@@ -203,6 +213,7 @@ it("asks before another language loses what was measured", { timeout: 180_000 },
   await page.setViewportSize({ width: 1000, height: 700 });
   await page.waitForSelector("#language");
   await openAll();
+  expect(await ambiguous()).toEqual([]);
   expect(await violations()).toEqual([]);
   await screenshot(page, "accessible-all-ja");
   await page.emulateMedia({ forcedColors: "active" });
@@ -228,6 +239,16 @@ it("the first screen asks for a scan, and opens its own sample", { timeout: 180_
   const box = await page.locator("#panel").boundingBox();
   expect(box!.x + box!.width / 2).toBeCloseTo(500, 0);
   await screenshot(page, "first-screen");
+  // On a phone the globe is seen whole above it.
+  await page.setViewportSize({ width: 390, height: 844 });
+  const [globe, panel] = await page.evaluate(() =>
+    ["globe", "panel"].map((id) => document.getElementById(id)!.getBoundingClientRect().toJSON()),
+  );
+  expect([globe.top, globe.bottom, panel.bottom]).toEqual([0, panel.top, 844]);
+  expect(globe.height).toBeGreaterThan(0.35 * 844);
+  expect(await outside()).toEqual([]);
+  await screenshot(page, "first-screen-phone");
+  await page.setViewportSize({ width: 1000, height: 700 });
   await page.click("#sample");
   await page.waitForFunction(() => window.groma?.layer?.settled, undefined, { timeout: 120_000 });
   expect(await page.textContent("#title")).toBe("sample.copc.laz");

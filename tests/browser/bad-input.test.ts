@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import type { Browser, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
 import { converted } from "../converted.js";
 import { BadServer, type Misbehaviour } from "../faults/bad-server.js";
 import { data, projectRoot } from "../project.js";
@@ -124,6 +124,43 @@ describe.skipIf(missing)(`bad input on the page${missing ? ` (skipped: ${missing
     await show(bad.url);
     expect(await told()).toBe(code);
     await livesOn();
+  });
+
+  it("nodes that failed on globe and map come when they are asked for again", {
+    timeout: 180_000,
+  }, async () => {
+    bad = await BadServer.start(file);
+    await page.goto(
+      `${new URL(good.address).origin}/?fly=0&map=1&budget=300000&cloud=${encodeURIComponent(bad.url)}`,
+    );
+    expect(await drawn()).toBeGreaterThan(1000);
+    bad.misbehave = ({ response }) => response.writeHead(404).end();
+    await page.evaluate(() => {
+      const { layer, viewer } = window.groma;
+      layer.maximumScreenSpaceError = 0.5;
+      viewer.scene.requestRender();
+    });
+    /** Nodes that globe and map want and have not, told as failed; -1 before the map has its layer. */
+    const failed = () =>
+      page.evaluate(async () => {
+        const { beside, layer } = window.groma;
+        const [onMap] = (await beside.view)!.map
+          .getAllLayers()
+          .filter((one) => "retryFailed" in one) as never as [
+          { statistics: { nodesFailed: number; nodesVisible: number; nodesLoaded: number } },
+        ];
+        return [layer.statistics, onMap.statistics].map(({ nodesFailed, nodesVisible, nodesLoaded }) =>
+          nodesVisible === 0 ? -1 : nodesFailed > 0 ? nodesFailed : nodesLoaded - nodesVisible,
+        );
+      });
+    await vi.waitFor(async () => expect(Math.min(...(await failed()))).toBeGreaterThan(0), {
+      timeout: 120_000,
+    });
+    expect(await told()).toBe("SOURCE_NOT_FOUND");
+    bad.misbehave = undefined;
+    await page.getByRole("button", { name: "Try again" }).click();
+    await vi.waitFor(async () => expect(await failed()).toEqual([0, 0]), { timeout: 120_000 });
+    expect(await page.locator("#message .code").count()).toBe(0);
   });
 
   it("CRS_MISSING: a file that names no coordinate system", { timeout: 180_000 }, async () => {

@@ -142,6 +142,32 @@ async function violations(page: Page): Promise<string[]> {
   });
 }
 
+/** Choices and fields that are seen and have less room than the longest of their words needs. */
+function cut(page: Page): Promise<string[]> {
+  return page.evaluate(() => {
+    const seen = <E extends HTMLElement>(selector: string) =>
+      Array.from(document.querySelectorAll<E>(selector)).filter(
+        (one) => one.getBoundingClientRect().width > 0,
+      );
+    const pen = document.createElement("canvas").getContext("2d")!;
+    const fields = seen<HTMLInputElement>("input[placeholder]").filter((field) => {
+      const { font, paddingLeft, paddingRight } = getComputedStyle(field);
+      pen.font = font;
+      const room = field.clientWidth - Number.parseFloat(paddingLeft) - Number.parseFloat(paddingRight);
+      return pen.measureText(field.placeholder).width > room + 1;
+    });
+    const choices = seen<HTMLSelectElement>("select").filter((choice) => {
+      const { minWidth, maxWidth, width, flex } = choice.style;
+      const room = choice.offsetWidth;
+      Object.assign(choice.style, { minWidth: "0", maxWidth: "none", width: "max-content", flex: "none" });
+      const wanted = choice.offsetWidth;
+      Object.assign(choice.style, { minWidth, maxWidth, width, flex });
+      return wanted > room + 1;
+    });
+    return [...fields, ...choices].map(({ id }) => id);
+  });
+}
+
 /** Elements that stand out of the window, or whose words do not fit into them. */
 function overflowing(page: Page): Promise<string[]> {
   return page.evaluate(() => {
@@ -164,7 +190,7 @@ function overflowing(page: Page): Promise<string[]> {
 }
 
 it.each(Object.keys(CATALOGUES) as (keyof typeof CATALOGUES)[])(
-  "speaks %s, and fits a phone",
+  "speaks %s, fits a phone, and cuts no words",
   { timeout: 120_000 },
   async (code) => {
     const page = await open(code);
@@ -179,7 +205,11 @@ it.each(Object.keys(CATALOGUES) as (keyof typeof CATALOGUES)[])(
     expect([...new Set(english)]).toEqual([]);
     expect(await violations(page)).toEqual([]);
     expect(await overflowing(page)).toEqual([]);
+    expect(await cut(page)).toEqual([]);
     await screenshot(page, `languages-${code}`);
+    await page.setViewportSize({ width: 1280, height: 800 });
+    expect(await overflowing(page)).toEqual([]);
+    expect(await cut(page)).toEqual([]);
   },
 );
 

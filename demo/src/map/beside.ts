@@ -77,6 +77,11 @@ export class Beside {
     return this.alone ? this.#shown?.ledger : undefined;
   }
 
+  /** Lets nodes that failed on the map be asked for again. */
+  retryFailed(): void {
+    this.#shown?.retryFailed();
+  }
+
   /** A picture of the map, where it is shown, and what that says of its sources. @throws the signal's reason */
   async shoot(
     signal: AbortSignal,

@@ -76,6 +76,11 @@ export class MapView {
     return this.#ofChosen?.ledger;
   }
 
+  /** Lets nodes that failed be asked for again. */
+  retryFailed(): void {
+    for (const { layer } of this.#clouds) layer.retryFailed();
+  }
+
   get #ofChosen(): MapCloud["layer"] | undefined {
     return this.#clouds.find(({ globe }) => globe === this.#chosen)?.layer;
   }
@@ -129,7 +134,8 @@ export class MapView {
 
   /** The map, for measuring on it. */
   get measured(): ViewAdapter {
-    return measureView(this.map, () => this.#clouds.map(({ layer }) => layer));
+    const view = measureView(this.map, () => this.#clouds.map(({ layer }) => layer));
+    return { ...view, name: i18n.t("map") };
   }
 
   /** A picture of the map once it is complete, and what it says of its sources. @throws the signal's reason */

@@ -64,7 +64,7 @@ export class ProfileLines {
     this.tool = new MeasureTool(measureView(scene, layers), {
       onError: failed,
       units: unitsOf([]),
-      words: MEASURE_WORDS,
+      words: { ...MEASURE_WORDS, measurements: i18n.t("Lines of profiles") },
     });
     this.tool.onChange(() => this.#follow());
     addEventListener("storage", ({ key }) => {

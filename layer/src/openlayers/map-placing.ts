@@ -87,6 +87,11 @@ export class MapPlacing {
     return undefined;
   }
 
+  /** Lets nodes that failed be asked for again, of what is drawn and of what is to take its place. */
+  retryFailed(): void {
+    for (const placed of [this.#shown, this.#next]) placed?.octree.stream.retryFailed();
+  }
+
   /** Nothing of it is drawn, or brought, for now. */
   rest(): void {
     this.#shown?.rest(false);

@@ -120,6 +120,13 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     clearTimeout(this.#timer);
   }
 
+  /** Lets nodes that failed be asked for again, by the next frame. */
+  retryFailed(): void {
+    this.#placing.retryFailed();
+    // Only a frame that is drawn anew asks for what its view wants.
+    this.#changed();
+  }
+
   /** What is drawn was changed. */
   invalidate(): void {
     this.#shown = undefined;

@@ -150,8 +150,7 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
 
   /** Lets nodes that failed be asked for again. */
   retryFailed(): void {
-    this.#renderer?.placed?.octree.stream.retryFailed();
-    this.changed();
+    this.#renderer?.retryFailed();
   }
 
   protected override createRenderer(): OlLayerRenderer<Layer> {

@@ -110,7 +110,8 @@ export class Overlay {
     this.#svg.style.cssText = "position:absolute;inset:0;width:100%;height:100%";
     // As a picture it would hide the vertices in it from screen readers.
     this.#svg.setAttribute("role", "group");
-    this.#svg.setAttribute("aria-label", words.measurements);
+    const named = view.name === undefined ? words.measurements : `${words.measurements}, ${view.name}`;
+    this.#svg.setAttribute("aria-label", named);
     this.#cross.classList.add("groma-crosshair");
     this.#svg.append(this.#cross);
     const look = document.createElement("style");

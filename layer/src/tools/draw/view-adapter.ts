@@ -25,6 +25,8 @@ export interface ViewAdapter {
    *   the middle of the view
    */
   project(vertex: Vertex, near?: ScreenPoint): ScreenPoint | undefined;
+  /** What readers know the view by, where a tool draws on several: the group of its figures is named after it. */
+  readonly name?: string;
   /** Calls back after each frame in which figures may have moved. @returns what ends that */
   onFrame(listener: () => void): () => void;
   /** Has the view drawn again, where it draws on demand only. */
