@@ -44,7 +44,7 @@ const holds = (check) => async () => {
 
 /** Rust's own tests, counted from cargo's closing lines; a build that fails counts as one failure. */
 async function rust() {
-  const { code, output } = await cargo("test", "--profile", "tested", "--locked");
+  const { code, output } = await cargo("test", "--profile", "tested", "--locked", "--tests");
   const counts = { passed: 0, failed: 0, skipped: 0 };
   for (const [, passed, failed, ignored] of output.matchAll(
     /^test result: .*? (\d+) passed; (\d+) failed; (\d+) ignored/gm,
