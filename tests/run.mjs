@@ -81,7 +81,7 @@ async function vitest(rooms, how) {
 
 const checks = {
   "format and lint (TypeScript)": holds(() => npx("@biomejs/biome/bin/biome", "ci", ".")),
-  "types of the tests": holds(() => npx("typescript/bin/tsc", "-p", "tests")),
+  "types of the tests": holds(() => npx("typescript-native/bin/tsc", "-p", "tests")),
   "format (Rust)": holds(() => cargo("fmt", "--check")),
   "format (Rust for the page)": holds(() =>
     run("cargo", ["fmt", "--check", "--manifest-path", "converter/wasm/Cargo.toml"]),

@@ -62,7 +62,7 @@ export function onPoints(gl: WebGL2RenderingContext, instead: (call: PointCall) 
     });
   };
   gl.getExtension = function (this: WebGL2RenderingContext, name: string) {
-    const extension = getExtension.call(this, name);
+    const extension = getExtension.call(this, name as typeof MANY);
     if (name === MANY) watch(extension as MultiDraw | null);
     return extension;
   } as typeof getExtension;
