@@ -1,6 +1,27 @@
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { Resource, TrustedServers } from "cesium";
 import { afterEach, describe, expect, it } from "vitest";
-import { resolveSource } from "./layer-options.js";
+import type { StyleError } from "../errors/index.js";
+import { checkOpeningOptions, resolveSource } from "./layer-options.js";
+
+/** The names that `PointCloudLayer.fromUrl` takes, as its refusal of another one lists them. */
+function knownOptions(): string[] {
+  try {
+    checkOpeningOptions({ nope: 1 } as never);
+  } catch (thrown) {
+    return (thrown as StyleError).fix.replace(/^use /, "").split(/, | or /);
+  }
+  return [];
+}
+
+it("the table of docs/layer.md has a row for every option of fromUrl, and for no other", () => {
+  const page = readFileSync(join(import.meta.dirname, "../../../docs/layer.md"), "utf8");
+  const [, table] = /\n\| option \| default \| meaning \|\n((?:\|.*\n)+)/.exec(page)!;
+  const rows = table.split("\n").flatMap((row) => row.split(" | ")[0].match(/(?<=`)\w+(?=`)/g) ?? []);
+  expect(rows.length).toBeGreaterThan(20);
+  expect(rows.toSorted()).toEqual(knownOptions().sort());
+});
 
 describe("resolveSource", () => {
   afterEach(() => TrustedServers.clear());

@@ -9,7 +9,7 @@ import {
 import { flag, type Kind, type Kinds, kindOf, optionPlace, some } from "../options/index.js";
 import type { HttpOptions, SourceLike } from "../sources/index.js";
 
-/** Options of a layer; all can be changed later. */
+/** Options of a layer; all but `id` can be changed later. */
 export interface PointCloudLayerOptions extends DrawingOptions {
   /** Default: true. */
   readonly show?: boolean | undefined;
