@@ -29,6 +29,7 @@ import { egm96 } from "./egm96.js";
 import {
   around,
   elsewhereNote,
+  type Farthest,
   type PointByPoint,
   pointByPoint,
   severalNote,
@@ -74,9 +75,8 @@ export async function projTransformation(
   const chosen = await chooseFor(proj, crs, source, domain, box, signal);
   const { operations, passedOver, substitute, from, outside } = chosen;
   const { tolerance = PATCHWORK_TOLERANCE } = options;
-  const taken = await pointByPoint(
-    ...([proj, from, chosen.choice.candidate, domain, crs.verticalUnit.size, signal] as const),
-  );
+  const { size } = crs.verticalUnit;
+  const taken = await pointByPoint(proj, from, chosen.choice.candidate, domain, size, signal);
   const sole = taken && (await soleWay(proj, taken, domain, signal));
   const choice = sole ?? chosen.choice;
   const byPoint = sole ? undefined : taken;
@@ -85,25 +85,16 @@ export async function projTransformation(
   const several = byPoint && (await waysOf(proj, choice, byPoint, domain, signal));
   const ways = several ?? ([{ ...choice, areas: [] }] as const);
   const { transformation, patchwork } = await assemble(proj, ways, { domain, tolerance, file, signal });
-  const check = await checkTransformation(
-    ...([proj, ways.map(({ candidate: { plan }, areas }) => ({ pipeline: plan.pipeline, areas }))] as const),
-    ...([transformation, domain, candidate.zScale, file, signal] as const),
-  );
-
+  const piped = ways.map(({ candidate: { plan }, areas }) => ({ pipeline: plan.pipeline, areas }));
+  const { zScale } = candidate;
+  const check = await checkTransformation(proj, piped, transformation, domain, zScale, file, signal);
   const beyond =
     substitute || candidate.covers || !isAboveGeoid(crs)
       ? undefined
       : await beyondGrids(proj, source, { crs, domain, box, file, tolerance, signal });
   const whole = beyond && goingOn(transformation, beyond, domain);
   const main = several && byPoint ? widest(byPoint) : undefined;
-  const { operation } = (main ?? choice).candidate;
-  const accuracy =
-    main && byPoint
-      ? leastAccurate([candidate, ...byPoint.ways.map((way) => way.candidate)])
-      : operation.accuracy;
-  const far = main ? undefined : byPoint?.farthest;
-  const counted = far && (accuracy === null || far.worth > accuracy) ? far : undefined;
-  const told = main && byPoint ? severalNote(byPoint.ways, main) : counted && elsewhereNote(counted);
+  const { operation, accuracy, elsewhere, told } = statedFor(candidate, byPoint, main);
   const notes = notesFor(
     crs,
     choice,
@@ -122,7 +113,7 @@ export async function projTransformation(
       engine: { name: "PROJ", version: proj.version },
       operation: operation.name,
       accuracy:
-        undated || worst.includes(null) ? null : Math.max(...(worst as number[]), counted?.worth ?? 0),
+        undated || worst.includes(null) ? null : Math.max(...(worst as number[]), elsewhere?.worth ?? 0),
       ballpark: operation.ballpark || choice.leftOut.length > 0,
       unstated: outside || undated,
       grids: substitute || whole ? [...grids, EGM96] : grids,
@@ -133,6 +124,38 @@ export async function projTransformation(
       notes,
     },
   };
+}
+
+/** What is said of the operations that a data set is placed by. */
+interface Stated {
+  /** The one that it is named by. */
+  readonly operation: Operation;
+  /** Metres; null where it is not known. */
+  readonly accuracy: number | null;
+  /** Another one that PROJ takes for some points and that is not followed, where that makes the accuracy worse. */
+  readonly elsewhere: Farthest | undefined;
+  readonly told: string | undefined;
+}
+
+/** @param main the way that most points go, where each goes PROJ's own */
+function statedFor(
+  candidate: Candidate,
+  byPoint: PointByPoint | undefined,
+  main: TakenWay | undefined,
+): Stated {
+  if (main && byPoint) {
+    return {
+      operation: main.candidate.operation,
+      accuracy: leastAccurate([candidate, ...byPoint.ways.map((way) => way.candidate)]),
+      elsewhere: undefined,
+      told: severalNote(byPoint.ways, main),
+    };
+  }
+  const { operation } = candidate;
+  const { accuracy } = operation;
+  const far = byPoint?.farthest;
+  const elsewhere = far && (accuracy === null || far.worth > accuracy) ? far : undefined;
+  return { operation, accuracy, elsewhere, told: elsewhere && elsewhereNote(elsewhere) };
 }
 
 /** The one operation that PROJ takes for every point of a data set, where it is not the first that it proposes. */

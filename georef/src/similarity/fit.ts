@@ -54,10 +54,8 @@ export function fitSimilarity(points: readonly ControlPoint[], file: string): Fi
   const targets = new Float64Array(3 * points.length);
   for (const [i, { geodetic }] of points.entries()) {
     if (!isOnEarth(geodetic) || !points[i].source.every(Number.isFinite)) {
-      throw refusal(
-        ...(["CONTROL_RANGE", file, `control point ${i + 1} is no place`] as const),
-        "give x y z, then longitude and latitude in degrees and the height in metres",
-      );
+      const fix = "give x y z, then longitude and latitude in degrees and the height in metres";
+      throw refusal("CONTROL_RANGE", file, `control point ${i + 1} is no place`, fix);
     }
     geodeticToEcef(...geodetic, targets, 3 * i);
   }
