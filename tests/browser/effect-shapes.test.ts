@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { FRONT } from "../../layer/src/effects/index.js";
 import { draw, SIZE, usePage } from "./effect-draw.js";
 
 const page = usePage();
@@ -63,6 +64,35 @@ describe("shapes", () => {
     for (const axis of [0, 1]) {
       expect(splat.values[axis] / splat.values[3]).toBeCloseTo(depth.values[axis] / depth.values[3], 5);
     }
+  });
+
+  it("narrow splats are left out where all four pixels around show something nearer", async () => {
+    const columns = { position: [0, 0, -20], rgb: [255, 0, 0, 255] };
+    const place = async (pointSize: number, depths: readonly number[]) => {
+      const data = Array.from({ length: SIZE * SIZE }, () => [1, 0, 0, 1]);
+      // The point stands where four pixels meet, which have these depths.
+      for (const [at, depth] of depths.entries()) {
+        data[(SIZE / 2 - 1 + (at >> 1)) * SIZE + SIZE / 2 - 1 + (at & 1)] = [depth, 0, 0, 1];
+      }
+      const front = { name: FRONT, width: SIZE, height: SIZE, data: data.flat(), float: true };
+      const textures = pointSize > 2 ? [] : [front];
+      const drawn = { style: { splats: true, pointSize }, columns, textures, pass: "splat" } as const;
+      const { values } = await draw(page(), drawn, ["gl_Position"]);
+      return { depth: 0.5 + values[2]! / values[3]! / 2, shown: values[0] === 0 };
+    };
+    for (const size of [1, 2]) {
+      const { depth, shown } = await place(size, []);
+      expect(shown).toBe(true);
+      const [nearer, farther] = [depth - 1e-5, depth + 1e-5];
+      expect((await place(size, [nearer, nearer, nearer, nearer])).shown).toBe(false);
+      expect((await place(size, [depth, depth, depth, depth])).shown).toBe(true);
+      for (let one = 0; one < 4; one++) {
+        const depths = [nearer, nearer, nearer, nearer].with(one, farther);
+        expect((await place(size, depths)).shown).toBe(true);
+      }
+    }
+    // A wider one covers more pixels than these.
+    expect((await place(2.5, [0, 0, 0, 0])).shown).toBe(true);
   });
 
   it("the numbers of points are read back exactly", async () => {

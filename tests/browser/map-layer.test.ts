@@ -142,6 +142,9 @@ describe.skipIf(pythonMissing)(
       expect(Math.abs((await colourAt(0, 0))[3]! - 128)).toBeLessThan(3);
       await change({ style: { opacity: 1, splats: true } });
       expect(colourDifference(await colourAt(0, 0), [128, 128, 128])).toBeLessThan(4);
+      // Narrow splats are held against a copy of the depths as well.
+      await change({ style: { pointSize: 2 } });
+      expect(colourDifference(await colourAt(0, 0), [128, 128, 128])).toBeLessThan(4);
       const opacity = await stage.page.evaluate(async () => {
         const { stage } = window.map;
         stage.layer.setOpacity(0.25);

@@ -84,6 +84,42 @@ describe.skipIf(pythonMissing)(
       expect(errors[1]).toBeLessThan(0.6 * errors[0]!);
     });
 
+    it("splats that nothing would show of are not drawn, and the picture stays", {
+      timeout: 60_000,
+    }, async () => {
+      const style = { pointSize: 2, splats: true, color: "elevation" } as const;
+      const options = { maximumScreenSpaceError: 0.5, style };
+      const pose = { range: 60, pitch: -12, heading: 20 };
+      /** @param shader what it is told in place of what says which points are hidden */
+      const pictureWith = async (from: string, to: string) => {
+        const end = await stage.page.evaluateHandle(
+          ([from, to]) => {
+            const { shaderSource } = WebGL2RenderingContext.prototype;
+            WebGL2RenderingContext.prototype.shaderSource = function (shader, text) {
+              shaderSource.call(this, shader, text.replace(from, to));
+            };
+            return () => {
+              WebGL2RenderingContext.prototype.shaderSource = shaderSource;
+            };
+          },
+          [from, to] as const,
+        );
+        const picture = await draw("steps-narrow", "steps", options, pose);
+        await end.evaluate((end) => end());
+        return picture;
+      };
+      const head = "bool hidden(vec3 place) {";
+      const asItIs = await pictureWith(head, head);
+      const allDrawn = await pictureWith(head, `${head} return false;`);
+      const inFront = await pictureWith(
+        "w)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);",
+        "w)) gl_Position.z = -gl_Position.w;",
+      );
+      expect(asItIs.data.equals(allDrawn.data)).toBe(true);
+      // Drawn before everything else, those that are left out would show.
+      expect(asItIs.data.equals(inFront.data)).toBe(false);
+    });
+
     it("adaptive sizes close holes with less overdraw than one size", { timeout: 60_000 }, async () => {
       const pose = { range: 16, pitch: -90 };
       const of = (style: LayerOptions["style"]) => ({ maximumScreenSpaceError: 0.5, style });

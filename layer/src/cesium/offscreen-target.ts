@@ -1,4 +1,5 @@
 import { BoundingRectangle, Cartesian3, Cartesian4 } from "cesium";
+import { FRONT } from "../effects/index.js";
 import { type Framebuffer, PassState, type PickId, type Texture } from "./engine/cesium-private.js";
 import type { GpuObjects, TexelType } from "./engine/gpu-objects.js";
 import { UniformValues } from "./engine/uniform-values.js";
@@ -13,10 +14,17 @@ export interface Picture {
   readonly target: PassState;
 }
 
+/** Depths of a picture, copied, so that they can be read while they are drawn against. */
+interface Front {
+  readonly depth: Texture;
+  readonly framebuffer: Framebuffer;
+}
+
 /** A picture of the points alone, as large as the scene's, which a quad then puts into the scene. */
 export class OffscreenTarget {
   readonly #objects: GpuObjects;
   #picture: (Picture & { readonly framebuffer: Framebuffer; readonly type: TexelType }) | undefined;
+  #front: Front | undefined;
 
   constructor(objects: GpuObjects) {
     this.#objects = objects;
@@ -38,11 +46,30 @@ export class OffscreenTarget {
     return this.#picture;
   }
 
+  /** Copies the depths of the picture, which is bound to be drawn into, before and after. */
+  copyDepth(): Texture | undefined {
+    const { framebuffer, depth } = this.#picture ?? {};
+    if (!framebuffer || !depth) return undefined;
+    const { width, height } = depth;
+    this.#front ??= this.#makeFront(width, height);
+    this.#objects.copyDepth(framebuffer, this.#front.framebuffer, width, height);
+    return this.#front.depth;
+  }
+
   /** Frees what the picture takes; it is made again when it is next asked for. */
   release(): void {
     const { framebuffer, colour, depth } = this.#picture ?? {};
-    for (const object of [framebuffer, colour, depth]) this.#objects.free(object);
+    const front = this.#front;
+    for (const object of [framebuffer, colour, depth, front?.framebuffer, front?.depth]) {
+      this.#objects.free(object);
+    }
     this.#picture = undefined;
+    this.#front = undefined;
+  }
+
+  #makeFront(width: number, height: number): Front {
+    const depth = this.#objects.depthTexture(width, height);
+    return { depth, framebuffer: this.#objects.framebuffer([], depth) };
   }
 }
 
@@ -51,6 +78,8 @@ export class PictureUniforms {
   readonly values: UniformValues;
   /** The part of the picture that shows points, as `coveredPart` gives it. */
   readonly coveredPart = new Cartesian4();
+  /** Depths that the first pass over the points drew, while later ones draw. */
+  front: Texture | undefined;
   readonly #depthRange = new Cartesian3();
   #picture: Picture | undefined;
 
@@ -59,6 +88,7 @@ export class PictureUniforms {
       u_pickColor: () => pickId.color,
       u_color: () => this.#picture?.colour,
       u_depth: () => this.#picture?.depth,
+      [FRONT]: () => this.front,
       u_depthRange: () => this.#depthRange,
       u_coveredPart: () => this.coveredPart,
     });

@@ -145,7 +145,7 @@ export class PointDrawing {
   ): Command {
     const { context, camera, pixelRatio } = frameState;
     const { nodes, grouped, programs, depth, widestPoint } = content;
-    const { points: passes, translucent } = passesOf(plan);
+    const { points: passes, readsFront, translucent } = passesOf(plan);
     const { drawingBufferWidth: width, drawingBufferHeight: height } = context;
     const picture = this.#target.prepare(width, height, passes.includes("splat") ? "halfFloat" : "byte");
     this.#volume.hold(nodes);
@@ -153,7 +153,10 @@ export class PointDrawing {
     const setting = (pass: PointPass) => this.setting(pass, frustum, content);
     this.#timer.measure(labelOf(plan, "points"), () => {
       this.#pass.clear(context, picture.target);
-      for (const pass of passes) this.#pass.draw(pass, grouped, { ...setting(pass), target: picture.target });
+      for (const pass of passes) {
+        if (readsFront && pass !== passes[0]) this.uniforms.front = this.#target.copyDepth();
+        this.#pass.draw(pass, grouped, { ...setting(pass), target: picture.target });
+      }
     });
     context.uniformState.updateFrustum(camera.frustum as PointFrustum["frustum"]);
     this.uniforms.take(picture, frustum);

@@ -53,17 +53,20 @@ export interface Passes {
   readonly points: readonly [PointPass, ...PointPass[]];
   /** Whether they fill a picture of their own that a quad then puts into the scene. */
   readonly offscreen: boolean;
+  /** Whether later passes read the depths that the first one drew. */
+  readonly readsFront: boolean;
   /** Whether the scene shows through. */
   readonly translucent: boolean;
 }
 
 /** The passes that the effects of a plan are drawn in. */
-export function passesOf(plan: Pick<EffectPlan, "active">): Passes {
+export function passesOf(plan: Pick<EffectPlan, "active" | "variants">): Passes {
   const effects = effectsOf(plan);
   const own = effects.map(({ pass }) => pass).find((pass) => typeof pass === "object");
   return {
     points: own ?? ["color"],
     offscreen: effects.some(({ pass = "points" }) => pass !== "points"),
+    readsFront: effects.some((effect) => effect.readsFront?.(plan.variants.get(effect.name))),
     translucent: effects.some(({ translucent }) => translucent),
   };
 }

@@ -26,6 +26,7 @@ export {
   type AttributeDeclaration,
   CLIP_RECORDS,
   FIRST_ID,
+  FRONT,
   OCTREE_INDEX,
   type PointPass,
   type PointShader,

@@ -114,11 +114,14 @@ export class GlObjects implements Gpu<GlTypes> {
     return made;
   }
 
-  framebuffer(colour: GlTexture, depth: GlTexture): GlFramebuffer {
+  /** @param colour undefined: it has depths alone */
+  framebuffer(colour: GlTexture | undefined, depth: GlTexture): GlFramebuffer {
     const { gl } = this;
     const framebuffer = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, colour.texture, 0);
+    if (colour) {
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, colour.texture, 0);
+    }
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, depth.texture, 0);
     return this.own("framebuffers", { framebuffer, destroy: () => gl.deleteFramebuffer(framebuffer) });
   }

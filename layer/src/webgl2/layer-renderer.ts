@@ -4,7 +4,7 @@ import { LayerContent } from "../drawing/layer-content.js";
 import { nearestId, windowPixels } from "../drawing/pick-window.js";
 import { quadProgramOf } from "../drawing/program-needs.js";
 import type { Program } from "../drawing/programs.js";
-import { type EffectPlan, type PointPass, passesOf } from "../effects/index.js";
+import { type EffectPlan, FRONT, type PointPass, passesOf } from "../effects/index.js";
 import type { FlatCamera } from "./flat-camera.js";
 import { GlObjects, type GlTypes } from "./gl-objects.js";
 import { GlUniforms } from "./gl-uniforms.js";
@@ -152,7 +152,7 @@ export class LayerRenderer implements Renderer<GlView> {
     const gl = this.#gl;
     const { material, nodes: all } = this.content;
     if (!material || all.length === 0) return;
-    const { offscreen, points } = passesOf(material.plan);
+    const { offscreen, points, readsFront } = passesOf(material.plan);
     // A nearer point changes what blends behind it.
     const stays = points.length > 1 ? 0 : kept;
     if (stays >= all.length && !offscreen) return;
@@ -168,6 +168,8 @@ export class LayerRenderer implements Renderer<GlView> {
     const target = this.#picture.target();
     if (stays === 0) clear(gl, target);
     for (const pass of points) {
+      const front = readsFront && pass !== points[0] ? this.#picture.copyDepth() : undefined;
+      if (front) this.#view.setTexture(FRONT, front);
       drawPoints(this.objects, pass, nodes, camera, target, this.#programs(pass, "own"));
     }
     const { colour, depth } = this.#picture;

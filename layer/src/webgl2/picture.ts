@@ -10,10 +10,17 @@ interface Parts {
   readonly framebuffer: GlFramebuffer;
 }
 
+/** Depths of a picture, copied, so that they can be read while they are drawn against. */
+interface Front {
+  readonly depth: GlTexture;
+  readonly framebuffer: GlFramebuffer;
+}
+
 /** A picture of the points alone: depths, and colours, or sums of weighted colours where splats are blended. */
 export class Picture {
   readonly #objects: GlObjects;
   #parts: Parts | undefined;
+  #front: Front | undefined;
 
   constructor(objects: GlObjects) {
     this.#objects = objects;
@@ -43,10 +50,32 @@ export class Picture {
     return { framebuffer: this.#parts?.framebuffer, viewport: viewport ?? [0, 0, width, height] };
   }
 
+  /** Copies its depths. */
+  copyDepth(): GlTexture | undefined {
+    const { framebuffer, depth } = this.#parts ?? {};
+    if (!framebuffer || !depth) return undefined;
+    const { width, height } = depth;
+    this.#front ??= this.#makeFront(width, height);
+    const { gl } = this.#objects;
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, framebuffer.framebuffer);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.#front.framebuffer.framebuffer);
+    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.DEPTH_BUFFER_BIT, gl.NEAREST);
+    return this.#front.depth;
+  }
+
   /** Frees what it takes. */
   release(): void {
     const { framebuffer, colour, depth } = this.#parts ?? {};
-    for (const object of [framebuffer, colour, depth]) this.#objects.free(object);
+    const front = this.#front;
+    for (const object of [framebuffer, colour, depth, front?.framebuffer, front?.depth]) {
+      this.#objects.free(object);
+    }
     this.#parts = undefined;
+    this.#front = undefined;
+  }
+
+  #makeFront(width: number, height: number): Front {
+    const depth = this.#objects.pictureTexture(width, height, "depth");
+    return { depth, framebuffer: this.#objects.framebuffer(undefined, depth) };
   }
 }

@@ -80,7 +80,16 @@ describe.each(engines)("undocumented parts of Cesium $version", ({ version, fold
       "Renderer/Buffer.js",
       ["this.vertexArrayDestroyable = true", "prototype.getBufferData", "prototype.copyFromArrayView"],
     ],
-    ["Renderer/Framebuffer.js", ["options.colorTextures", "options.depthTexture", "this.destroyAttachments"]],
+    [
+      "Renderer/Framebuffer.js",
+      [
+        "options.colorTextures",
+        "options.depthTexture",
+        "this.destroyAttachments",
+        "prototype.bindDraw",
+        "prototype.bindRead",
+      ],
+    ],
     ["Renderer/Texture.js", ["source.arrayBufferView", "prototype.copyFrom", "sizeInBytes"]],
     ["Renderer/Sync.js", ["prototype.getStatus"]],
     ["Renderer/PassState.js", ["this.framebuffer", "this.viewport"]],

@@ -99,6 +99,9 @@ export interface TextureOptions {
 
 /** `Renderer/Framebuffer`. */
 export interface Framebuffer {
+  /** Bind it to be drawn into, and to be read from, whatever the context takes for bound. */
+  bindDraw(): void;
+  bindRead(): void;
   destroy(): void;
 }
 

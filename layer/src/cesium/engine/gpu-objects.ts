@@ -148,6 +148,15 @@ export class GpuObjects implements Gpu<CesiumTypes> {
     return this.own("framebuffers", framebuffer);
   }
 
+  /** Copies depths from the framebuffer that is bound into one of the same size, both in pixels; the first one stays bound. */
+  copyDepth(from: Framebuffer, to: Framebuffer, width: number, height: number): void {
+    const { _gl: gl } = this.context;
+    from.bindRead();
+    to.bindDraw();
+    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.DEPTH_BUFFER_BIT, gl.NEAREST);
+    from.bindDraw();
+  }
+
   program(shader: PointShader, need: ProgramNeed): ShaderProgram {
     const { vertex, fragment, attributes, defines } = programText(shader, need);
     const all = [this.#generation, ...defines];

@@ -95,6 +95,8 @@ export interface Effect<S extends Signature> {
    * in passes over the points that fill that picture.
    */
   readonly pass?: "points" | "quad" | readonly [PointPass, ...PointPass[]];
+  /** Whether a later one of its passes reads the depths of the first, of which it is given a copy, `u_front`. */
+  readsFront?(variant: Variant<S>): boolean;
   /** Whether the scene shows through the points. */
   readonly translucent?: boolean;
   /** What `forced` may say of it: on and off, which is the default, or `off`, or nothing. */

@@ -20,6 +20,9 @@ export const FIRST_ID = "u_firstId";
 export const OCTREE_INDEX = "u_octreeIndex";
 export const CLIP_RECORDS = "u_clipRecords";
 
+/** The sampler of the depths that the first pass over the points drew, as large as the picture, while later ones draw. */
+export const FRONT = "u_front";
+
 /** Values of uniforms by name; matrices are column-major. */
 export type UniformValues = Readonly<Record<string, number | readonly number[]>>;
 
