@@ -330,9 +330,11 @@ describe("the command line", () => {
     expect([...loaded].sort()).toEqual([
       "./given/arguments.js",
       "./given/choices.js",
+      "./installed/version.js",
       "./terminal/output.js",
       "@groma/georef/printable",
       "commander",
+      "node:module",
     ]);
   });
 
@@ -353,6 +355,18 @@ describe("the command line", () => {
     expect(await groma("help")).toEqual({ code, stdout, stderr: "" });
     const info = await groma("info", "--help");
     expect(await groma("help", "info")).toEqual({ ...info, code: 0, stderr: "" });
+  });
+
+  it("says the version that all packages have", async () => {
+    const read = (file: string) =>
+      readFileSync(fileURLToPath(new URL(`../../${file}`, import.meta.url)), "utf8");
+    const packages = ["georef", "layer", "converter", "demo"].map((name) => read(`${name}/package.json`));
+    const crates = ["converter", "converter/wasm"].map((name) => read(`${name}/Cargo.toml`));
+    const versions = new Set([
+      ...packages.map((text) => JSON.parse(text).version),
+      ...crates.map((text) => /^version = "(.*)"/m.exec(text)?.[1]),
+    ]);
+    expect([(await groma("--version")).stdout.trim()]).toEqual([...versions]);
   });
 
   it("names what is empty", async () => {

@@ -18,6 +18,7 @@ import {
   valueRange,
 } from "./given/arguments.js";
 import { PROGRESS_KINDS, SAMPLINGS } from "./given/choices.js";
+import { version } from "./installed/version.js";
 import type { EngineChoice } from "./place/engine.js";
 import { complain, endWithReader, fail } from "./terminal/output.js";
 
@@ -75,7 +76,7 @@ function serving<T extends { cors?: true | string[] }>(options: T) {
 
 const program = new Command("groma")
   .description("Convert laser scans to georeferenced COPC files and show them on the globe.")
-  .version("0.1.0")
+  .version(version)
   .configureOutput({ writeErr: () => undefined })
   .exitOverride();
 
