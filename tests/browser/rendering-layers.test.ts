@@ -196,6 +196,47 @@ describe.skipIf(pythonMissing)(
       expect(difference(decode(result.there, "scene-from"), decode(result.here, "scene-to"))).toBe(0);
     });
 
+    it("link their first program in the first frame that has points, however little time it has", {
+      timeout: 30_000,
+    }, async () => {
+      const linked = await stage.page.evaluate(async (pose) => {
+        const stage = new window.page.Stage();
+        const layer = await stage.show("steps", { style: { pointSize: 4 } });
+        stage.look(pose);
+        const { stream } = layer.cloud;
+        while (stream.active > 0) await new Promise((done) => setTimeout(done, 5));
+        // Programs that draw points: Cesium has others.
+        const { gl } = stage;
+        const { shaderSource, attachShader, linkProgram } = gl;
+        const ofPoints = new Set<unknown>();
+        let linked = 0;
+        gl.shaderSource = (shader, text) => {
+          if (text.includes("gl_PointSize")) ofPoints.add(shader);
+          shaderSource.call(gl, shader, text);
+        };
+        gl.attachShader = (program, shader) => {
+          if (ofPoints.has(shader)) ofPoints.add(program);
+          attachShader.call(gl, program, shader);
+        };
+        gl.linkProgram = (program) => {
+          if (ofPoints.has(program)) linked++;
+          linkProgram.call(gl, program);
+        };
+        // A machine on which a second passes between two looks at the clock: no frame has time for anything.
+        const now = performance.now.bind(performance);
+        let looks = 0;
+        performance.now = () => now() + 1000 * ++looks;
+        try {
+          stage.frame();
+        } finally {
+          performance.now = now;
+          stage.destroy();
+        }
+        return linked;
+      }, OBLIQUE);
+      expect(linked).toBe(1);
+    });
+
     it("ask for frames until all is drawn, and then for none, where frames come on demand", {
       timeout: 30_000,
     }, async () => {
