@@ -19,7 +19,7 @@ const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.mi
 const CATALOGUES = { de: german, es: spanish, fr: french, ja: japanese } as const;
 /** Words that no other language of the page has. */
 const ENGLISH =
-  /(?<![\p{L}-])(the|of|and|with|from|this|are|is|not|by|unknown|heights?|click|share)(?![\p{L}-])/iu;
+  /(?<![\p{L}-])(the|of|and|or|with|from|this|are|is|not|by|unknown|heights?|click|share)(?![\p{L}-])/iu;
 
 /** What one English word says, "Share", is another word where it means to pass on than where it is a part of a whole. */
 const TO_SHARE = { de: "Teilen", es: "Compartir", fr: "Partager", ja: "共有" } as const;

@@ -26,6 +26,18 @@ describe("remarks of the libraries", () => {
       "shown as ellipsoidal; if the heights are above sea level, such as LN02 height (EPSG:5728), the points should be 47.3 m higher",
       "als ellipsoidisch gezeigt; falls die Höhen über dem Meer gelten, gehören die Punkte 47,3 m höher (etwa LN02 height (EPSG:5728))",
     ],
+    [
+      "the header declares 100000 points, the file has room for 120000; the rest is skipped",
+      "der Dateikopf nennt 100.000 Punkte, die Datei hat Platz für 120.000; der Rest wird übergangen",
+    ],
+    [
+      "2 extended variable length records are announced, 1 are there",
+      "2 Datensätze variabler Länge sind angekündigt, 1 sind da",
+    ],
+    [
+      "the declared bounds do not hold the points (x 0 to 1, y 2.5 to 3, z 4 to 5); the octree's cube is used",
+      "die angegebenen Grenzen umfassen die Punkte nicht (x 0 … 1, y 2.5 … 3, z 4 … 5); der Würfel des Octrees wird genommen",
+    ],
   ])("%s", (english, other) => {
     expect(noteWords(english)).toEqual({ text: english, translated: true });
     i18n.loadAndActivate({ locale: "de", messages: german });

@@ -1,5 +1,6 @@
 import { i18n } from "./i18n.js";
 import { knows, libraryWords } from "./library-words.js";
+import { SCAN_PATTERNS } from "./scan-words.js";
 
 /** A remark of a library, and whether it is in the reader's language. */
 export interface Note {
@@ -72,7 +73,7 @@ function seaLevel(system: string | undefined, metres: string, way: string): stri
 export function noteWords(english: string): Note {
   if (i18n.locale === "en") return { text: english, translated: true };
   if (knows(english)) return { text: libraryWords(english), translated: true };
-  for (const [pattern, words] of PATTERNS) {
+  for (const [pattern, words] of [...PATTERNS, ...SCAN_PATTERNS]) {
     const found = pattern.exec(english);
     if (found) return { text: words(...found.slice(1)), translated: true };
   }
