@@ -70,6 +70,11 @@ export function testsByKeyboard(stage: () => MeasuringStage): void {
       await page.waitForFunction(() => window.groma.measure.measurements[0]!.vertices.length === 4);
       await press("Control+z", "Delete");
       expect((await records())[0]).toEqual([before![0], before![2]]);
+      // A line needs two, and says so.
+      await press("Delete");
+      await page.waitForSelector("#message .code:text('MEASURE_VERTICES')");
+      expect((await records())[0]).toEqual([before![0], before![2]]);
+      await page.evaluate(() => document.querySelector("#message")!.replaceChildren());
       await press("Control+z", "Control+z");
       expect((await records())[0]).toEqual(before);
       await press("Escape");

@@ -76,7 +76,7 @@ export class Grips {
     const at = of && view.project(of.vertices[grip.vertex]);
     if (!of || event.ctrlKey || event.metaKey || event.altKey) return;
     const step = stepOf(event);
-    const { least, most } = MEASUREMENT_KINDS[of.kind];
+    const { most } = MEASUREMENT_KINDS[of.kind];
     const count = of.vertices.length;
     const put = (place: ScreenPoint, into: Grip) =>
       told(placing.place(place, NOTHING, (vertex) => this.#put({ grip: into, vertex })));
@@ -85,7 +85,7 @@ export class Grips {
       const next = view.project(of.vertices[(grip.vertex + 1) % count], at) ?? at;
       put({ x: (at.x + next.x) / 2, y: (at.y + next.y) / 2 }, { ...grip, between: true });
     } else if (event.key === "Delete" || event.key === "Backspace") {
-      if (count > least) this.#host.reshape(of.id, of.vertices.toSpliced(grip.vertex, 1));
+      told(this.#takeOut(of, grip.vertex));
     } else return;
     event.preventDefault();
     event.stopPropagation();
@@ -101,6 +101,11 @@ export class Grips {
   #put(drag: Drag): void {
     const of = this.#measurementOf(drag.grip);
     if (of && drag.vertex) this.#host.reshape(of.id, dragged(of.vertices, drag));
+  }
+
+  /** @throws MeasureError MEASURE_VERTICES where the figure has no more than it needs */
+  async #takeOut({ id, vertices }: Measurement, vertex: number): Promise<void> {
+    this.#host.reshape(id, vertices.toSpliced(vertex, 1));
   }
 
   #measurementOf({ id, vertex }: Grip): Measurement | undefined {
