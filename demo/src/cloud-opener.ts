@@ -1,11 +1,9 @@
-import { CrsError } from "@groma/georef";
 import type { SharedView } from "@groma/layer/cesium";
 import type { NamedCloud } from "./address.js";
 import type { Clouds, OpenCloud } from "./clouds/clouds.js";
 import type { OpenOptions } from "./clouds/open-layer.js";
-import { i18n } from "./language/i18n.js";
 import { rememberClouds } from "./named-clouds.js";
-import type { Chooser } from "./panel/chooser.js";
+import { type Chooser, crsRemedy, givenCrs } from "./panel/chooser.js";
 import type { Failures } from "./panel/failures.js";
 import type { Message, ToldFault } from "./panel/message.js";
 import type { Progress } from "./panel/progress.js";
@@ -83,13 +81,13 @@ export class CloudOpener {
    * @param refused faults of what was chosen with it and is not opened
    */
   async openChosen(chosen: readonly (string | File)[], refused: readonly unknown[] = []): Promise<void> {
-    const { message, chooser, clouds, how } = this.#parts;
+    const { message, clouds, how } = this.#parts;
     message.clear();
     const faults: ToldFault[] = refused.map((thrown) => ({ thrown }));
     message.showAll(faults);
     for (const [at, from] of chosen.entries()) {
       const wanted = at > 0 ? "stay" : undefined;
-      const opened = await this.#open(from, { ...how(), crsIfMissing: chooser.crs }, wanted, faults);
+      const opened = await this.#open(from, { ...how(), crsIfMissing: givenCrs() }, wanted, faults);
       if (opened) rememberClouds(clouds);
     }
   }
@@ -128,7 +126,7 @@ export class CloudOpener {
     wanted: Wanted = this.#parts.clouds.layer ? "fly" : "descend",
     faults: ToldFault[] = [],
   ): Promise<OpenCloud | undefined> {
-    const { clouds, message, failures, progress, chooser } = this.#parts;
+    const { clouds, message, failures, progress } = this.#parts;
     const name = typeof from === "string" ? from : from.name;
     progress.opening(name);
     try {
@@ -142,12 +140,7 @@ export class CloudOpener {
       }
       return opened;
     } catch (thrown) {
-      const give = {
-        label: i18n.t("Give it here"),
-        fix: i18n.t("Give the coordinate system here, and open the cloud again."),
-        run: () => chooser.askForCrs(),
-      };
-      faults.push({ thrown, action: thrown instanceof CrsError ? give : undefined });
+      faults.push({ thrown, action: crsRemedy(thrown) });
       message.showAll(faults);
       return undefined;
     } finally {

@@ -17,7 +17,7 @@ import type { OpenOptions } from "./clouds/open-layer.js";
 import { Beside } from "./map/beside.js";
 import { addressed, nameIn, rememberClouds } from "./named-clouds.js";
 import type { Groma } from "./page-global.js";
-import { Chooser } from "./panel/chooser.js";
+import { Chooser, crsRemedy } from "./panel/chooser.js";
 import { Classes } from "./panel/classes.js";
 import { clipGroup } from "./panel/clip-fields.js";
 import { CloudList } from "./panel/cloud-list.js";
@@ -56,7 +56,7 @@ tellUncaught(message);
 /** The page once its globe stands. */
 function start(viewer: Viewer): void {
   let options: PageOptions = { clouds: [], fly: true };
-  const tell = (thrown: unknown) => message.show(thrown);
+  const tell = (thrown: unknown) => message.show(thrown, crsRemedy(thrown));
   // Bytes are shared by all clouds; each has points of its own, as the panel says.
   const budget = new SharedBudget({ points: Number.POSITIVE_INFINITY });
   const clouds = new Clouds(viewer.scene.primitives, () => follow());

@@ -195,6 +195,9 @@ it("scans that others are compared with are indexed too, the last one that was c
   const part = ["clip", file("placed.copc.laz"), "--classes", "2", "--out", file("other.laz"), "--overwrite"];
   execFileSync(process.execPath, [groma, ...part], { stdio: "pipe" });
   const note = () => page.textContent("#compare-note");
+  await page.locator("#crs").evaluate((field: HTMLInputElement) => {
+    field.value = "";
+  });
   await page.setInputFiles("#compare-file", file("dropped.las"));
   await page.setInputFiles("#compare-file", file("other.laz"));
   await expect.poll(note).toContain("other.laz is open");
@@ -202,6 +205,11 @@ it("scans that others are compared with are indexed too, the last one that was c
   await page.setInputFiles("#compare-file", file("dropped.las"));
   await expect.poll(codes).toEqual(["CRS_MISSING"]);
   expect(await note()).toBe("");
+  // The system that is given for clouds is theirs too.
+  await page.getByRole("button", { name: "Give it here" }).click();
+  await page.keyboard.type("EPSG:32632");
+  await page.setInputFiles("#compare-file", file("dropped.las"));
+  await expect.poll(note).toContain("dropped.las is open");
 });
 
 it("its octree is that of the command, and can be saved", { timeout: 120_000 }, async () => {

@@ -58,17 +58,32 @@ export async function openOrIndex<Opened>(
   }
 }
 
-async function openIndexed(
+function openIndexed(
   from: string | File,
   { crsIfMissing, ...options }: OpenOptions,
   { onWait, signal }: OpeningEvents,
 ): Promise<PointCloudLayer> {
   const events = { onWait, signal };
+  return openPlaced(
+    (crs) => PointCloudLayer.fromUrl(from, { ...options, ...(crs && { crs }), ...events }),
+    crsIfMissing,
+  );
+}
+
+/**
+ * Opens a cloud, with the coordinate system that the reader gave where it names none itself.
+ * @param open is given that system, or undefined
+ * @throws what `open` does
+ */
+export async function openPlaced<Opened>(
+  open: (crs: string | undefined) => Promise<Opened>,
+  crsIfMissing: string | undefined,
+): Promise<Opened> {
   try {
-    return await PointCloudLayer.fromUrl(from, { ...options, ...events });
+    return await open(undefined);
   } catch (thrown) {
     const missing = thrown instanceof CrsError && thrown.code === "CRS_MISSING";
     if (!missing || !crsIfMissing) throw thrown;
-    return await PointCloudLayer.fromUrl(from, { ...options, crs: crsIfMissing, ...events });
+    return await open(crsIfMissing);
   }
 }

@@ -1,6 +1,8 @@
+import { CrsError } from "@groma/georef";
 import { i18n } from "../language/i18n.js";
 import { byId } from "./elements.js";
 import { unfold } from "./fold.js";
+import type { Action } from "./message.js";
 import { PageError } from "./page-error.js";
 
 /** A small scan that comes with the page, in `demo/public`: of the kind that `demo/sample` makes, converted. */
@@ -17,7 +19,6 @@ export interface Chosen {
 export class Chooser {
   readonly #details = byId("chooser", HTMLDetailsElement);
   readonly #address = byId("address", HTMLInputElement);
-  readonly #crs = byId("crs", HTMLInputElement);
 
   constructor(chosen: Chosen) {
     const file = byId("file", HTMLInputElement);
@@ -35,20 +36,9 @@ export class Chooser {
     acceptDrops(chosen);
   }
 
-  /** Coordinate system that the reader gave for clouds that name none. */
-  get crs(): string | undefined {
-    return this.#crs.value.trim() || undefined;
-  }
-
   /** Shows the address that the page was opened with. */
   fill(address: string): void {
     this.#address.value = address;
-  }
-
-  /** Takes the reader to where a coordinate system can be given. */
-  askForCrs(): void {
-    unfold(this.#details);
-    this.#crs.focus();
   }
 
   /** Whether the page has no cloud: it then begins with this, in the middle. */
@@ -60,6 +50,25 @@ export class Chooser {
   fold(): void {
     this.#details.open = false;
   }
+}
+
+/** Coordinate system that the reader gave for clouds and compared scans that name none. */
+export function givenCrs(): string | undefined {
+  return byId("crs", HTMLInputElement).value.trim() || undefined;
+}
+
+/** What a reader can do about a fault of a coordinate system: be taken to where one can be given. Undefined for other faults. */
+export function crsRemedy(thrown: unknown): Action | undefined {
+  if (!(thrown instanceof CrsError)) return undefined;
+  return {
+    label: i18n.t("Give it here"),
+    fix: i18n.t("Give the coordinate system here, and open the cloud again."),
+    run: () => {
+      const field = byId("crs", HTMLInputElement);
+      unfold(field);
+      field.focus();
+    },
+  };
 }
 
 function acceptDrops(chosen: Chosen): void {

@@ -1,6 +1,7 @@
 import { PointCloud } from "@groma/layer/cesium";
-import { openOrIndex } from "../clouds/open-layer.js";
+import { openOrIndex, openPlaced } from "../clouds/open-layer.js";
 import { i18n } from "../language/i18n.js";
+import { givenCrs } from "./chooser.js";
 import { byId, setText } from "./elements.js";
 import { indexingWords } from "./progress.js";
 
@@ -64,7 +65,8 @@ export class Compared {
 }
 
 /**
- * Opens a scan that another one is compared with, and that is not drawn. One without an octree is indexed first.
+ * Opens a scan that another one is compared with, and that is not drawn. One without an octree is indexed first; one without
+ * a coordinate system has the one that the reader gave.
  * @param told hears what is done meanwhile, in words
  * @throws GromaError where it cannot be opened; the signal's reason
  */
@@ -74,7 +76,9 @@ export function openCompared(
   signal: AbortSignal,
 ): Promise<PointCloud> {
   const name = typeof from === "string" ? from : from.name;
-  return openOrIndex(from, (one) => PointCloud.fromUrl(one, { signal }), {
+  const open = (one: string | File) =>
+    openPlaced((crs) => PointCloud.fromUrl(one, { signal, crs }), givenCrs());
+  return openOrIndex(from, open, {
     onIndexing: ({ stage }) => signal.aborted || told(indexingWords(name, stage)),
     onIndexed: () => undefined,
     signal,

@@ -37,6 +37,8 @@ export interface Shared {
 export class Share {
   readonly #viewer: Viewer;
   readonly #shared: Shared;
+  /** Ends the watch for the view that the address names to be left. */
+  #unwatch: () => void = () => undefined;
 
   constructor(viewer: Viewer, shared: Shared) {
     this.#viewer = viewer;
@@ -72,7 +74,23 @@ export class Share {
     // The box moves to what is selected: where it was comes after.
     if (clips) attempt(() => box.take(clips));
     if (profile) attempt(() => profiles.showShared(profile));
+    if (camera) this.#nameUntilLeft();
     if (failures.length > 0) throw failures[0];
+  }
+
+  /** The address names the view that is seen now until the camera leaves it: the page reloaded would go back there. */
+  #nameUntilLeft(): void {
+    this.#unwatch();
+    const { camera } = this.#viewer;
+    const seen = () => writePermalink({ camera: cameraView(camera) });
+    const named = seen();
+    this.#unwatch = camera.moveEnd.addEventListener(() => {
+      if (seen() === named) return;
+      this.#unwatch();
+      const page = new URL(location.href);
+      page.hash = "";
+      history.replaceState(null, "", page);
+    });
   }
 
   async #copy(): Promise<void> {
@@ -102,6 +120,7 @@ export class Share {
       return;
     }
     history.replaceState(null, "", page);
+    this.#nameUntilLeft();
     const copied = await navigator.clipboard?.writeText(page.href).then(
       () => true,
       () => false,

@@ -68,6 +68,13 @@ export function testsOfSaving(stage: () => MeasuringStage): void {
     for (const [i, value] of seen.camera.entries()) {
       expect(Math.abs(again.camera[i]! - value)).toBeLessThan(i < 3 ? 0.05 : 0.2);
     }
+    // The address names that view until the camera leaves it.
+    expect(page.url()).toContain("#view=");
+    await page.evaluate(() => {
+      window.groma.viewer.camera.moveForward(20);
+      window.groma.viewer.scene.requestRender();
+    });
+    await page.waitForURL(({ hash }) => hash === "");
     await page.setInputFiles("#measure-file", path);
     await measured(before.length);
     expect(await records()).toEqual(before);
