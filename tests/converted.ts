@@ -1,6 +1,7 @@
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, rmSync, statSync } from "node:fs";
 import { join, parse } from "node:path";
+import { taken } from "./lock.js";
 import { projectRoot } from "./project.js";
 
 const groma = join(projectRoot, "converter/dist/main.js");
@@ -32,27 +33,6 @@ export function converted(scan: string): string {
     }
   }
   return output;
-}
-
-/** Takes a lock, unless a process that still runs has it. */
-function taken(lock: string): boolean {
-  try {
-    writeFileSync(lock, String(process.pid), { flag: "wx" });
-    return true;
-  } catch {
-    if (!holderRuns(lock)) rmSync(lock, { force: true });
-    return false;
-  }
-}
-
-function holderRuns(lock: string): boolean {
-  try {
-    const holder = Number(readFileSync(lock, "utf8"));
-    // Until its number is written nobody stands there.
-    return holder === 0 || process.kill(holder, 0);
-  } catch (thrown) {
-    return (thrown as NodeJS.ErrnoException).code !== "ESRCH";
-  }
 }
 
 /** Runs `groma convert`. @throws Error with what the command printed, when it fails */

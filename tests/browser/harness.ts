@@ -81,7 +81,7 @@ export function launch(graphics: Graphics = "software"): Promise<Browser> {
 let running: Browser | undefined;
 
 /**
- * One Chromium for all files of tests, which share their modules and run one after the other. Its `close` closes the pages
+ * One Chromium for all files of tests of a process, which share their modules and run one after the other. Its `close` closes the pages
  * and leaves the browser to the next file; it ends with the process.
  */
 export async function sharedBrowser(): Promise<Browser> {

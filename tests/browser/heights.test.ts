@@ -11,8 +11,9 @@ import { data, projectRoot } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { ecef, hideCloud, pixelOf, settle } from "./globe.js";
 import { openPage, screenshot, sharedBrowser, type View, view } from "./harness.js";
+import { twins } from "./zones.js";
 
-const folder = join(projectRoot, "tests/artifacts/zones");
+const folder = join(projectRoot, "tests/artifacts/heights");
 /** Middle of the scan that zones.py makes, degrees and metres above the ellipsoid. */
 const MIDDLE = [6, 52, 50] as const;
 
@@ -126,8 +127,7 @@ describe.skipIf(pythonMissing)(
     let server: View;
 
     beforeAll(async () => {
-      mkdirSync(folder, { recursive: true });
-      const { zones } = runPython<{ zones: { file: string }[] }>("browser/zones.py", ["write", folder]);
+      const { zones } = await twins();
       server = await view(converted(zones[0]!.file));
       browser = await sharedBrowser();
     }, 240_000);
@@ -170,6 +170,7 @@ describe.skipIf(pythonMissing)(
       async () => {
         const { rows } = JSON.parse(readFileSync(truth.path, "utf8")) as { rows: number[][] };
         const [scan, copc] = ["rd-nap.las", "rd-nap.copc.laz"].map((name) => join(folder, name));
+        mkdirSync(folder, { recursive: true });
         const points = JSON.stringify(rows.map((row) => row.slice(0, 3)));
         runPython<number>("browser/heights.py", [scan!, "7415"], points);
         const groma = join(projectRoot, "converter/dist/main.js");

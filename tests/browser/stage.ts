@@ -8,6 +8,7 @@ import type { Browser, Page } from "playwright-core";
 import { PNG } from "pngjs";
 import send from "send";
 import { convert } from "../converted.js";
+import { locked } from "../lock.js";
 import { projectRoot } from "../project.js";
 import { runPython } from "../python.js";
 import { openPage, sharedBrowser, type Watch } from "./harness.js";
@@ -98,8 +99,8 @@ export async function openStage(
   which: Which = "stage",
   further: Readonly<Record<string, string>> = {},
 ): Promise<StagePage> {
-  makeClouds();
-  await buildPage(which);
+  await locked(`${clouds}.lock`, makeClouds);
+  await locked(`${builtFolder(which)}.lock`, () => buildPage(which));
   const server = await serve(which, further);
   const browser = await sharedBrowser();
   const { page, watch } = await openPage(browser, { width: 820, height: 640 });

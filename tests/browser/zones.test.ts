@@ -1,22 +1,14 @@
-import { mkdirSync } from "node:fs";
-import { join } from "node:path";
 import type { PointCloudLayer } from "@groma/layer/cesium";
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { converted } from "../converted.js";
-import { projectRoot } from "../project.js";
 import { pythonMissing, runPython } from "../python.js";
 import { settle } from "./globe.js";
 import { openPage, sharedBrowser, type View, view } from "./harness.js";
+import { type Twins, twins } from "./zones.js";
 
-type Place = [x: number, y: number, z: number];
+type Place = Twins["ecef"][number];
 
-interface Twins {
-  zones: { file: string; zone: number }[];
-  ecef: Place[];
-}
-
-const folder = join(projectRoot, "tests/artifacts/zones");
 const distance = (a: Place, b: Place) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
 describe.skipIf(pythonMissing)(
@@ -26,7 +18,6 @@ describe.skipIf(pythonMissing)(
     const servers: View[] = [];
 
     beforeAll(async () => {
-      mkdirSync(folder, { recursive: true });
       browser = await sharedBrowser();
     });
     afterAll(async () => {
@@ -37,7 +28,7 @@ describe.skipIf(pythonMissing)(
     it("draws twin points of UTM zones 31 and 32 within 1 mm of each other, and of PROJ's place", {
       timeout: 240_000,
     }, async () => {
-      const { zones, ecef } = runPython<Twins>("browser/zones.py", ["write", folder]);
+      const { zones, ecef } = await twins();
       const files = zones.map(({ file }) => converted(file));
       for (const file of files) servers.push(await view(file));
       const [here, beside] = servers.map(({ address }) => new URL(address));
