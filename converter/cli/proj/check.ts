@@ -64,7 +64,7 @@ export async function checkTransformation(
     if (!there) continue;
     checkedPoints++;
     const difference = Math.hypot(own[0] - truth[i], own[1] - truth[i + 1], own[2] - truth[i + 2]);
-    if (!(difference <= worstDifference)) worstDifference = difference;
+    worstDifference = Math.max(worstDifference, difference);
   }
   if (checkedPoints === 0) throw refused(file, "PROJ has no place for any point of the data set");
   if (!(worstDifference <= DIFFERENCE_MAX)) {

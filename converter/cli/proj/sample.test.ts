@@ -34,6 +34,10 @@ const triangles = {
   ],
 };
 writeFileSync(join(folder, "triangles.json"), JSON.stringify(triangles));
+writeFileSync(
+  join(folder, "south-east.json"),
+  JSON.stringify({ ...triangles, triangles: triangles.triangles.slice(0, 1) }),
+);
 
 // Not that of the land survey: about what it does, under its name.
 const [west, south] = [3_300_000, 6_600_000];
@@ -158,16 +162,23 @@ describe.skipIf(!proj)(
       });
     });
 
-    it("give way where no raster is fine enough", async () => {
-      // Across the edge of two triangles of which one is turned by a thousandth.
-      const steps = degrees("+step +proj=tinshift +file=triangles.json");
-      const domain = box(432_000, 5_350_000, 50_000);
+    it.each([
+      // Of the two triangles one is turned by a thousandth.
+      ["no raster is fine enough", "triangles.json", box(432_000, 5_350_000, 50_000), /"tinshift".* m off/],
+      [
+        "they reach a part of the data",
+        "south-east.json",
+        box(463_000, 5_372_100, 3000),
+        /"tinshift".* is not known in all/,
+      ],
+    ])("give way where %s", async (_, file, domain, cause) => {
+      const steps = degrees(`+step +proj=tinshift +file=${file}`);
       const pipeline = `+proj=pipeline ${UTM} ${steps} ${CART}`;
       const operation = { name: "test", accuracy: 1, area: "", ballpark: false, missingGrids: [], pipeline };
       const candidate = await tryOperation(proj!, operation, domain, 1);
       await expect(prepared(proj!, candidate, domain)).rejects.toMatchObject({
         code: "CRS_OPERATION_UNSUPPORTED",
-        cause: expect.stringMatching(/"tinshift".* m off/),
+        cause: expect.stringMatching(cause),
       });
     });
 

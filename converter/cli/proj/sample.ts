@@ -103,7 +103,8 @@ export async function sampleSteps(
       const [u, v] = [share(place[0], bounds.west, bounds.east), share(place[1], bounds.south, bounds.north)];
       const [x, y, z] = channels.map((values) => bilinear(values, side, u, v)) as [number, number, number];
       const off = apart(apply([place[0] + x, place[1] + y, place[2] + z]), truth[i]!);
-      if (!(off <= worst)) worst = off;
+      // Stays not a number from the first place on that only one of them has.
+      worst = Math.max(worst, off);
     }
     if (worst <= TOLERANCE) {
       const steps = rasterSteps(nameOf(segment), bounds, side, channels);
@@ -215,10 +216,13 @@ function nameOf(segment: readonly StepText[]): string {
 }
 
 function tooRough(segment: readonly StepText[], worst: number): CrsError {
+  const steps = segment.map(({ name }) => `"${name}"`).join(", ");
   return new CrsError({
     code: "CRS_OPERATION_UNSUPPORTED",
     file: "PROJ",
-    cause: `what ${segment.map(({ name }) => `"${name}"`).join(", ")} does over the data set fits on no raster of ${MOST} × ${MOST} nodes (${worst.toPrecision(2)} m off)`,
+    cause: Number.isNaN(worst)
+      ? `what ${steps} does is not known in all of the data set`
+      : `what ${steps} does over the data set fits on no raster of ${MOST} × ${MOST} nodes (${worst.toPrecision(2)} m off)`,
     fix: OTHER_WAY,
   });
 }
