@@ -23,7 +23,7 @@ beforeAll(async () => {
   writeFileSync(scan, lasOf(20_000));
   server = await view(scan, ["--crs", "EPSG:32632", "--vertical", "ellipsoidal"]);
   browser = await sharedBrowser();
-  ({ page } = await openPage(browser, { width: 1000, height: 700 }));
+  ({ page } = await openPage(browser, { width: 1000, height: 700 }, "coarse"));
 }, 180_000);
 
 afterAll(async () => {
