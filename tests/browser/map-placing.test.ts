@@ -206,5 +206,36 @@ describe.skipIf(pythonMissing)(
       expect(seen.lit).toBeGreaterThan(100_000);
       expect(seen.without).toEqual(["DRAW_WEBGL2"]);
     });
+
+    it("asks anew for nodes that failed, although it stands still", { timeout: 120_000 }, async () => {
+      let gone = true;
+      // What is more than ten thousand bytes are points.
+      await stage.page.route("**/clouds/stripes.copc.laz", (route) => {
+        const [first, last] = route.request().headers().range!.slice("bytes=".length).split("-").map(Number);
+        return gone && last! - first! > 10_000 ? route.fulfill({ status: 404 }) : route.continue();
+      });
+      const options = {
+        view: ABOVE,
+        source: { url: "/clouds/stripes.copc.laz", headLength: 1024 },
+        projections: UTM,
+      };
+      await stage.page.evaluate(async (text) => {
+        const { MapStage } = window.map;
+        window.map.stage = new MapStage(JSON.parse(text)) as typeof window.map.stage;
+        await window.map.stage.complete();
+      }, JSON.stringify(options));
+      const counts = () =>
+        stage.page.evaluate(() => {
+          const { nodesVisible, nodesLoaded, nodesFailed } = window.map.stage.layer.statistics;
+          return { nodesVisible, nodesLoaded, nodesFailed };
+        });
+      await expect.poll(counts).toEqual({ nodesVisible: 1, nodesLoaded: 0, nodesFailed: 1 });
+      expect(await stage.page.evaluate(() => window.map.stage.errors)).toEqual(["SOURCE_NOT_FOUND"]);
+      gone = false;
+      await stage.page.evaluate(() => window.map.stage.layer.retryFailed());
+      await expect.poll(counts).toEqual({ nodesVisible: 1, nodesLoaded: 1, nodesFailed: 0 });
+      await stage.page.unroute("**/clouds/stripes.copc.laz");
+      stage.watch.errors.length = 0;
+    });
   },
 );
