@@ -2,6 +2,7 @@ import { type Event, SceneMode } from "cesium";
 import type { StreamProgress } from "../cloud/index.js";
 import type { FrameReport } from "../drawing/frame.js";
 import { FrameFailures } from "../drawing/frame-failures.js";
+import { callListener } from "../errors/index.js";
 import type { SharedBudget } from "../octree/index.js";
 import type { FrameState } from "./engine/cesium-private.js";
 
@@ -75,9 +76,5 @@ function raise<Arguments extends unknown[]>(
   event: Event<(...values: Arguments) => void>,
   ...values: Arguments
 ): void {
-  try {
-    event.raiseEvent(...values);
-  } catch (thrown) {
-    reportError(thrown);
-  }
+  callListener(() => event.raiseEvent(...values));
 }

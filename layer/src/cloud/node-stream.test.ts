@@ -206,6 +206,37 @@ describe("NodeStream", () => {
     expect([...calls.keys()].sort()).toEqual(["1-0-0-0", "page 1-1-0-0"]);
   });
 
+  it("goes on, and tells the others, where a listener throws", async () => {
+    const reported: unknown[] = [];
+    vi.stubGlobal("reportError", (error: unknown) => reported.push(error));
+    const { stream, answer } = setUp();
+    const told: string[] = [];
+    const fault = new Error("of the application");
+    const tell = (what: string) => {
+      told.push(what);
+      throw fault;
+    };
+    for (let listeners = 0; listeners < 2; listeners++) {
+      stream.subscribe({
+        nodeLoaded: ({ name }) => tell(`loaded ${name}`),
+        nodeFailed: ({ name }) => tell(`failed ${name}`),
+        nodeEvicted: ({ name }) => tell(`evicted ${name}`),
+      });
+    }
+    stream.update(viewer, viewAt(), traversal);
+    await answer("0-0-0-0");
+    await answer("1-0-0-0", new Error("damaged"));
+    expect([stream.active, stream.progress(viewer)]).toEqual([
+      1,
+      { wanted: 3, ready: 1, failed: 1, pending: 1 },
+    ]);
+    stream.destroy();
+    const once = ["loaded 0-0-0-0", "failed 1-0-0-0", "evicted 0-0-0-0"];
+    expect(told).toEqual(once.flatMap((what) => [what, what]));
+    expect(reported).toEqual(told.map(() => fault));
+    vi.unstubAllGlobals();
+  });
+
   it("asks again for what its server cannot give for now, page or node, as long as a view wants it", async () => {
     vi.useFakeTimers();
     try {

@@ -1,4 +1,4 @@
-import { isAbort, SourceError } from "../errors/index.js";
+import { callListener, isAbort, SourceError } from "../errors/index.js";
 import {
   type BoundsOf,
   LruCache,
@@ -27,7 +27,7 @@ export interface StreamSource {
   readonly wait?: ServerWait | undefined;
 }
 
-/** Who wants to hear of the stream; each is called outside any frame, as answers arrive. */
+/** Who wants to hear of the stream; each is called outside any frame, as answers arrive. What one throws is reported. */
 export interface StreamListener {
   nodeLoaded?(node: OctreeNode): void;
   /** A node cannot be had; not called for what is asked for again by itself. */
@@ -283,7 +283,7 @@ export class NodeStream {
       this.#budget?.cpu.report(this, this.#cache.bytes);
       node.become("ready");
       this.#comeback.arrived(node);
-      for (const listener of this.#listeners) listener.nodeLoaded?.(node);
+      this.#tell((listener) => listener.nodeLoaded?.(node));
     } catch (thrown) {
       if (controller.signal.aborted || isAbort(thrown)) {
         node.become("listed");
@@ -311,7 +311,11 @@ export class NodeStream {
     const passing = error instanceof SourceError && error.outage !== undefined;
     if (passing && this.#comeback.add(node, error, this.#source.wait?.until)) return;
     this.#failed.add(node);
-    for (const listener of this.#listeners) listener.nodeFailed?.(node, error);
+    this.#tell((listener) => listener.nodeFailed?.(node, error));
+  }
+
+  #tell(call: (listener: StreamListener) => void): void {
+    for (const listener of this.#listeners) callListener(() => call(listener));
   }
 
   /** Whether a node failed for good, as far as nobody asks for it again. */
@@ -340,7 +344,7 @@ export class NodeStream {
     if (evicted.length > 0) this.#changes++;
     for (const [node] of evicted) {
       node.become("listed");
-      for (const listener of this.#listeners) listener.nodeEvicted?.(node);
+      this.#tell((listener) => listener.nodeEvicted?.(node));
     }
     if (evicted.length > 0) this.#budget?.cpu.report(this, this.#cache.bytes);
   }

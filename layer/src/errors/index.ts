@@ -72,6 +72,18 @@ export function fromWire(wire: FaultWire): GromaError {
   return GromaError.revive(wire, kinds);
 }
 
+/**
+ * Calls a listener of the application's. What it throws is reported, as browsers do with listeners of their own events, and
+ * ends nothing that this library does.
+ */
+export function callListener(call: () => void): void {
+  try {
+    call();
+  } catch (thrown) {
+    reportError(thrown);
+  }
+}
+
 /** True for what an aborted `AbortSignal` throws: a wish of the caller's, never a fault. */
 export function isAbort(thrown: unknown): boolean {
   return thrown instanceof Error && thrown.name === "AbortError";

@@ -5,6 +5,7 @@ import type { PointCloud, PointRecord } from "../cloud/index.js";
 import type { PickOptions } from "../drawing/drawing-options.js";
 import { type DrawnStatistics, drawnStatistics } from "../drawing/drawn-statistics.js";
 import type { Forced, LedgerRow, PointCloudStyle, PointFilter, StyleParts } from "../effects/index.js";
+import { callListener } from "../errors/index.js";
 import type { SharedBudget } from "../octree/index.js";
 import { LayerDrawing } from "./layer-drawing.js";
 import { checkPick, drawingOptions, type PointCloudLayerOptions } from "./layer-options.js";
@@ -148,14 +149,14 @@ export class PointCloudLayer extends Layer<PointCloudSource> {
     return found;
   }
 
-  /** Lets nodes that failed be asked for again. */
+  /** Lets what failed be asked for again: nodes, and points that could not be placed for the map. */
   retryFailed(): void {
     this.#renderer?.retryFailed();
   }
 
   protected override createRenderer(): OlLayerRenderer<Layer> {
     return new MapRenderer(this, this.#drawing, (error) =>
-      this.dispatchEvent(new PointCloudErrorEvent(error)),
+      callListener(() => this.dispatchEvent(new PointCloudErrorEvent(error))),
     );
   }
 
