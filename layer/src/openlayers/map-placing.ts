@@ -13,6 +13,15 @@ export interface PlacingWish {
   readonly finest: number;
 }
 
+/**
+ * How far the points are that were asked for.
+ * - `pending`: on their way to the picture
+ * - `here`: in the picture, or none were asked for
+ * - `failed`: they could not be placed
+ * - `again`: the same, and the next frame has them placed anew
+ */
+type Progress = "pending" | "here" | "failed" | "again";
+
 /** Who wants to hear of it. */
 interface PlacingEvents {
   /** Something has come, or is gone: a frame is to be drawn. */
@@ -28,8 +37,7 @@ export class MapPlacing {
   readonly #owner: object;
   readonly #events: PlacingEvents;
   #asked: PlacingWish | undefined;
-  /** Whether the points asked for are still on their way to the picture. */
-  #pending = false;
+  #progress: Progress = "here";
   /** Grows whenever what is asked for is another: answers that come late are told by it. */
   #turn = 0;
   #shown: PlacedFrames | undefined;
@@ -52,18 +60,19 @@ export class MapPlacing {
   }
 
   get pending(): boolean {
-    return this.#pending;
+    return this.#progress === "pending";
   }
 
   /** Has the points placed as a map wants them, unless they are, or are being placed. */
   want(wish: PlacingWish, gl: WebGL2RenderingContext): void {
     const asked = this.#asked;
     const { cloud, projection, finest } = wish;
-    if (asked?.cloud === cloud && asked.projection === projection && finest >= asked.finest) return;
+    const same = asked?.cloud === cloud && asked.projection === projection && finest >= asked.finest;
+    if (same && this.#progress !== "again") return;
     this.#asked = wish;
     this.#turn++;
     this.#dropNext();
-    this.#pending = true;
+    this.#progress = "pending";
     const placing = projectionOfMap(projection, finest, cloud.name).then((asked) =>
       cloud.maps.acquire(asked),
     );
@@ -87,8 +96,12 @@ export class MapPlacing {
     return undefined;
   }
 
-  /** Lets nodes that failed be asked for again, of what is drawn and of what is to take its place. */
+  /**
+   * Lets nodes that failed be asked for again, of what is drawn and of what is to take its place, and points that could not be
+   * placed at all.
+   */
   retryFailed(): void {
+    if (this.#progress === "failed") this.#progress = "again";
     for (const placed of [this.#shown, this.#next]) placed?.octree.stream.retryFailed();
   }
 
@@ -102,7 +115,7 @@ export class MapPlacing {
   clear(): void {
     this.#turn++;
     this.#asked = undefined;
-    this.#pending = false;
+    this.#progress = "here";
     this.#dropNext();
     this.#shown?.destroy();
     this.#shown = undefined;
@@ -124,7 +137,7 @@ export class MapPlacing {
       if (octree === this.#shown?.octree && projection === this.#shown.projection) {
         // It is as exact as the closer view asks for.
         cloud.maps.release(octree);
-        this.#pending = false;
+        this.#progress = "here";
       } else {
         const next = new PlacedFrames({ cloud, octree, projection }, gl, this.#owner, this.#events);
         if (this.#shown) this.#next = next;
@@ -141,12 +154,12 @@ export class MapPlacing {
   #show(placed: PlacedFrames): void {
     this.#shown = placed;
     this.#next = undefined;
-    this.#pending = false;
+    this.#progress = "here";
   }
 
   /** What was asked for cannot be had: what is drawn stays where it is of the same map. */
   #failed({ projection }: PlacingWish): void {
-    this.#pending = false;
+    this.#progress = "failed";
     if (this.#shown?.projection === projection) return;
     this.#shown?.destroy();
     this.#shown = undefined;

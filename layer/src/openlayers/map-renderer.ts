@@ -120,9 +120,10 @@ export class MapRenderer extends OlLayerRenderer<MapLayer> {
     clearTimeout(this.#timer);
   }
 
-  /** Lets nodes that failed be asked for again, by the next frame. */
+  /** Lets what failed be asked for again, by the next frame, and told again where it fails again. */
   retryFailed(): void {
     this.#placing.retryFailed();
+    this.#failures.clear();
     // Only a frame that is drawn anew asks for what its view wants.
     this.#changed();
   }
