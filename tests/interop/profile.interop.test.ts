@@ -31,10 +31,17 @@ beforeAll(() => {
 });
 afterAll(() => rmSync(folder, { recursive: true }));
 
-/** Runs `groma profile` on a scan and has the referee judge what it wrote. */
-function profile(scan: string, line: Line, width: number, options: readonly string[] = []): Found {
+/** A file that was cut from a scan, and the strip that it was cut along. */
+type Cut = readonly [path: string, width: number, line: Line];
+
+/** Has the referee judge cuts of a scan. */
+const judged = (scan: string, cuts: readonly Cut[]): Found[] =>
+  runPython("interop/strip.py", [scan], JSON.stringify(cuts));
+
+/** Runs `groma profile` on a scan. */
+function profile(scan: string, line: Line, width: number, options: readonly string[] = []): Cut {
   const file = join(folder, "line.geojson");
-  const out = join(folder, "cut.las");
+  const out = join(folder, `cut-${width}${options.join("")}.las`);
   writeFileSync(file, JSON.stringify({ type: "LineString", coordinates: line }));
   const run = groma([
     ...["profile", scan, "--line", file, "--line-crs", "source", "--width", String(width)],
@@ -42,7 +49,7 @@ function profile(scan: string, line: Line, width: number, options: readonly stri
   ]);
   expect(run.stderr).not.toMatch(/^[A-Z]+_[A-Z]+:/m);
   expect(run.code).toBe(0);
-  return runPython<Found>("interop/strip.py", [scan, out, String(width), JSON.stringify(line)]);
+  return [out, width, line];
 }
 
 function expectExact(found: Found): void {
@@ -90,8 +97,9 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
   };
 
   it.each(Object.entries(lines))("takes just the records in the strip along %s, each once", (_, line) => {
-    for (const width of [0.5, 10, 60]) {
-      const found = profile(converted(road.path), line, width);
+    const scan = converted(road.path);
+    const cuts = [0.5, 10, 60].map((width) => profile(scan, line, width));
+    for (const found of judged(scan, cuts)) {
       expectExact(found);
       if (line === lines["a line along the lattice"]) expect(found.doubtful).toBeGreaterThan(0);
     }
@@ -99,7 +107,8 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
 
   it("adds chainage and offset behind the records, and leaves them as they are", () => {
     const line = lines["a line that crosses itself, with segments of no length"]!;
-    const found = profile(converted(road.path), line, 10, ["--chainage"]);
+    const scan = converted(road.path);
+    const [found] = judged(scan, [profile(scan, line, 10, ["--chainage"])]);
     expectExact(found);
     const length = line.reduce((sum, [x, y], index) => {
       const [fromX, fromY] = line[Math.max(0, index - 1)]!;
@@ -119,9 +128,11 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
   it("counts chainage along geodesics, from a start", () => {
     const scan = converted(road.path);
     const line = lines["a line along the lattice"]!;
-    const longest = (...options: string[]) =>
-      profile(scan, line, 10, ["--chainage", "--start", "1000", ...options]).along.chainage!;
-    const [grid, geodesic] = [longest(), longest("--stations", "geodesic")];
+    const cut = (...options: string[]) =>
+      profile(scan, line, 10, ["--chainage", "--start", "1000", ...options]);
+    const [grid, geodesic] = judged(scan, [cut(), cut("--stations", "geodesic")]).map(
+      ({ along }) => along.chainage!,
+    );
     expect(grid[0]).toBeGreaterThanOrEqual(1000);
     expect(grid[1]).toBeGreaterThan(1299);
     expect(grid[1]).toBeLessThanOrEqual(1300);
@@ -148,7 +159,7 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
     // The edges lie between the lattice's lines, so that a micrometre decides nothing.
     const run = groma(["profile", scan, "--line", file, "--width", "9.99", "--out", out, "--overwrite"]);
     expect(run.stderr).not.toMatch(/OPTION|INTERNAL/);
-    const found = runPython<Found>("interop/strip.py", [scan, out, "9.99", JSON.stringify(line)]);
+    const [found] = judged(scan, [[out, 9.99, line]]);
     // But at the two ends, which points of the lattice lie on.
     expect(Math.abs(found.written - found.count)).toBeLessThanOrEqual(20);
     expect(found.written).toBeGreaterThan(1000);
@@ -200,7 +211,7 @@ describe.skipIf(REFUSED)("groma profile of a real scan", () => {
     const scan = converted(road.path);
     const options = ["--line", file, "--line-crs", "source", "--width", "10", "--chainage", "--out", out];
     expect(groma(["profile", scan, ...options]).code).toBe(0);
-    const found = runPython<Found>("interop/strip.py", [scan, out, "10", JSON.stringify(line)]);
+    const [found] = judged(scan, [[out, 10, line]]);
     expectExact(found);
     expect(found.along.chainage![1]).toBeGreaterThan(299);
   });
@@ -384,7 +395,8 @@ describe.skipIf(stadium.missing ?? coreMissing ?? pythonMissing)(
         [637600, 849000],
         [638900, 852900],
       ];
-      const found = profile(converted(stadium.path), line, 100);
+      const scan = converted(stadium.path);
+      const [found] = judged(scan, [profile(scan, line, 100)]);
       expectExact(found);
       expect(found.doubtful).toBeGreaterThan(0);
     });

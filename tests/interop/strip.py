@@ -1,7 +1,8 @@
-"""Holds a cut of a scan against an independent computation over all of the scan's points.
+"""Holds cuts of a scan against an independent computation over all of the scan's points.
 
-strip.py SCAN CUT WIDTH LINE, the line as JSON: [[x, y], ...]. Prints JSON: what was found, and whether the records of the
-cut are those of the scan, byte for byte, each once. Points near an edge of the strip are decided by exact rationals.
+strip.py SCAN < JSON: [[CUT, WIDTH, [[x, y], ...]], ...], files with their widths and lines. Prints JSON, for each of them:
+what was found, and whether the records of the cut are those of the scan, byte for byte, each once. Points near an edge of
+the strip are decided by exact rationals.
 """
 
 import json
@@ -76,11 +77,8 @@ def without(array, names):
     return out
 
 
-def judge():
-    scan = laspy.read(sys.argv[1])
-    cut = laspy.read(sys.argv[2])
-    width = float(sys.argv[3])
-    line = json.loads(sys.argv[4])
+def judge(scan, path, width, line):
+    cut = laspy.read(path)
     scale, offset = scan.header.scales, scan.header.offsets
     x = scan.X * scale[0] + offset[0]
     y = scan.Y * scale[1] + offset[1]
@@ -99,30 +97,27 @@ def judge():
         if vlr.user_id in ("LASF_Projection",) or (vlr.user_id == "groma" and vlr.record_id in (1, 3))
     ]
     along = {name: [float(np.min(cut[name])), float(np.max(cut[name]))] for name in added}
-    print(
-        json.dumps(
-            {
-                "count": int(inside.sum()),
-                "written": len(cut.points),
-                "same": bool(same),
-                "doubtful": doubtful,
-                "meaning": list(cut.header.scales) == list(scale)
-                and list(cut.header.offsets) == list(offset)
-                and cut.header.point_format.id == scan.header.point_format.id,
-                "kept": len(kept) > 0 and all(kept),
-                "bounds": bool(
-                    len(cut.points) == 0
-                    or (
-                        np.allclose(cut.header.mins, [cut.x.min(), cut.y.min(), cut.z.min()], atol=1e-9)
-                        and np.allclose(cut.header.maxs, [cut.x.max(), cut.y.max(), cut.z.max()], atol=1e-9)
-                    )
-                ),
-                "along": along,
-                "users": sorted({vlr.user_id for vlr in cut.header.vlrs}),
-            }
-        )
-    )
+    return {
+        "count": int(inside.sum()),
+        "written": len(cut.points),
+        "same": bool(same),
+        "doubtful": doubtful,
+        "meaning": list(cut.header.scales) == list(scale)
+        and list(cut.header.offsets) == list(offset)
+        and cut.header.point_format.id == scan.header.point_format.id,
+        "kept": len(kept) > 0 and all(kept),
+        "bounds": bool(
+            len(cut.points) == 0
+            or (
+                np.allclose(cut.header.mins, [cut.x.min(), cut.y.min(), cut.z.min()], atol=1e-9)
+                and np.allclose(cut.header.maxs, [cut.x.max(), cut.y.max(), cut.z.max()], atol=1e-9)
+            )
+        ),
+        "along": along,
+        "users": sorted({vlr.user_id for vlr in cut.header.vlrs}),
+    }
 
 
 if __name__ == "__main__":
-    judge()
+    scan = laspy.read(sys.argv[1])
+    print(json.dumps([judge(scan, path, float(width), line) for path, width, line in json.load(sys.stdin)]))
