@@ -54,6 +54,25 @@ fn a_short_chunk_table_loses_no_point() {
 }
 
 #[test]
+fn bytes_behind_the_last_chunk_that_can_be_none_cost_no_point() {
+    let bench = Bench::new();
+    let mut las = Las::at(7, 0, &cloud(2_700, [5000, 3000, 400]));
+    las.chunk = Some(500);
+    let laz = las.laz();
+    let start = u32::from_le_bytes(laz[96..100].try_into().unwrap()) as usize;
+    let at = u64::from_le_bytes(laz[start..start + 8].try_into().unwrap());
+    // Too few for the head of a chunk, also with the table behind them.
+    let mut short = with_table(&laz, &bench, |table| without(&table, table.len() - 1));
+    short.splice(at as usize..at as usize, [7; 10]);
+    short[start..start + 8].copy_from_slice(&(at + 10).to_le_bytes());
+    bench.put("in.laz", &short);
+    let told = warnings(&bench, "INPUT_CORRUPT");
+    assert!(told.contains("all were recovered from the chunks"), "{told}");
+    let whole = bench.put("whole.laz", &laz);
+    assert!(sorted(records(&bench.path("out.copc.laz"))) == sorted(records(&whole)));
+}
+
+#[test]
 fn what_the_chunk_table_lacks_in_the_middle_of_chunks_without_heads_is_refused() {
     let bench = Bench::new();
     let laz = Las::at(1, 0, &cloud(2_700, [5000, 3000, 400])).laz();

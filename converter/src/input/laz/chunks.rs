@@ -9,7 +9,7 @@ use crate::scan::Scan;
 use laz::LazVlr;
 use laz::laszip::{ChunkTableEntry, CompressorType};
 use std::fs::File;
-use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
 
@@ -158,7 +158,10 @@ fn by_heads(
     let (mut at, mut found, mut blocks) = (area.start, 0, Vec::new());
     while at < area.end {
         file.seek(SeekFrom::Start(at))?;
-        let head = ChunkHead::read(file, vlr)?;
+        let head = match ChunkHead::read(&mut file.by_ref().take(area.end - at), vlr) {
+            Err(error) if error.kind() == ErrorKind::UnexpectedEof => break,
+            head => head?,
+        };
         let (points, bytes) = (u64::from(head.points), head.bytes());
         found += points;
         if points == 0 || found > most_points || bytes > area.end - at {
