@@ -21,6 +21,20 @@ describe.skipIf(scan.missing)(
       await server?.stop();
     });
 
+    it("is loaded anew when it is shown again, where its code could not be had", {
+      timeout: 60_000,
+    }, async () => {
+      const { page } = await openPage(browser, { width: 800, height: 600 });
+      const code = "**/map-view*.js";
+      await page.route(code, (route) => route.abort());
+      await page.goto(`${server.address}&map=1&fly=0&budget=1000`);
+      await page.locator("#message .code").waitFor({ timeout: 20_000 });
+      await page.unroute(code);
+      for (const shown of ["globe", "both"]) await page.locator("#views").selectOption(shown);
+      await page.locator("#map .ol-viewport").waitFor({ timeout: 10_000 });
+      await page.close();
+    });
+
     it("shows the same cloud in the same style, and reads no byte twice", { timeout: 240_000 }, async () => {
       const { page, watch } = await openPage(browser, { width: 1200, height: 600 });
       const ranges: string[] = [];

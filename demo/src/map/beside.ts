@@ -121,17 +121,26 @@ export class Beside {
 
   async #attach(): Promise<void> {
     try {
-      this.#view ??= import("./map-view.js").then(({ MapView }) => {
-        const view = new MapView(byId("map", HTMLElement), this.#viewer, this.#failed);
-        this.#begins(view);
-        this.#shown = view;
-        return view;
-      });
+      this.#view ??= this.#load();
       const view = await this.#view;
       await this.#follow();
       view.attach(this.#layers, this.#chosen);
     } catch (thrown) {
       this.#failed(thrown);
+    }
+  }
+
+  /** What cannot be loaded is loaded anew when the map is next shown. */
+  async #load(): Promise<MapView> {
+    try {
+      const { MapView } = await import("./map-view.js");
+      const view = new MapView(byId("map", HTMLElement), this.#viewer, this.#failed);
+      this.#begins(view);
+      this.#shown = view;
+      return view;
+    } catch (thrown) {
+      this.#view = undefined;
+      throw thrown;
     }
   }
 
