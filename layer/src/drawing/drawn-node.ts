@@ -65,7 +65,7 @@ export function bytesPerPoint(nodes: readonly Pick<DrawnNode, "uploaded">[]): nu
   let [bytes, points] = [0, 0];
   for (const { uploaded } of nodes) {
     bytes += uploaded.bytes;
-    points += uploaded.vertices.count;
+    points += uploaded.count;
   }
   return points > 0 ? bytes / points : 0;
 }

@@ -241,7 +241,7 @@ export class LayerContent<V extends ViewTypes> {
       if (!there || !isReady(there, reads)) continue;
       const clips = answers.of(there.vertices);
       if (!clips || clips.state === "out") continue;
-      const count = Math.min(counts[index], there.vertices.count);
+      const count = Math.min(counts[index], there.count);
       const members = clips.state === "in" ? whole : cut;
       const { group } = members;
       // Spread into one another, objects would take longer than all else that is done for a node.

@@ -9,6 +9,8 @@ const BYTES = 4 * 1024 * 1024;
 /** A node on the GPU, as a view draws it. */
 export interface UploadedNode {
   readonly vertices: DrawnVertices;
+  /** How many points it has. */
+  readonly count: number;
   /** Its number among all that is on the GPU: what is kept of each lies there in arrays. One that is freed leaves it to another. */
   readonly slot: number;
   /** Number of the page that it lies in: nodes of one page can be drawn by one call. */

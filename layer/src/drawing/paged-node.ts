@@ -29,6 +29,7 @@ interface PagedArray<T extends GpuTypes> {
  */
 export class PagedNode<T extends GpuTypes> implements PageTenant {
   readonly vertices: DrawnVertices;
+  readonly count: number;
   readonly slot: number;
   readonly #pages: VertexPages<T>;
   /** The colours that it was made with. */
@@ -39,12 +40,16 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   #lastSet: AttributeSet | undefined;
   #lastArray: T["vertexArray"] | undefined;
   #place: PageSlot<T> | undefined;
+  // What each frame reads of its place stands in the node itself, whose memory it reads in any case.
+  #page = 0;
+  #first = 0;
   #bytes = 0;
 
   /** @param slot its number among all that is on the GPU */
   constructor(pages: VertexPages<T>, vertices: DrawnVertices, slot: number) {
     this.#pages = pages;
     this.vertices = vertices;
+    this.count = vertices.count;
     this.slot = slot;
     this.#colours = vertices.columns.get("rgb");
   }
@@ -61,7 +66,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
 
   /** Number of its page; nodes of one page can be drawn by one call. */
   get page(): number {
-    return this.#place?.page.number ?? 0;
+    return this.#page;
   }
 
   /** How its positions are stored: four uint16 where they lie at whole steps, else three float32. */
@@ -71,7 +76,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
 
   /** Its first vertex in the page. */
   get first(): number {
-    return this.#place?.first ?? 0;
+    return this.#first;
   }
 
   /** Whether programs that read these attributes can draw the node. */
@@ -93,8 +98,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
       this.#lastArray = found.array;
       return found.array;
     }
-    const slot = this.#place ?? this.#pages.reserve(this.vertices.count, this, this.positions);
-    this.#place = slot;
+    const slot = this.#place ?? this.#take(this.#pages.reserve(this.count, this, this.positions));
     const { page } = slot;
     const inputs = set.attributes.map((attribute): VertexInput<T["buffer"]> => {
       const { location, normalized, column } = attribute;
@@ -131,7 +135,7 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
   move(to: PageSlot<T>): void {
     const sets = [...this.#arrays.values()].map(({ set }) => set);
     this.destroy();
-    this.#place = to;
+    this.#take(to);
     for (const set of sets) this.upload(set);
   }
 
@@ -149,6 +153,13 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     this.#pages.release(slot);
   }
 
+  #take(slot: PageSlot<T>): PageSlot<T> {
+    this.#place = slot;
+    this.#page = slot.page.number;
+    this.#first = slot.first;
+    return slot;
+  }
+
   #forget(): void {
     this.#lastSet = undefined;
     this.#lastArray = undefined;
@@ -159,7 +170,8 @@ export class PagedNode<T extends GpuTypes> implements PageTenant {
     slot: PageSlot<T>,
     { column: name, components, normalized }: AttributeSet["attributes"][number],
   ): PagedColumn | undefined {
-    const { positions, step, columns, count } = this.vertices;
+    const { count } = this;
+    const { positions, step, columns } = this.vertices;
     if (name === POSITION) {
       if (step === undefined) return this.#put(slot, name, 3, "float32", positions);
       return this.#put(slot, name, 4, "uint16", inSteps(positions, step));
