@@ -57,9 +57,13 @@ export function givenCrs(): string | undefined {
   return byId("crs", HTMLInputElement).value.trim() || undefined;
 }
 
-/** What a reader can do about a fault of a coordinate system: be taken to where one can be given. Undefined for other faults. */
+/**
+ * What a reader can do where a cloud names no coordinate system, or has no place in the one that was given: be taken to where one
+ * can be given. Undefined for other faults, which it would not mend.
+ */
 export function crsRemedy(thrown: unknown): Action | undefined {
   if (!(thrown instanceof CrsError)) return undefined;
+  if (thrown.code !== "CRS_MISSING" && givenCrs() === undefined) return undefined;
   return {
     label: i18n.t("Give it here"),
     fix: i18n.t("Give the coordinate system here, and open the cloud again."),
