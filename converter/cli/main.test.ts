@@ -330,7 +330,6 @@ describe("the command line", () => {
     expect([...loaded].sort()).toEqual([
       "./given/arguments.js",
       "./given/choices.js",
-      "./installed/version.js",
       "./terminal/output.js",
       "@groma/georef/printable",
       "commander",

@@ -1,4 +1,5 @@
 // What a command needs is loaded when it is run, so that help and refused options come at once.
+import { createRequire } from "node:module";
 import { Command, CommanderError, Option } from "commander";
 import {
   attributeRanges,
@@ -18,7 +19,6 @@ import {
   valueRange,
 } from "./given/arguments.js";
 import { PROGRESS_KINDS, SAMPLINGS } from "./given/choices.js";
-import { version } from "./installed/version.js";
 import type { EngineChoice } from "./place/engine.js";
 import { complain, endWithReader, fail } from "./terminal/output.js";
 
@@ -76,7 +76,7 @@ function serving<T extends { cors?: true | string[] }>(options: T) {
 
 const program = new Command("groma")
   .description("Convert laser scans to georeferenced COPC files and show them on the globe.")
-  .version(version)
+  .version(createRequire(import.meta.url)("../package.json").version)
   .configureOutput({ writeErr: () => undefined })
   .exitOverride();
 
