@@ -103,7 +103,7 @@ export async function sampleSteps(
       const [u, v] = [share(place[0], bounds.west, bounds.east), share(place[1], bounds.south, bounds.north)];
       const [x, y, z] = channels.map((values) => bilinear(values, side, u, v)) as [number, number, number];
       const off = apart(apply([place[0] + x, place[1] + y, place[2] + z]), truth[i]!);
-      // Stays not a number from the first place on that only one of them has.
+      // Stays not a number once a place is not known.
       worst = Math.max(worst, off);
     }
     if (worst <= TOLERANCE) {
